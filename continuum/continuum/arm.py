@@ -1,0 +1,227 @@
+"""Geometry of a section and of an arm of several sections, read from YAML and validated (thesis Fig. 4, Table 1)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import yaml
+
+from continuum.errors import FileError, InvalidValueError
+from continuum.parameter_spec import ParameterSpec
+
+FOUR_CABLES = [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]
+"""Azimuths of four cables, a quarter turn apart, as on the prototype [rad]."""
+
+SECTION_PARAMETERS: tuple[ParameterSpec, ...] = (
+    ParameterSpec("n_joints", int, "number of spherical joints of the section", lower=1, upper=1000),
+    ParameterSpec(
+        "b", float, "distance from a disc to the next joint, half the joint spacing", "m", 0.0, 10.0, lower_open=True
+    ),
+    ParameterSpec("a", float, "radius of the cables' holes from the section's axis", "m", 0.0, 10.0, lower_open=True),
+    ParameterSpec(
+        "twist", float, "turn of the section about the tip axis of the one before it", "rad", -2 * math.pi,
+        2 * math.pi, default=0.0,
+    ),
+    ParameterSpec(
+        "cable_azimuths", float, "azimuth of each actuating cable in the section's frame", "rad", -2 * math.pi,
+        2 * math.pi, is_list=True, default=FOUR_CABLES,
+    ),
+    ParameterSpec(
+        "bend_limit", float, "largest total bend of the section", "rad", 0.0, 100.0, lower_open=True,
+        default=math.pi,
+    ),
+    ParameterSpec("link_mass", float, "mass of one link (Table 1)", "kg", 0.0, 1e3, lower_open=True, default=0.22257),
+    ParameterSpec(
+        "link_inertia", float, "inertia of one link about its centre of mass, across the axis (Table 1)", "kg m2",
+        0.0, 1e3, lower_open=True, default=79398e-9,
+    ),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Section:
+    """One inextensible section: ``n_joints`` spherical joints between discs, bent by cables on its last disc.
+
+    A joint sits ``b`` above one disc and ``b`` below the next, so the section is ``2 n_joints b`` long when straight
+    and its joints are ``2 b`` apart.
+
+    Attributes:
+        name: unique in the arm; prefixes the names of joints and cables.
+        n_joints: number of joints (n_j).
+        b: distance disc to joint [m].
+        a: radius of the cables' holes [m].
+        twist: turn about z from the tip frame of the section before it to this section's base frame [rad].
+        cable_azimuths: azimuth alpha_j of each actuating cable [rad], at least three.
+        bend_limit: largest total bend theta [rad].
+        link_mass: mass of one link [kg].
+        link_inertia: inertia of one link about its centre of mass, across its axis [kg m2].
+
+    Raises:
+        InvalidValueError: a value is out of its range, or the cables cannot hold the section.
+    """
+
+    name: str
+    n_joints: int
+    b: float
+    a: float
+    twist: float = 0.0
+    cable_azimuths: tuple[float, ...] = tuple(FOUR_CABLES)
+    bend_limit: float = math.pi
+    link_mass: float = 0.22257
+    link_inertia: float = 79398e-9
+
+    def __post_init__(self) -> None:
+        for spec in SECTION_PARAMETERS:
+            given = getattr(self, spec.name)
+            value = spec.check(list(given) if spec.is_list else given, f"{self.name}.")
+            object.__setattr__(self, spec.name, tuple(value) if isinstance(value, list) else value)
+        distinct = {round(azimuth % (2 * math.pi), 9) % round(2 * math.pi, 9) for azimuth in self.cable_azimuths}
+        if len(distinct) < 3 or len(distinct) < len(self.cable_azimuths):
+            raise InvalidValueError(
+                f"{self.name}.cable_azimuths", list(self.cable_azimuths), "three or more azimuths, all different"
+            )
+        if self.bend_limit >= self.contact_bend:
+            raise InvalidValueError(
+                f"{self.name}.bend_limit",
+                self.bend_limit,
+                f"less than {self.contact_bend:.6g} rad, where the cable holes of neighbouring discs meet "
+                "(2 n_joints atan(b / a))",
+            )
+
+    @property
+    def length(self) -> float:
+        """Length of the backbone from base disc to tip disc [m]; it does not change when the section bends."""
+        return 2 * self.n_joints * self.b
+
+    @property
+    def contact_bend(self) -> float:
+        """Total bend at which a cable hole meets the one on the next disc [rad]: the chord of Eq. 8 becomes zero."""
+        return 2 * self.n_joints * math.atan2(self.b, self.a)
+
+    @property
+    def cable_names(self) -> tuple[str, ...]:
+        """Names of the actuating cables, counted from 1."""
+        return tuple(f"{self.name}_cable_{j + 1}" for j in range(len(self.cable_azimuths)))
+
+    @property
+    def phi_joint(self) -> str:
+        """Name of the joint at the base that turns the bending plane (thesis appendix A)."""
+        return f"{self.name}_phi"
+
+    @property
+    def theta_joints(self) -> tuple[str, ...]:
+        """Names of the bending joints from base to tip; each turns by theta / n_joints."""
+        return tuple(f"{self.name}_theta_{k + 1}" for k in range(self.n_joints))
+
+    @property
+    def phi_back_joint(self) -> str:
+        """Name of the joint at the tip that turns back by -phi."""
+        return f"{self.name}_phi_back"
+
+    @property
+    def base_frame(self) -> str:
+        """Name of the frame P at the section's base, twist included."""
+        return f"{self.name}_base"
+
+    @property
+    def tip_frame(self) -> str:
+        """Name of the frame D on the section's last disc."""
+        return f"{self.name}_tip"
+
+
+@dataclass(frozen=True)
+class Arm:
+    """Sections one after the other, the first at the base.
+
+    Raises:
+        InvalidValueError: no section, or two of one name.
+    """
+
+    sections: tuple[Section, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "sections", tuple(self.sections))
+        names = [section.name for section in self.sections]
+        if not names or len(set(names)) < len(names):
+            raise InvalidValueError("arm.sections", names, "one or more names, all different")
+
+    @property
+    def n_sections(self) -> int:
+        return len(self.sections)
+
+    @property
+    def length(self) -> float:
+        """Length of the backbone [m]."""
+        return sum(section.length for section in self.sections)
+
+    @property
+    def cable_names(self) -> tuple[str, ...]:
+        """Names of all cables, by section from the base."""
+        return tuple(name for section in self.sections for name in section.cable_names)
+
+
+def arm_from_mapping(mapping: Mapping[str, object]) -> Arm:
+    """Build an arm from ``{"sections": [name, ...], name: {"n_joints": ..., "b": ..., "a": ..., ...}, ...}``.
+
+    Raises:
+        InvalidValueError: a parameter is missing, unknown or out of range; the message names it.
+    """
+    names = ParameterSpec("sections", str, "names of the sections from the base", is_list=True).check(
+        mapping.get("sections"), "arm."
+    )
+    _refuse_unknown("arm", mapping, ["sections", *names])
+    return Arm(tuple(_section_from_mapping(name, mapping.get(name)) for name in names))
+
+
+def _section_from_mapping(name: str, values: object) -> Section:
+    known = [spec.name for spec in SECTION_PARAMETERS]
+    if not isinstance(values, Mapping):
+        raise InvalidValueError(f"arm.{name}", values, f"a block with {', '.join(known)}")
+    _refuse_unknown(f"arm.{name}", values, known)
+    for spec in SECTION_PARAMETERS:
+        if spec.default is None and spec.name not in values:
+            raise InvalidValueError(f"arm.{name}.{spec.name}", None, spec.allowed)
+    try:
+        return Section(name=name, **values)
+    except InvalidValueError as error:
+        raise InvalidValueError(f"arm.{error.name}", error.value, error.allowed) from None
+
+
+def _refuse_unknown(where: str, mapping: Mapping[str, object], known: list[str]) -> None:
+    for name in mapping:
+        if name not in known:
+            raise InvalidValueError(f"{where}.{name}", mapping[name], f"no parameter of this name; known: {known}")
+
+
+def arm_to_mapping(arm: Arm) -> dict[str, object]:
+    """The mapping that :func:`arm_from_mapping` reads back to the same arm."""
+    blocks: dict[str, object] = {"sections": [section.name for section in arm.sections]}
+    for section in arm.sections:
+        values = {key: list(v) if isinstance(v, tuple) else v for key, v in asdict(section).items() if key != "name"}
+        blocks[section.name] = values
+    return blocks
+
+
+def load_arm(path: str | Path) -> Arm:
+    """Read an arm from YAML: a ROS 2 parameter file (``/**: ros__parameters: arm: ...``) or its ``arm`` block alone.
+
+    Raises:
+        FileError: the file cannot be read or holds no arm.
+        InvalidValueError: the arm in it is not valid.
+    """
+    try:
+        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileError(path, f"cannot be read ({error})") from error
+    except yaml.YAMLError as error:
+        raise FileError(path, f"is not valid YAML ({' '.join(str(error).split())})") from error
+    block = content
+    for key in ("/**", "ros__parameters", "arm"):
+        if isinstance(block, Mapping) and key in block:
+            block = block[key]
+    if not isinstance(block, Mapping):
+        raise FileError(path, "holds no arm; expected /**: ros__parameters: arm: sections: [...]")
+    return arm_from_mapping(block)

@@ -1,0 +1,91 @@
+"""What a named parameter may be: type, unit, range and meaning, said once for files, nodes and messages."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from continuum.errors import InvalidValueError
+
+Value = int | float | str | bool | list[float] | list[str]
+
+_TYPE_NAMES = {int: "a whole number", float: "a finite number", str: "a text", bool: "true or false"}
+
+
+@dataclass(frozen=True)
+class ParameterSpec:
+    """One parameter.
+
+    Attributes:
+        name: as written in files and on the command line.
+        kind: type of the value, or of the items where ``is_list``.
+        description: one sentence without the unit.
+        unit: SI unit, empty for a pure number.
+        lower, upper: bounds, inclusive unless ``lower_open``; ignored for texts.
+        lower_open: the lower bound itself is not allowed.
+        is_list: a list of ``kind``.
+        default: value when none is given; None makes the parameter required.
+        choices: the allowed texts, empty for any.
+    """
+
+    name: str
+    kind: type
+    description: str
+    unit: str = ""
+    lower: float = -math.inf
+    upper: float = math.inf
+    lower_open: bool = False
+    is_list: bool = False
+    default: Value | None = None
+    choices: tuple[str, ...] = ()
+
+    @property
+    def allowed(self) -> str:
+        """The allowed values in words."""
+        words = _TYPE_NAMES[self.kind]
+        if self.choices:
+            words = "one of " + ", ".join(self.choices)
+        if self.is_list:
+            words = f"a list, each {words}"
+        if math.isfinite(self.lower):
+            words += f" {'>' if self.lower_open else '>='} {self.lower:g}"
+        if math.isfinite(self.upper):
+            words += f"{' and' if math.isfinite(self.lower) else ''} <= {self.upper:g}"
+        return f"{words} {self.unit}".rstrip()
+
+    def check(self, value: object, prefix: str = "") -> Value:
+        """Return ``value`` in the parameter's type, or raise.
+
+        Args:
+            value: what was given.
+            prefix: put before the name in the message, e.g. ``arm.section_1.``.
+
+        Raises:
+            InvalidValueError: wrong type, not finite, or out of range.
+        """
+        if self.is_list:
+            if isinstance(value, str | bytes) or not isinstance(value, Sequence):
+                raise InvalidValueError(prefix + self.name, value, self.allowed)
+            return [self._check_item(item, f"{prefix}{self.name}[{i}]") for i, item in enumerate(value)]
+        return self._check_item(value, prefix + self.name)
+
+    def _check_item(self, value: object, name: str) -> Value:
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if self.kind is float:
+            if not number or not math.isfinite(value):
+                raise InvalidValueError(name, value, self.allowed)
+            value = float(value)
+        elif self.kind is int:
+            if not number or not float(value).is_integer():
+                raise InvalidValueError(name, value, self.allowed)
+            value = int(value)
+        elif not isinstance(value, self.kind):
+            raise InvalidValueError(name, value, self.allowed)
+        if self.choices and value not in self.choices:
+            raise InvalidValueError(name, value, self.allowed)
+        if self.kind in (int, float):
+            too_low = value <= self.lower if self.lower_open else value < self.lower
+            if too_low or value > self.upper:
+                raise InvalidValueError(name, value, self.allowed)
+        return value
