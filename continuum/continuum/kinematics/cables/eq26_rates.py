@@ -1,0 +1,21 @@
+"""Thesis Eqs. 25 and 26: rates of the cables through a section. The printed phi entry lost a square: docs/errata.md."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arm import Section
+from continuum.arrays import Array
+from continuum.kinematics.cables.eq08_lengths import bend_towards, cable_holes
+from continuum.kinematics.configuration import bend
+from continuum.kinematics.smooth_functions import sinc, sinc_slope
+
+
+def cable_jacobian(w: Array, section: Section, a: Array | None = None, azimuths: Array | None = None) -> Array:
+    """d length / d(u, v), (..., n_cables, 2) [m/rad], at ``w`` (..., 2) [rad]; arguments as for Eq. 8."""
+    a, azimuths = cable_holes(section, a, azimuths)
+    n = section.n_joints
+    x = bend(w)[..., None] / (2 * n)
+    towards = np.stack([-np.sin(azimuths), np.cos(azimuths)], axis=-1)
+    along_bend = -section.b * sinc(x) / (2 * n) - a * sinc_slope(x) / (4 * n * n) * bend_towards(w, azimuths)
+    return along_bend[..., None] * w[..., None, :] - (a * sinc(x))[..., None] * towards

@@ -1,0 +1,24 @@
+"""Thesis Eq. 5, IK_gen: configuration of a section whose tip is seen at a point. One expression, without the case split.
+
+For an inextensible section this is a projection: only the direction of the point is used.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+
+
+def configuration_from_point(point: Array) -> Array:
+    """Configuration ``w`` (..., 2) [rad] of a section whose tip lies in the direction of ``point`` (..., 3) [m].
+
+    theta = 2 atan2(hypot(x, y), z), phi = atan2(y, x). Below the base plane theta goes beyond 180 degrees. Straight
+    down (x = y = 0, z < 0) every azimuth is right; w is (0, 0) there. So it is for the zero point, which has no direction.
+    """
+    x, y, z = point[..., 0], point[..., 1], point[..., 2]
+    radius = np.hypot(x, y)
+    on_axis = radius == 0.0
+    ratio_on_axis = np.where(z > 0.0, 2.0 / np.where(z > 0.0, z, 1.0), 0.0)
+    bend_per_radius = np.where(on_axis, ratio_on_axis, 2.0 * np.arctan2(radius, z) / np.where(on_axis, 1.0, radius))
+    return np.stack([-bend_per_radius * y, bend_per_radius * x], axis=-1)
