@@ -15,6 +15,8 @@ from continuum.parameter_spec import ParameterSpec
 FOUR_CABLES = [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]
 """Azimuths of four cables, a quarter turn apart, as on the prototype [rad]."""
 
+SECTIONS_PARAMETER = ParameterSpec("sections", str, "names of the sections from the base", is_list=True)
+
 SECTION_PARAMETERS: tuple[ParameterSpec, ...] = (
     ParameterSpec("n_joints", int, "number of spherical joints of the section", lower=1, upper=1000),
     ParameterSpec(
@@ -169,9 +171,7 @@ def arm_from_mapping(mapping: Mapping[str, object]) -> Arm:
     Raises:
         InvalidValueError: a parameter is missing, unknown or out of range; the message names it.
     """
-    names = ParameterSpec("sections", str, "names of the sections from the base", is_list=True).check(
-        mapping.get("sections"), "arm."
-    )
+    names = [str(name) for name in SECTIONS_PARAMETER.check_list(mapping.get("sections"), "arm.")]
     _refuse_unknown("arm", mapping, ["sections", *names])
     return Arm(tuple(_section_from_mapping(name, mapping.get(name)) for name in names))
 

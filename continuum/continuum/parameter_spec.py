@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from continuum.errors import InvalidValueError
 
-Value = int | float | str | bool | list[float] | list[str]
+Scalar = int | float | str | bool
+Value = Scalar | list[Scalar]
 
 _TYPE_NAMES = {int: "a whole number", float: "a finite number", str: "a text", bool: "true or false"}
 
@@ -37,7 +38,7 @@ class ParameterSpec:
     upper: float = math.inf
     lower_open: bool = False
     is_list: bool = False
-    default: Value | None = None
+    default: Scalar | Sequence[Scalar] | None = None
     choices: tuple[str, ...] = ()
 
     @property
@@ -65,27 +66,26 @@ class ParameterSpec:
             InvalidValueError: wrong type, not finite, or out of range.
         """
         if self.is_list:
-            if isinstance(value, str | bytes) or not isinstance(value, Sequence):
-                raise InvalidValueError(prefix + self.name, value, self.allowed)
-            return [self._check_item(item, f"{prefix}{self.name}[{i}]") for i, item in enumerate(value)]
+            return self.check_list(value, prefix)
         return self._check_item(value, prefix + self.name)
 
-    def _check_item(self, value: object, name: str) -> Value:
-        number = isinstance(value, int | float) and not isinstance(value, bool)
-        if self.kind is float:
-            if not number or not math.isfinite(value):
-                raise InvalidValueError(name, value, self.allowed)
-            value = float(value)
-        elif self.kind is int:
-            if not number or not float(value).is_integer():
-                raise InvalidValueError(name, value, self.allowed)
-            value = int(value)
-        elif not isinstance(value, self.kind):
-            raise InvalidValueError(name, value, self.allowed)
-        if self.choices and value not in self.choices:
-            raise InvalidValueError(name, value, self.allowed)
+    def check_list(self, value: object, prefix: str = "") -> list[Scalar]:
+        """As :meth:`check`, for a list parameter."""
+        if isinstance(value, str | bytes) or not isinstance(value, Sequence):
+            raise InvalidValueError(prefix + self.name, value, self.allowed)
+        return [self._check_item(item, f"{prefix}{self.name}[{i}]") for i, item in enumerate(value)]
+
+    def _check_item(self, value: object, name: str) -> Scalar:
         if self.kind in (int, float):
-            too_low = value <= self.lower if self.lower_open else value < self.lower
-            if too_low or value > self.upper:
-                raise InvalidValueError(name, value, self.allowed)
-        return value
+            return self._check_number(value, name)
+        if isinstance(value, str | bool) and isinstance(value, self.kind) and value in (self.choices or (value,)):
+            return value
+        raise InvalidValueError(name, value, self.allowed)
+
+    def _check_number(self, value: object, name: str) -> int | float:
+        if not isinstance(value, int | float) or isinstance(value, bool) or not math.isfinite(value):
+            raise InvalidValueError(name, value, self.allowed)
+        too_low = value <= self.lower if self.lower_open else value < self.lower
+        if too_low or value > self.upper or (self.kind is int and value != int(value)):
+            raise InvalidValueError(name, value, self.allowed)
+        return int(value) if self.kind is int else float(value)

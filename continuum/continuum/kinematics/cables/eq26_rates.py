@@ -18,4 +18,5 @@ def cable_jacobian(w: Array, section: Section, a: Array | None = None, azimuths:
     x = bend(w)[..., None] / (2 * n)
     towards = np.stack([-np.sin(azimuths), np.cos(azimuths)], axis=-1)
     along_bend = -section.b * sinc(x) / (2 * n) - a * sinc_slope(x) / (4 * n * n) * bend_towards(w, azimuths)
-    return along_bend[..., None] * w[..., None, :] - (a * sinc(x))[..., None] * towards
+    jacobian: Array = along_bend[..., None] * w[..., None, :] - (a * sinc(x))[..., None] * towards
+    return jacobian

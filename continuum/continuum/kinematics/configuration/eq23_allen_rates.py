@@ -17,7 +17,9 @@ def allen_rate_jacobian(phi: Array, theta: Array) -> Array:
 def allen_rates(phi: Array, theta: Array, phi_rate: Array, theta_rate: Array) -> Array:
     """Rate of ``w`` (..., 2) [rad/s] from azimuth, bend [rad] and their rates [rad/s], each (...)."""
     rates = np.stack([np.asarray(phi_rate, dtype=float), np.asarray(theta_rate, dtype=float)], axis=-1)
-    return (allen_rate_jacobian(np.asarray(phi), np.asarray(theta)) @ rates[..., None])[..., 0]
+    jacobian = allen_rate_jacobian(np.asarray(phi, dtype=float), np.asarray(theta, dtype=float))
+    w_rate: Array = (jacobian @ rates[..., None])[..., 0]
+    return w_rate
 
 
 def jones_rates(w: Array, w_rate: Array) -> tuple[Array, Array]:
