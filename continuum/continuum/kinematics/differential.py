@@ -15,7 +15,7 @@ _NEAR_SINGULAR = 0.02  # of the largest singular value, below which damping sets
 
 
 def least_bending(w: Array, gain: float) -> Array:
-    """Rate (n_sections, 2) [rad/s] down the gradient of |w|^2 / 2, for a gain [1/s]: an arm that unbends where it may."""
+    """Rate (n_sections, 2) [rad/s] down the gradient of |w|^2 / 2, for a gain [1/s]: the arm unbends where it may."""
     return -gain * w
 
 

@@ -1,4 +1,4 @@
-"""FABRIKc: heuristic inverse kinematics of constant-curvature sections (Zhang et al. 2018, after Aristidou and Lasenby).
+"""FABRIKc: heuristic inverse kinematics of constant-curvature sections (Zhang et al. 2018, after FABRIK).
 
 Every bent section is replaced by two straight legs of equal length, tangent to the section at its base and at its tip;
 they meet in a virtual joint. Going backward from the target and forward from the base in turn, every virtual joint is
@@ -84,7 +84,7 @@ def _backward(arm: Arm, target: Target, joints: Array, tangents: Array) -> Array
 
 
 def _forward(arm: Arm, target: Target, joints: Array, tangents: Array) -> tuple[Array, Array]:
-    """From the base to the tip: virtual joints and tip tangents, each (n_sections, 3), of an arm that stands on its base."""
+    """From the base to the tip: virtual joints and tip tangents, each (n_sections, 3), of an arm on its base."""
     joints, tangents = joints.copy(), tangents.copy()
     bends = _bends(tangents)
     base, tangent = np.zeros(3), _BASE_AXIS

@@ -67,7 +67,7 @@ def _step(jacobian: Array, error: Array, damping: float, w: Array, arm: Arm) -> 
 
 
 def damped_solve(jacobian: Array, error: Array, damping: float) -> Array:
-    """x (k,) of least norm that minimises |J x - e|^2 + damping |x|^2, by singular values of J (m, k)."""
+    """Vector x (k,) of least norm that minimises |J x - e|^2 + damping |x|^2, by singular values of J (m, k)."""
     left, values, right = np.linalg.svd(jacobian, full_matrices=False)
     smallest = 1e-9 * max(float(values[0]), 1e-300)
     used = values > smallest

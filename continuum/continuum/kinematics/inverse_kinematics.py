@@ -1,4 +1,4 @@
-"""Inverse kinematics for a single target: FABRIKc for the start, Gauss-Newton to the end, other starts if that fails."""
+"""Inverse kinematics for a single target: FABRIKc for the start, Gauss-Newton to the end, then other starts."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from continuum.arrays import Array
 
 def transform(rotation: Array, position: Array) -> Array:
     """Homogeneous transform (..., 4, 4) of a rotation (..., 3, 3) and a position (..., 3) [m]."""
-    result = np.zeros(np.broadcast_shapes(rotation.shape[:-2], position.shape[:-1]) + (4, 4))
+    result = np.zeros((*np.broadcast_shapes(rotation.shape[:-2], position.shape[:-1]), 4, 4))
     result[..., :3, :3] = rotation
     result[..., :3, 3] = position
     result[..., 3, 3] = 1.0

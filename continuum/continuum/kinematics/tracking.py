@@ -1,4 +1,4 @@
-"""Following a moving target: every pose solved from the one before it, with rates that are the derivative of the answer.
+"""Following a moving target: every pose solved from the one before it, with rates that belong to it.
 
 A redundant arm has many answers for one pose. So that the published rates and the published configurations belong
 together, both come from one differential equation: the rate of :mod:`differential`, with the redundancy used to unbend.
@@ -73,7 +73,8 @@ class Tracker:
         Args:
             position: (3,) [m] in ``base_link``.
             direction: (3,), of the tip's z axis; ignored unless ``use_direction``.
-            velocity, angular_velocity: (3,) [m/s] and (3,) [rad/s] of the tip; without both, no rate is told.
+            velocity: (3,) [m/s] of the tip; without it, no rate is told.
+            angular_velocity: (3,) [rad/s] of the tip, for its direction.
             dt: time since the pose before [s]; None where this pose does not continue it.
 
         Raises:

@@ -29,7 +29,7 @@ def cable_lengths(w: Array, section: Section, a: Array | None = None, azimuths: 
 
 
 def bend_towards(w: Array, azimuths: Array) -> Array:
-    """theta cos(phi - alpha_j) (..., n_cables) [rad]: the bend seen from each azimuth."""
+    """Bend seen from each azimuth, theta cos(phi - alpha_j) (..., n_cables) [rad]."""
     return w[..., 1, None] * np.cos(azimuths) - w[..., 0, None] * np.sin(azimuths)
 
 

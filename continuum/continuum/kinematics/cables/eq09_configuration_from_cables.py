@@ -1,4 +1,4 @@
-"""Thesis Eq. 9, FK_spe: configuration of a section from its cables. Removable singularity and count of arguments: docs/errata.md.
+"""Thesis Eq. 9, FK_spe: configuration of a section from its cables. Printed form: see docs/errata.md.
 
 Cable j of a section measures l_j = C - a (X cos alpha_j + Y sin alpha_j), where (X, Y) = 2 n_j sin x (cos phi, sin phi)
 and C = 2 n_j b cos x. Three cables or more give (X, Y, C) by linear least squares, and the module's chord points along

@@ -12,7 +12,7 @@ from continuum.kinematics.smooth_functions import sinc, sinc_slope
 
 
 def cable_jacobian(w: Array, section: Section, a: Array | None = None, azimuths: Array | None = None) -> Array:
-    """d length / d(u, v), (..., n_cables, 2) [m/rad], at ``w`` (..., 2) [rad]; arguments as for Eq. 8."""
+    """Slopes d length / d(u, v), (..., n_cables, 2) [m/rad], at ``w`` (..., 2) [rad]; arguments as for Eq. 8."""
     a, azimuths = cable_holes(section, a, azimuths)
     n = section.n_joints
     x = bend(w)[..., None] / (2 * n)

@@ -1,4 +1,4 @@
-"""Thesis Eq. 24: rates of curvature and arc length with the bend. The printed d kappa / d theta is wrong: docs/errata.md."""
+"""Thesis Eq. 24: rates of curvature and arc length with the bend. The printed first row is wrong: docs/errata.md."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from continuum.kinematics.smooth_functions import one_minus_sinc, sinc
 
 
 def arc_rates(theta: Array, theta_rate: Array, section: Section) -> tuple[Array, Array]:
-    """Rates of curvature [1/(m s)] and arc length [m/s], each (...), at ``theta`` [rad] moving at ``theta_rate`` [rad/s].
+    """Rates of curvature [1/(m s)] and arc length [m/s], each (...), at ``theta`` [rad], ``theta_rate`` [rad/s].
 
     d kappa / d theta = (kappa^2 b + 1 / b) / (2 n_j);
     d s / d theta = b (cos x sin x - x) / sin^2 x with x = theta / (2 n_j), written so that x = 0 is no exception.

@@ -4,8 +4,8 @@ from continuum.kinematics.section.eq04_pose import section_pose, section_positio
 from continuum.kinematics.section.eq05_configuration_from_point import configuration_from_point
 from continuum.kinematics.section.eq21_jacobian import section_jacobian, spatial_twist_jacobian
 from continuum.kinematics.section.eq22_rates_from_point import (
-    jones_from_point_jacobian,
     configuration_from_point_jacobian,
+    jones_from_point_jacobian,
 )
 
 __all__ = [

@@ -1,8 +1,8 @@
 """The straight line from a section's base disc to its tip disc, and how it shortens as the section bends.
 
 The section is a polygon of n_j + 1 links: b, 2b, ..., 2b, b. Bent evenly, its links make the angles
-n_j x, (n_j - 2) x, ..., -n_j x with the chord, where x = theta / (2 n_j); the chord itself leaves the base at theta / 2.
-So the chord is the sum of the links' projections, for any bend, and no quotient needs a limit.
+n_j x, (n_j - 2) x, ..., -n_j x with the chord, where x = theta / (2 n_j); the chord itself leaves the base at
+theta / 2. So the chord is the sum of the links' projections, for any bend, and no quotient needs a limit.
 """
 
 from __future__ import annotations

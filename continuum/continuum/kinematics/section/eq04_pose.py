@@ -38,5 +38,5 @@ def section_position(w: Array, section: Section) -> Array:
 
 
 def section_pose(w: Array, section: Section) -> Array:
-    """Homogeneous transform (..., 4, 4) from the tip frame D to the base frame P at ``w`` (..., 2) [rad]; lengths in m."""
+    """Homogeneous transform (..., 4, 4) [m] from the tip frame D to the base frame P at ``w`` (..., 2) [rad]."""
     return transform(section_rotation(w), section_position(w, section))

@@ -1,4 +1,4 @@
-"""Thesis Eq. 5, IK_gen: configuration of a section whose tip is seen at a point. One expression, without the case split.
+"""Thesis Eq. 5, IK_gen: configuration of a section whose tip is seen at a point, without the case split.
 
 For an inextensible section this is a projection: only the direction of the point is used.
 """
@@ -14,7 +14,8 @@ def configuration_from_point(point: Array) -> Array:
     """Configuration ``w`` (..., 2) [rad] of a section whose tip lies in the direction of ``point`` (..., 3) [m].
 
     theta = 2 atan2(hypot(x, y), z), phi = atan2(y, x). Below the base plane theta goes beyond 180 degrees. Straight
-    down (x = y = 0, z < 0) every azimuth is right; w is (0, 0) there. So it is for the zero point, which has no direction.
+    down (x = y = 0, z < 0) every azimuth is right; w is (0, 0) there, and for the zero point,
+    which has no direction.
     """
     x, y, z = point[..., 0], point[..., 1], point[..., 2]
     radius = np.hypot(x, y)

@@ -23,7 +23,7 @@ def section_jacobian(w: Array, section: Section) -> Array:
 def spatial_twist_jacobian(phi: Array, theta: Array, section: Section) -> Array:
     """The matrix of Eq. 21, (..., 6, 2): spatial twist (v, omega) of the tip frame per rate of (phi, theta) [rad].
 
-    The linear part is the velocity of the point of the moving frame that passes through the base origin, not of the tip.
+    The linear part is the velocity of the moving frame's point that passes the base origin, not of the tip.
     """
     phi, theta = np.asarray(phi, dtype=float), np.asarray(theta, dtype=float)
     w = allen_from_jones(phi, theta)

@@ -1,0 +1,42 @@
+"""The `continuum` command: one file per subcommand, each with ``add_to(subparsers)`` and a function that runs it."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from continuum.cli import info, report, solve
+from continuum.errors import ContinuumError
+
+_NEXT_STEPS = """\
+what you can do next:
+  continuum info ARM.yaml                      lengths, cables and bend limits of an arm
+  continuum solve ARM.yaml 0.15 0 0.20         bring the tip to a point; bends and cable lengths of the answer
+  continuum report RECORDING --arm ARM.yaml    tracking error, cable rates and losses of a recorded run
+
+  ros2 launch continuum_manipulator three_sections.launch.xml     the nodes of an arm of three sections
+  ros2 launch trajectory_generator helix.launch.xml               the same, following the thesis's helix
+  ros2 bag record /cable_states                                   record what the cables do
+
+ARM.yaml is a file like continuum_description/config/three_sections.yaml.
+Exit codes: 0 done, 1 the answer is no (a target out of reach), 2 wrong usage, file or value.
+"""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command; returns the process's exit code."""
+    parser = argparse.ArgumentParser(
+        prog="continuum",
+        description="Multi-section, cable-driven snake arms: kinematics, and what recordings show of them.",
+        epilog=_NEXT_STEPS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for command in (info, solve, report):
+        command.add_to(commands)
+    options = parser.parse_args(arguments)
+    try:
+        return int(options.run(options))
+    except ContinuumError as error:
+        print(f"continuum: {error}", file=sys.stderr)
+        return 2

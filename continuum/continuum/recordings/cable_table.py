@@ -1,0 +1,19 @@
+"""`cable_states` as a CSV table: time, lengths and rates of all cables."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+from continuum.recordings.arm_recording import ArmRecording
+
+
+def write_cable_table(recording: ArmRecording, path: str | Path) -> None:
+    """Write ``t_s``, then ``<cable>_m`` and ``<cable>_m_s`` of every cable, one row for every message."""
+    names = recording.arm.cable_names
+    times = (recording.lengths.stamps - recording.lengths.stamps[0]) * 1e-9
+    with Path(path).open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(["t_s", *(f"{name}_m" for name in names), *(f"{name}_m_s" for name in names)])
+        for t, lengths, rates in zip(times, recording.lengths.values, recording.rates.values, strict=True):
+            writer.writerow([f"{t:.9f}", *(f"{value:.9g}" for value in (*lengths, *rates))])
