@@ -7,9 +7,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-import yaml
-
 from continuum.errors import FileError, InvalidValueError
+from continuum.parameter_file import read_parameter_file
 from continuum.parameter_spec import ParameterSpec
 
 FOUR_CABLES = [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]
@@ -77,8 +76,7 @@ class Section:
 
     def __post_init__(self) -> None:
         for spec in SECTION_PARAMETERS:
-            given = getattr(self, spec.name)
-            value = spec.check(list(given) if spec.is_list else given, f"{self.name}.")
+            value = spec.check(getattr(self, spec.name), f"{self.name}.")
             object.__setattr__(self, spec.name, tuple(value) if isinstance(value, list) else value)
         distinct = {round(azimuth % (2 * math.pi), 9) % round(2 * math.pi, 9) for azimuth in self.cable_azimuths}
         if len(distinct) < 3 or len(distinct) < len(self.cable_azimuths):
@@ -212,16 +210,8 @@ def load_arm(path: str | Path) -> Arm:
         FileError: the file cannot be read or holds no arm.
         InvalidValueError: the arm in it is not valid.
     """
-    try:
-        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileError(path, f"cannot be read ({error})") from error
-    except yaml.YAMLError as error:
-        raise FileError(path, f"is not valid YAML ({' '.join(str(error).split())})") from error
-    block = content
-    for key in ("/**", "ros__parameters", "arm"):
-        if isinstance(block, Mapping) and key in block:
-            block = block[key]
-    if not isinstance(block, Mapping):
-        raise FileError(path, "holds no arm; expected /**: ros__parameters: arm: sections: [...]")
-    return arm_from_mapping(block)
+    block = read_parameter_file(path)
+    arm = block.get("arm", block)
+    if not isinstance(arm, Mapping):
+        raise FileError(path, f"holds no arm, but {arm!r}")
+    return arm_from_mapping(arm)

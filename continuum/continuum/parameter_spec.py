@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -83,7 +84,7 @@ class ParameterSpec:
         raise InvalidValueError(name, value, self.allowed)
 
     def _check_number(self, value: object, name: str) -> int | float:
-        if not isinstance(value, int | float) or isinstance(value, bool) or not math.isfinite(value):
+        if not isinstance(value, int | float) or isinstance(value, bool) or not abs(value) <= sys.float_info.max:
             raise InvalidValueError(name, value, self.allowed)
         too_low = value <= self.lower if self.lower_open else value < self.lower
         if too_low or value > self.upper or (self.kind is int and value != int(value)):

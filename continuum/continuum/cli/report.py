@@ -46,24 +46,18 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _show(report: KinematicReport) -> None:
-    table = Table(show_header=False)
+    worst, share, largest = report.rate_disagreement, report.rate_disagreement_ratio, report.largest_rate
+    speed = f"{report.n_targets} at {report.rate:.1f} Hz over {report.duration:.1f} s, {report.n_solved} reached"
+    error = f"median {1e3 * report.tip_error_median:.2g} mm, max {1e3 * report.tip_error_max:.2g} mm"
+    slope = f"{1e3 * worst:.2g} mm/s apart at worst, {100 * share:.2f} % of the largest rate ({1e3 * largest:.1f} mm/s)"
     rows = [
-        (
-            "poses",
-            f"{report.n_targets} at {report.rate:.1f} Hz over {report.duration:.1f} s, {report.n_solved} reached",
-        ),
-        (
-            "tip error, reached poses",
-            f"median {1e3 * report.tip_error_median:.2g} mm, max {1e3 * report.tip_error_max:.2g} mm",
-        ),
-        (
-            "cable rate, Jacobian against central difference",
-            f"{1e3 * report.rate_disagreement:.2g} mm/s apart at worst, "
-            f"{100 * report.rate_disagreement_ratio:.2f} % of the largest rate ({1e3 * report.largest_rate:.1f} mm/s)",
-        ),
+        ("poses", speed),
+        ("tip error, reached poses", error),
+        ("cable rate, Jacobian against central difference", slope),
         ("messages lost", str(report.n_lost)),
     ]
     rows += [(f"  lost on {name}", str(count)) for name, count in report.lost.items() if count]
+    table = Table(show_header=False)
     for row in rows:
         table.add_row(*row)
     Console().print(table)

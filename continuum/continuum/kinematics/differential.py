@@ -33,6 +33,7 @@ def configuration_rate(jacobian: Array, velocity: Array, w: Array, arm: Arm, wis
     rate = _damped_rate(jacobian, velocity, free)
     held = without_outward(jacobian, w, rate.reshape(w.shape), arm)
     if not np.array_equal(held, jacobian):
+        free = without_outward(free[None], w, rate.reshape(w.shape), arm)[0]  # a held section may not unbend either
         rate = _damped_rate(held, velocity, free)
     return rate.reshape(w.shape)
 

@@ -60,9 +60,9 @@ class Target:
     direction: Array | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "position", _vector("position", self.position, "three finite numbers [m]"))
+        object.__setattr__(self, "position", _finite("position", self.position, (3,), "three finite numbers [m]"))
         if self.direction is not None:
-            direction = _vector("direction", self.direction, "three finite numbers, not all zero")
+            direction = _finite("direction", self.direction, (3,), "three finite numbers, not all zero")
             length = float(np.linalg.norm(direction))
             if length < 1e-12:
                 raise InvalidValueError("direction", direction.tolist(), "three finite numbers, not all zero")
@@ -77,17 +77,15 @@ def configuration_of(arm: Arm, start: Array | None) -> Array:
     """
     if start is None:
         return np.zeros((arm.n_sections, 2))
-    array = np.array(start, dtype=float)
-    if array.shape != (arm.n_sections, 2) or not np.all(np.isfinite(array)):
-        raise InvalidValueError("start", array.tolist(), f"finite numbers of shape ({arm.n_sections}, 2) [rad]")
-    return array
+    shape = (arm.n_sections, 2)
+    return _finite("start", start, shape, f"finite numbers of shape {shape} [rad]")
 
 
-def _vector(name: str, value: object, allowed: str) -> Array:
+def _finite(name: str, value: object, shape: tuple[int, ...], allowed: str) -> Array:
     try:
-        vector = np.array(value, dtype=float)
-    except (TypeError, ValueError):
+        array = np.array(value, dtype=float)
+    except (TypeError, ValueError, OverflowError):
         raise InvalidValueError(name, value, allowed) from None
-    if vector.shape != (3,) or not np.all(np.isfinite(vector)):
-        raise InvalidValueError(name, vector.tolist(), allowed)
-    return vector
+    if array.shape != shape or not np.all(np.isfinite(array)):
+        raise InvalidValueError(name, array.tolist(), allowed)
+    return array

@@ -14,8 +14,8 @@ from continuum.arrays import Array
 
 # Taylor coefficients in x^2, used below `_SMALL`; the first term left out is below 1e-17 of the sum there.
 _SMALL = 0.5
-_SINC_SLOPE = (-1 / 3, 1 / 30, -1 / 840, 1 / 45360, -1 / 3991680, 1 / 518918400)
-_ONE_MINUS_SINC = (1 / 6, -1 / 120, 1 / 5040, -1 / 362880, 1 / 39916800, -1 / 6227020800)
+_SINC_SLOPE = (-1 / 3, 1 / 30, -1 / 840, 1 / 45360, -1 / 3991680, 1 / 518918400, -1 / 93405312000)
+_ONE_MINUS_SINC = (1 / 6, -1 / 120, 1 / 5040, -1 / 362880, 1 / 39916800, -1 / 6227020800, 1 / 1307674368000)
 
 
 def sinc(x: Array) -> Array:

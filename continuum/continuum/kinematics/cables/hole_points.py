@@ -1,4 +1,4 @@
-"""Where the cables of a section run: the holes of its discs that each cable passes, from the base disc to the tip disc."""
+"""Where the cables of a section run: the holes that each cable passes, from the base disc to the tip disc."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from continuum.kinematics.section import section_pose
 def hole_points(w: Array, section: Section, a: Array | None = None, azimuths: Array | None = None) -> Array:
     """Holes (..., n_cables, n_joints + 1, 3) [m] in the section's base frame at ``w`` (..., 2) [rad].
 
-    The discs stand on the arc of Eq. 4: disc k is the tip of a section with k of the n_j joints and as much of the bend.
+    The discs stand on the arc of Eq. 4: disc k is the tip of a section with k of the n_j joints.
     Between two discs a cable is straight, so the segments between its holes add up to its length of Eq. 8.
 
     Args:

@@ -11,7 +11,7 @@ from continuum.kinematics.section import section_pose
 
 
 def section_tip_poses(w: Array, arm: Arm) -> Array:
-    """Poses (..., n_sections, 4, 4) of the sections' tip frames in ``base_link`` at ``w`` (..., n_sections, 2) [rad]."""
+    """Poses (..., n_sections, 4, 4) of the sections' tips in ``base_link`` at ``w`` (..., n_sections, 2) [rad]."""
     pose: Array = np.eye(4)
     poses = []
     for i, section in enumerate(arm.sections):

@@ -18,7 +18,7 @@ def jones_from_allen(w: Array) -> tuple[Array, Array]:
     phi = atan2(-u, v); it is 0 in the straight posture, where every azimuth would do.
     """
     u, v = w[..., 0], w[..., 1]
-    return np.arctan2(0.0 - u, v), bend(w)
+    return np.arctan2(0.0 - u, 0.0 + v), bend(w)
 
 
 def allen_from_jones(phi: Array | float, theta: Array | float) -> Array:

@@ -19,7 +19,6 @@ def configuration_from_point(point: Array) -> Array:
     """
     x, y, z = point[..., 0], point[..., 1], point[..., 2]
     radius = np.hypot(x, y)
-    on_axis = radius == 0.0
-    ratio_on_axis = np.where(z > 0.0, 2.0 / np.where(z > 0.0, z, 1.0), 0.0)
-    bend_per_radius = np.where(on_axis, ratio_on_axis, 2.0 * np.arctan2(radius, z) / np.where(on_axis, 1.0, radius))
-    return np.stack([-bend_per_radius * y, bend_per_radius * x], axis=-1)
+    theta = 2.0 * np.arctan2(radius, z)
+    safe_radius = np.where(radius == 0.0, 1.0, radius)
+    return np.stack([-theta * (y / safe_radius), theta * (x / safe_radius)], axis=-1)

@@ -1,0 +1,33 @@
+# Everything a person does here starts with one of these; `make` alone lists them.
+
+SHELL := /bin/bash
+IN_WORKSPACE := source install/setup.bash &&
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.PHONY: help setup demo test check format lock clean
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+setup: ## make .venv, install pinned versions, build the workspace; does nothing where nothing changed
+	@PYTHON="$(PYTHON)" sh tools/setup/run.sh
+
+demo: setup ## follow the thesis's helix with real nodes, results in out/demo (VIEW=1 shows the arm in a window)
+	@$(IN_WORKSPACE) python3 -m tools.demo $(if $(VIEW),--view)
+
+test: check ## run the checks and every test (ARGS="-k name" are given to pytest)
+	@$(IN_WORKSPACE) pytest $(ARGS)
+
+check: setup ## style, lint and types, without the tests
+	@$(IN_WORKSPACE) ruff format --check --quiet && ruff check --quiet && mypy
+
+format: setup ## put the code into the project's style and mend what the linter can
+	@$(IN_WORKSPACE) ruff format && ruff check --fix
+
+lock: ## resolve tools/setup/requirements.in into requirements.lock
+	@PYTHON="$(PYTHON)" sh tools/setup/run.sh lock
+
+clean: ## remove everything made here: .venv, build, install, log, out and caches
+	@rm -rf .venv build install log out .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	@find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,35 @@
+"""Import the workspace's packages before any test module; a ROS domain of its own for every module.
+
+pytest's importlib mode names a test by its path from here, ``continuum.test.test_arm``, and would else take the folder
+``continuum/`` for the package ``continuum``, which is ``continuum/continuum/``. It does so already for the conftest.py
+files below, before it calls any hook: hence at import.
+"""
+
+import importlib
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+for manifest in sorted(Path(__file__).parent.glob("*/package.xml")):
+    name = manifest.parent.name
+    if importlib.import_module(name).__file__ is None:
+        pytest.exit(f"{name} is not installed; run `make test`, or `source install/setup.bash` first", returncode=2)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Let ROS's message support import its parser, which uses a module that Python is about to drop."""
+    config.addinivalue_line("filterwarnings", "ignore:module 'sre_.*' is deprecated:DeprecationWarning")
+
+
+sys.path.append(str(Path(__file__).parent / "test"))  # for the package harness
+
+
+@pytest.fixture(scope="module")
+def domain() -> Iterator[int]:
+    """Give a ROS domain that no other test on this machine uses meanwhile."""
+    from domain_coordinator import domain_id
+
+    with domain_id() as number:
+        yield number

@@ -1,0 +1,41 @@
+"""ROS 2 parameter files, read without ROS: the files that nodes get by ``--params-file`` serve the library too."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import yaml
+
+from continuum.errors import FileError
+
+
+def read_parameter_file(path: str | Path) -> Mapping[str, object]:
+    """The parameters of a YAML file, nested: what stands under ``/**: ros__parameters:``, or all of it without that.
+
+    Raises:
+        FileError: the file cannot be read, or holds no mapping.
+    """
+    try:
+        block = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileError(path, f"cannot be read ({error})") from error
+    except (yaml.YAMLError, ValueError, RecursionError) as error:  # ValueError: an impossible date
+        raise FileError(path, f"is not valid YAML ({' '.join(str(error).split())})") from error
+    for key in ("/**", "ros__parameters"):
+        if isinstance(block, Mapping) and key in block:
+            block = block[key]
+    if not isinstance(block, Mapping):
+        raise FileError(path, f"holds no parameters, but {block!r}")
+    return block
+
+
+def flattened(block: Mapping[str, object], prefix: str = "") -> dict[str, object]:
+    """Nested parameters by their dotted ROS names: ``{"helix": {"radius": 0.15}}`` gives ``{"helix.radius": 0.15}``."""
+    flat: dict[str, object] = {}
+    for key, value in block.items():
+        if isinstance(value, Mapping):
+            flat.update(flattened(value, f"{prefix}{key}."))
+        else:
+            flat[f"{prefix}{key}"] = value
+    return flat

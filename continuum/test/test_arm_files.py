@@ -1,0 +1,95 @@
+"""Arm parameter files: what load_arm reads; a bad file is a FileError or an InvalidValueError, nothing else."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+from continuum_laws.outcomes import outcome
+from continuum_laws.strategies import LAW, arms
+from hypothesis import given
+from hypothesis import strategies as st
+
+from continuum.arm import Arm, arm_to_mapping, load_arm
+from continuum.errors import FileError, InvalidValueError
+
+ONE_SECTION = "sections: [s]\ns: {n_joints: 5, b: 0.02, a: 0.03}\n"
+
+PIECES = [
+    *["sections", "s", "arm", "/**", "ros__parameters", "a", "b", "n_joints", "twist", "cable_azimuths"],
+    *[": ", ":", "- ", ", ", "[", "]", "{", "}", "\n", "\n  ", "\n    ", '"', "'", "|", ">"],
+    *["#", "&x", "*x", "%", "---", "?", "<<", "\t", "\x00", "é", "2001-99-99", "true", "null", "~"],
+    *["1", "-1", "0.02", "1e3", ".nan", ".inf", "9" * 400, "0x"],
+]
+
+
+@pytest.fixture(scope="session")
+def scratch(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("arms") / "arm.yaml"
+
+
+@LAW
+@given(arm=arms())
+@pytest.mark.parametrize("keys", [(), ("arm",), ("/**", "ros__parameters", "arm")], ids=len)
+def test_a_written_arm_is_read_back(scratch: Path, keys: tuple[str, ...], arm: Arm) -> None:
+    content = arm_to_mapping(arm)
+    for key in reversed(keys):
+        content = {key: content}
+    scratch.write_text(yaml.safe_dump(content), encoding="utf-8")
+    assert load_arm(scratch) == arm
+    assert load_arm(str(scratch)) == arm
+
+
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(FileError) as caught:
+        load_arm(tmp_path / "none.yaml")
+    assert str(caught.value).startswith(f"{tmp_path / 'none.yaml'}: cannot be read")
+
+
+def test_a_folder_is_no_file(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match="cannot be read"):
+        load_arm(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"5",
+        b"just text",
+        b"- 1",
+        b"a: [",
+        b"a: b: c",
+        b"\xff\xfe",
+        b"a: 2001-99-99",
+        b"{a: 1, ? [b]: 2}",
+        b"[" * 5000,
+    ],
+)
+def test_a_file_that_holds_no_arm(scratch: Path, content: bytes) -> None:
+    scratch.write_bytes(content)
+    with pytest.raises(FileError) as caught:
+        load_arm(scratch)
+    assert caught.value.path == scratch
+    assert "\n" not in str(caught.value)
+
+
+def test_a_wrong_value_is_named_as_in_the_file(scratch: Path) -> None:
+    scratch.write_text(ONE_SECTION.replace("0.02", "-0.02"), encoding="utf-8")
+    with pytest.raises(InvalidValueError, match=r"^arm\.s\.b is -0\.02; allowed: a finite number > 0 and <= 10 m$"):
+        load_arm(scratch)
+
+
+@LAW
+@given(pieces=st.lists(st.sampled_from(PIECES), max_size=25))
+def test_any_text_is_an_arm_or_refused(scratch: Path, pieces: list[str]) -> None:
+    scratch.write_text("".join(pieces), encoding="utf-8")
+    with pytest.raises((FileError, InvalidValueError)):
+        load_arm(scratch)
+
+
+@LAW
+@given(at=st.integers(0, len(ONE_SECTION)), width=st.integers(0, 4), piece=st.sampled_from(PIECES))
+def test_a_damaged_arm_is_an_arm_or_refused(scratch: Path, at: int, width: int, piece: str) -> None:
+    scratch.write_text(ONE_SECTION[:at] + piece + ONE_SECTION[at + width :], encoding="utf-8")
+    found = outcome(load_arm, scratch)
+    assert isinstance(found, FileError | InvalidValueError) or found.n_sections == 1

@@ -1,0 +1,68 @@
+"""A robot of one or more sections: as xacro, one macro call per section, and expanded to URDF."""
+
+from __future__ import annotations
+
+import glob
+from xml.etree import ElementTree
+
+import xacro
+
+from continuum.arm import Arm
+from continuum_description.segment import segment_call
+from continuum_description.share import share_directory
+
+BASE_LINK = "base_link"
+"""Root link of the arm: its base plate, z along the straight arm (REP-105)."""
+
+_MACROS = "urdf/segment.urdf.xacro"
+_PORTABLE_MACROS = f"$(find continuum_description)/{_MACROS}"
+
+
+def robot_xacro(
+    arm: Arm, base_link: str = BASE_LINK, with_base: bool = True, macros: str = _PORTABLE_MACROS
+) -> ElementTree.Element:
+    """The arm as a xacro document.
+
+    Args:
+        arm: the sections, each on the tip of the one before it.
+        base_link: link that the first section stands on.
+        with_base: make that link here; False leaves it to the document that includes this one.
+        macros: file that defines the macros, as xacro's include takes it.
+
+    Raises:
+        InvalidValueError: a section or the base link has a name that links cannot have.
+    """
+    robot = ElementTree.Element("robot", {"name": "continuum", "xmlns:xacro": "http://www.ros.org/wiki/xacro"})
+    ElementTree.SubElement(robot, "xacro:include", filename=macros)
+    calls = []
+    parent = base_link
+    for index, section in enumerate(arm.sections):
+        calls.append(segment_call(section, parent, index))
+        parent = section.tip_frame
+    if with_base:
+        first = arm.sections[0]
+        base = {"link": base_link, "a": repr(first.a), "b": repr(first.b)}
+        ElementTree.SubElement(robot, "xacro:continuum_base", base)
+    robot.extend(calls)
+    return robot
+
+
+def robot_urdf(arm: Arm, base_link: str = BASE_LINK) -> ElementTree.Element:
+    """The arm as URDF: the macros of :func:`robot_xacro`, expanded.
+
+    Raises:
+        InvalidValueError: a section or the base link has a name that links cannot have.
+    """
+    macros = glob.escape(str(share_directory() / _MACROS))
+    document = xacro.parse(to_text(robot_xacro(arm, base_link, macros=macros)))
+    xacro.process_doc(document)
+    robot = ElementTree.fromstring(document.toxml())
+    for element in robot.iter():
+        element.text = None
+    return robot
+
+
+def to_text(robot: ElementTree.Element) -> str:
+    """The document as indented text, the same for the same arm; it names no encoding, all of it is ASCII."""
+    ElementTree.indent(robot)
+    return f'<?xml version="1.0"?>\n{ElementTree.tostring(robot, encoding="unicode")}\n'

@@ -1,0 +1,76 @@
+"""The shipped arms, the launch file and RViz's configuration."""
+
+import re
+import shlex
+import subprocess
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+import yaml
+
+from continuum.arm import SECTION_PARAMETERS
+from continuum_description.robot import BASE_LINK
+from continuum_description.share import share_directory
+
+SHARE = share_directory()
+
+
+def test_prototype_writes_table_1_out() -> None:
+    written = yaml.safe_load((SHARE / "config" / "prototype.yaml").read_text())["/**"]["ros__parameters"]["arm"]
+    section = written["section_1"]
+    expected = {spec.name: spec.default for spec in SECTION_PARAMETERS if spec.default is not None}
+    expected |= {"n_joints": 5, "a": 0.032, "b": (0.0250 + 0.0135) / 2}
+    assert section.keys() == expected.keys()
+    for name, value in expected.items():
+        assert section[name] == pytest.approx(value, rel=1e-12), name
+
+
+def launch_root() -> ElementTree.Element:
+    return ElementTree.parse(SHARE / "launch" / "display.launch.xml").getroot()
+
+
+def performed(text: str, arm: Path, share: Path) -> str:
+    """The launch substitutions of the file, performed as launch does: text put in place, nothing quoted."""
+    return re.sub(r"\$\(find-pkg-share \w+\)", str(share), text).replace("$(var arm)", str(arm))
+
+
+def test_launch_file_describes_the_arm_it_is_given_where_paths_have_spaces(tmp_path: Path) -> None:
+    share = tmp_path / "an install" / "share"
+    share.parent.mkdir()
+    share.symlink_to(SHARE)
+    arm = tmp_path / "an arm.yaml"
+    arm.write_text((SHARE / "config" / "published_sections.yaml").read_text())
+    parameter = launch_root().find("node[@exec='robot_state_publisher']/param[@name='robot_description']")
+    command = re.fullmatch(r"\$\(command '(.*)'\)", parameter.get("value"))[1]
+    result = subprocess.run(
+        shlex.split(performed(command, arm, share)), capture_output=True, text=True, timeout=120, check=False
+    )
+    assert (result.returncode, result.stderr) == (0, "")
+    links = {link.get("name") for link in ElementTree.fromstring(result.stdout).iter("link")}
+    assert {BASE_LINK, "section_3_tip", "section_3_disc_4"} <= links
+
+
+def test_launch_file_names_arguments_it_has_and_files_that_exist() -> None:
+    root = launch_root()
+    declared = {argument.get("name") for argument in root.iter("arg")}
+    text = (SHARE / "launch" / "display.launch.xml").read_text()
+    assert declared == set(re.findall(r"\$\(var (\w+)\)", text)) == {"arm", "gui", "rviz", "use_sim_time"}
+    named = re.findall(r"\$\(find-pkg-share continuum_description\)/([\w./]+)", text)
+    assert [file for file in named if (SHARE / file).is_file()] == named != []
+
+
+def test_rviz_shows_the_topics_of_the_nodes() -> None:
+    manager = yaml.safe_load((SHARE / "rviz" / "continuum.rviz").read_text())["Visualization Manager"]
+    assert manager["Global Options"]["Fixed Frame"] == BASE_LINK
+    topics = {
+        (display["Class"].split("/")[1], topic["Value"])
+        for display in manager["Displays"]
+        if (topic := display.get("Topic", display.get("Description Topic")))
+    }
+    assert topics == {
+        ("RobotModel", "/robot_description"),
+        ("MarkerArray", "/cable_markers"),
+        ("MarkerArray", "/section_config_markers"),
+        ("Pose", "/traj_pose"),
+    }

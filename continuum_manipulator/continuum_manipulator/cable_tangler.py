@@ -1,0 +1,90 @@
+"""Node between sections and cables of the arm: what the sections spend of each, summed, and taken apart again."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.kinematics.routing import cables_through, section_length_rates, section_lengths, untangle, untangle_rates
+from continuum_manipulator.nodekit import messages
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.stamps import StampJoiner, nanoseconds
+from continuum_manipulator.section_number import checked_section
+from continuum_msgs.msg import CableStates
+
+
+class CableTanglerNode(CheckedNode):
+    """``section_cable_states`` of all sections to ``cable_states``; ``cable_commands`` to ``section_cable_commands``.
+
+    Sections are joined by stamp: two instants are never mixed.
+    """
+
+    NAME = "cable_tangler"
+    HAS_ARM = True
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._numbers = range(1, self.arm.n_sections + 1)
+        self._names = list(self.arm.cable_names)
+        self._through = {number: cables_through(self.arm, number - 1).names for number in self._numbers}
+        self._instants: StampJoiner[int, CableStates] = StampJoiner(self._numbers)
+        self.diagnostics.values |= {
+            "instants given up with a section missing": lambda: self._instants.incomplete,
+            "section states too late": lambda: self._instants.late,
+            "section states repeated": lambda: self._instants.repeated,
+            "instants waiting for a section": lambda: self._instants.waiting,
+        }
+        self._publish_states = self.offer(CableStates, "cable_states")
+        self._publish_commands = self.offer(CableStates, "section_cable_commands")
+        self.listen(CableStates, "section_cable_states", self._on_section)
+        self.listen(CableStates, "cable_commands", self._on_commands)
+
+    def _on_section(self, message: CableStates) -> None:
+        number = checked_section(message.section, self.arm)
+        messages.same_length("position", message.position, message.name)
+        messages.same_length("velocity", message.velocity, message.name, optional=True)
+        messages.indices_of(self._through[number], message.name)
+        messages.finite("position", message.position)
+        messages.finite("velocity", message.velocity)
+        lost = self._instants.incomplete
+        instant = self._instants.add(number, nanoseconds(message.header.stamp), message)
+        if self._instants.incomplete > lost:
+            self.diagnostics.warnings.note(
+                "instants with a section missing", f"{self._instants.incomplete} given up since the start"
+            )
+        if instant is not None:
+            self._tangle(instant)
+
+    def _tangle(self, instant: dict[int, CableStates]) -> None:
+        total = CableStates(section=CableStates.WHOLE_ARM, name=self._names)
+        total.header.stamp = instant[1].header.stamp
+        total.position = self._sum(instant, "position")
+        if all(part.velocity for part in instant.values()):
+            total.velocity = self._sum(instant, "velocity")
+        self._publish_states(total)
+
+    def _sum(self, instant: dict[int, CableStates], field: str) -> list[float]:
+        total = dict.fromkeys(self._names, 0.0)
+        for number, part in instant.items():
+            values = dict(zip(part.name, getattr(part, field), strict=True))
+            for name in self._through[number]:
+                total[name] += values[name]
+        return list(total.values())
+
+    def _on_commands(self, message: CableStates) -> None:
+        messages.same_length("position", message.position, message.name)
+        messages.same_length("velocity", message.velocity, message.name, optional=True)
+        order = messages.indices_of(self._names, message.name)
+        lengths = messages.finite("position", np.asarray(message.position)[order])
+        w = untangle(lengths, self.arm)
+        w_rate = None
+        if message.velocity:
+            velocities = messages.finite("velocity", np.asarray(message.velocity)[order])
+            w_rate = untangle_rates(lengths, velocities, self.arm)
+        for i, section in enumerate(self.arm.sections):
+            n_own = len(section.cable_names)
+            command = CableStates(section=i + 1, name=list(section.cable_names))
+            command.header.stamp = message.header.stamp
+            command.position = section_lengths(w[i], self.arm, i)[:n_own]
+            if w_rate is not None:
+                command.velocity = section_length_rates(w[i], w_rate[i], self.arm, i)[:n_own]
+            self._publish_commands(command)

@@ -1,0 +1,7 @@
+"""The executable ``markers``."""
+
+from continuum_manipulator.nodekit.run import run
+
+
+def main() -> int:
+    return run("continuum_manipulator.markers:MarkersNode")

@@ -1,0 +1,83 @@
+"""Checks of what a message carries. All raise :class:`MessageFault` and name the field."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum_manipulator.nodekit.faults import MessageFault
+
+NOT_FINITE = "not finite"
+WRONG_LENGTH = "wrong length"
+REPEATED_NAME = "repeated name"
+MISSING_NAME = "missing name"
+UNKNOWN_NAME = "unknown name"
+WRONG_FRAME = "wrong frame"
+NO_ROTATION = "no rotation"
+REFUSED = "value out of range"
+
+
+def finite(field: str, values: Sequence[float]) -> Array:
+    """The values as an array, all of them finite."""
+    array = np.asarray(values, dtype=float)
+    bad = ~np.isfinite(array)
+    if bad.any():
+        i = int(np.argmax(bad))
+        raise MessageFault(NOT_FINITE, f"{field}[{i}] is {array[i]}; a finite number is needed")
+    return array
+
+
+def finite_vector(field: str, vector: object) -> Array:
+    """x, y, z of a ``geometry_msgs`` point or vector as an array (3,)."""
+    values = [getattr(vector, axis) for axis in "xyz"]
+    for axis, value in zip("xyz", values, strict=True):
+        if not math.isfinite(value):
+            raise MessageFault(NOT_FINITE, f"{field}.{axis} is {value}; a finite number is needed")
+    return np.array(values)
+
+
+def z_axis(field: str, quaternion: object) -> Array:
+    """z axis (3,) of the frame that a ``geometry_msgs/Quaternion`` turns to; its norm need not be exactly 1."""
+    x, y, z, w = (getattr(quaternion, part) for part in "xyzw")
+    norm = math.hypot(x, y, z, w)
+    if not math.isfinite(norm):
+        raise MessageFault(NOT_FINITE, f"{field} is ({x}, {y}, {z}, {w}); finite numbers are needed")
+    if norm < 1e-6:
+        raise MessageFault(NO_ROTATION, f"{field} is ({x}, {y}, {z}, {w}); its norm must not be 0")
+    x, y, z, w = x / norm, y / norm, z / norm, w / norm
+    return np.array([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)])
+
+
+def same_length(field: str, values: Sequence[float], names: Sequence[str], optional: bool = False) -> None:
+    """``values`` has one entry for every name; with ``optional`` it may also be empty (not known)."""
+    if len(values) == len(names) or (optional and len(values) == 0):
+        return
+    allowed = f"{len(names)}, one for every name" + (", or none" if optional else "")
+    raise MessageFault(WRONG_LENGTH, f"{field} has {len(values)} entries; allowed: {allowed}")
+
+
+def positions_by_name(names: Sequence[str]) -> dict[str, int]:
+    """Where each name stands; no name may stand twice."""
+    index = {name: i for i, name in enumerate(names)}
+    if len(index) < len(names):
+        twice = next(name for i, name in enumerate(names) if index[name] != i)
+        raise MessageFault(REPEATED_NAME, f"{twice} appears more than once")
+    return index
+
+
+def indices_of(wanted: Sequence[str], names: Sequence[str]) -> list[int]:
+    """Where the wanted names stand in ``names``; all must be there."""
+    index = positions_by_name(names)
+    missing = [name for name in wanted if name not in index]
+    if missing:
+        raise MessageFault(MISSING_NAME, f"{', '.join(missing)} not in the message")
+    return [index[name] for name in wanted]
+
+
+def frame(field: str, frame_id: str, allowed: str) -> None:
+    """The frame is ``allowed``, or not said."""
+    if frame_id not in ("", allowed):
+        raise MessageFault(WRONG_FRAME, f"{field} is {frame_id!r}; allowed: {allowed!r} or empty")

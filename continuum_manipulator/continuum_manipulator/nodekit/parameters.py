@@ -1,0 +1,143 @@
+"""A node's parameters: declared from their specifications with description, type and range, fixed after start."""
+
+from __future__ import annotations
+
+import sys
+from array import array
+from collections.abc import Iterable, Mapping
+
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rclpy.node import Node
+
+from continuum.arm import SECTION_PARAMETERS, Arm, arm_from_mapping, arm_to_mapping
+from continuum.errors import ContinuumError, InvalidValueError
+from continuum.parameter_spec import ParameterSpec, Value
+
+SIM_TIME = ParameterSpec("use_sim_time", bool, "take the time from /clock", default=False)
+OF_EVERY_NODE = (SIM_TIME.name, "start_type_description_service")
+OF_EVERY_NODE_PREFIX = "qos_overrides."
+ARM_PREFIX = "arm."
+ARM_SECTIONS = ParameterSpec("sections", str, "names of the arm's sections from the base", is_list=True)
+
+
+class UnknownParameterError(ContinuumError):
+    """A parameter was given that the node does not know."""
+
+    def __init__(self, name: str, known: Iterable[str]) -> None:
+        super().__init__(f"unknown parameter {name!r}; known: {', '.join(known)}")
+
+
+def given_parameters(node: Node) -> dict[str, object]:
+    """What the command line and parameter files give this node, without the parameters that every ROS node has.
+
+    The node must have been made with ``automatically_declare_parameters_from_overrides=True``.
+
+    Raises:
+        InvalidValueError: a parameter of every ROS node is wrong.
+    """
+    SIM_TIME.check(node.get_parameter(SIM_TIME.name).value)
+    names = [
+        name
+        for name in node.list_parameters([], 0).names
+        if name not in OF_EVERY_NODE and not name.startswith(OF_EVERY_NODE_PREFIX)
+    ]
+    return {parameter.name: _plain(parameter.value) for parameter in node.get_parameters(names)}
+
+
+def declare_parameters(node: Node, specs: Iterable[ParameterSpec], given: Mapping[str, object]) -> dict[str, Value]:
+    """Check the given values against ``specs`` and declare them; parameters that are not given take their default.
+
+    Raises:
+        InvalidValueError: wrong type or out of range, or a parameter without a default is missing.
+    """
+    values = {}
+    for spec in specs:
+        value = spec.check(given.get(spec.name, spec.default))
+        _declare(node, spec, spec.name, value)
+        values[spec.name] = value
+    return values
+
+
+def declare_arm(node: Node, given: Mapping[str, object]) -> Arm:
+    """Build the arm from the parameters ``arm.*`` and declare them, defaults included.
+
+    Raises:
+        InvalidValueError: no arm is given, or one of its parameters is missing, unknown or out of range.
+    """
+    block = _nested({name: value for name, value in given.items() if _is_of_arm(name)}).get("arm")
+    if not isinstance(block, Mapping):
+        raise InvalidValueError(
+            "arm", block, "a block arm.sections, arm.<section>.n_joints, ..., as in a file given by --params-file"
+        )
+    arm = arm_from_mapping(block)
+    for name, value in arm_to_mapping(arm).items():
+        if name == ARM_SECTIONS.name:
+            _declare(node, ARM_SECTIONS, ARM_PREFIX + name, value)
+            continue
+        for spec in SECTION_PARAMETERS:
+            _declare(node, spec, f"{ARM_PREFIX}{name}.{spec.name}", value[spec.name])
+    return arm
+
+
+def refuse_unknown(given: Iterable[str], specs: Iterable[ParameterSpec], with_arm: bool) -> None:
+    """Refuse parameters that the node does not know; those of the arm are checked with the arm.
+
+    Raises:
+        UnknownParameterError: names the first one, and what is known.
+    """
+    known = [spec.name for spec in specs]
+    for name in given:
+        if name not in known and not (with_arm and _is_of_arm(name)):
+            raise UnknownParameterError(name, [*known, *(["arm.*"] if with_arm else []), *OF_EVERY_NODE])
+
+
+def describe(spec: ParameterSpec) -> ParameterDescriptor:
+    """The parameter as ROS tools show it."""
+    unit = f" [{spec.unit}]" if spec.unit else ""
+    descriptor = ParameterDescriptor(
+        description=spec.description + unit, additional_constraints=spec.allowed, read_only=True
+    )
+    bounded = spec.lower > -sys.float_info.max or spec.upper < sys.float_info.max
+    if spec.kind is float and bounded:
+        lower, upper = max(spec.lower, -sys.float_info.max), min(spec.upper, sys.float_info.max)
+        descriptor.floating_point_range = [FloatingPointRange(from_value=lower, to_value=upper)]
+    if spec.kind is int and bounded:
+        lower, upper = max(spec.lower, -(2**63)), min(spec.upper, 2**63 - 1)
+        descriptor.integer_range = [IntegerRange(from_value=int(lower), to_value=int(upper))]
+    return descriptor
+
+
+def _declare(node: Node, spec: ParameterSpec, name: str, value: Value) -> None:
+    if node.has_parameter(name):
+        node.undeclare_parameter(name)
+    if value == []:
+        return  # ROS cannot tell the type of an empty list; not declared means the same
+    node.declare_parameter(name, value, describe(spec), ignore_override=True)
+
+
+def _is_of_arm(name: str) -> bool:
+    return name == "arm" or name.startswith(ARM_PREFIX)
+
+
+def _nested(flat: Mapping[str, object]) -> dict[str, object]:
+    """Blocks within blocks from names with dots.
+
+    Raises:
+        InvalidValueError: a name is a value and a block at once.
+    """
+    root: dict[str, object] = {}
+    for name, value in sorted(flat.items()):
+        *blocks, last = name.split(".")
+        here = root
+        for depth, block in enumerate(blocks):
+            inner = here.setdefault(block, {})
+            if not isinstance(inner, dict):
+                raise InvalidValueError(".".join(blocks[: depth + 1]), inner, "a block of parameters")
+            here = inner
+        here[last] = value
+    return root
+
+
+def _plain(value: object) -> object:
+    """Lists of numbers arrive as ``array.array``; the checks want plain lists."""
+    return list(value) if isinstance(value, array) else value

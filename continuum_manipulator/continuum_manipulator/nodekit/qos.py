@@ -1,0 +1,21 @@
+"""Quality of service of the workspace's topics (docs/architecture.md, Topics)."""
+
+from __future__ import annotations
+
+from rclpy.qos import QoSDurabilityPolicy, QoSHistoryPolicy, QoSProfile, QoSReliabilityPolicy
+
+STREAM = QoSProfile(
+    reliability=QoSReliabilityPolicy.RELIABLE,
+    durability=QoSDurabilityPolicy.VOLATILE,
+    history=QoSHistoryPolicy.KEEP_LAST,
+    depth=200,
+)
+"""Every stream of states and commands: a slow reader catches up, nothing in between is dropped."""
+
+REPORT = QoSProfile(
+    reliability=QoSReliabilityPolicy.RELIABLE,
+    durability=QoSDurabilityPolicy.VOLATILE,
+    history=QoSHistoryPolicy.KEEP_LAST,
+    depth=10,
+)
+"""ROS's usual setting, for diagnostics and markers: only the latest matter."""

@@ -1,0 +1,92 @@
+"""Instants of messages, and joining what several sources said at the same one."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable
+from typing import Protocol
+
+NANOSECONDS = 1_000_000_000
+
+
+class Stamp(Protocol):
+    """The fields of ``builtin_interfaces/Time``."""
+
+    sec: int
+    nanosec: int
+
+
+def nanoseconds(stamp: Stamp) -> int:
+    """The stamp as one whole number [ns]."""
+    return stamp.sec * NANOSECONDS + stamp.nanosec
+
+
+class StampJoiner[Key: Hashable, Message]:
+    """Collects one message of every key for each stamp and gives out the complete sets, in the order of their stamps.
+
+    Stamps must be equal to the nanosecond: two instants are never mixed. Every source sends its stamps in rising order,
+    so when a set is complete, the older ones that still miss a part can no longer be completed: they are given up.
+    A set that is complete far behind the last one given out says that all sources went back in time (a recording
+    played again, a simulation reset); the order starts anew there.
+
+    Args:
+        keys: the sources of a complete set.
+        capacity: stamps kept open at once; beyond it the set that was opened first is given up.
+        restart_gap: how far behind the last set a complete set must be to count as a restart [ns].
+
+    Attributes:
+        incomplete: sets given up.
+        late: messages whose set came too late to be given out in order.
+        repeated: messages that a source sent twice for one stamp; the first is used.
+    """
+
+    def __init__(self, keys: Iterable[Key], capacity: int = 200, restart_gap: int = NANOSECONDS) -> None:
+        self._keys = frozenset(keys)
+        self._capacity = capacity
+        self._restart_gap = restart_gap
+        self._open: dict[int, dict[Key, Message]] = {}
+        self._last: int | None = None
+        self.incomplete = 0
+        self.late = 0
+        self.repeated = 0
+
+    @property
+    def waiting(self) -> int:
+        """Stamps that still miss a part."""
+        return len(self._open)
+
+    def add(self, key: Key, stamp: int, message: Message) -> dict[Key, Message] | None:
+        """Take a message of ``key`` at ``stamp`` [ns]; return the set that it completes, or None.
+
+        Raises:
+            KeyError: ``key`` is none of the sources.
+        """
+        if key not in self._keys:
+            raise KeyError(key)
+        if stamp == self._last:
+            self.late += 1
+            return None
+        parts = self._open.setdefault(stamp, {})
+        if key in parts:
+            self.repeated += 1
+            return None
+        parts[key] = message
+        if len(parts) < len(self._keys):
+            self._bound()
+            return None
+        del self._open[stamp]
+        if self._last is not None and self._last - self._restart_gap <= stamp < self._last:
+            self.late += len(parts)
+            return None
+        self._last = stamp
+        self._give_up([other for other in self._open if other < stamp])
+        return parts
+
+    def _bound(self) -> None:
+        surplus = len(self._open) - self._capacity
+        if surplus > 0:
+            self._give_up(list(self._open)[:surplus])
+
+    def _give_up(self, stamps: list[int]) -> None:
+        for stamp in stamps:
+            del self._open[stamp]
+        self.incomplete += len(stamps)

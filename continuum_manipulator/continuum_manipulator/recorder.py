@@ -1,0 +1,149 @@
+"""Node that records topics to rosbag2."""
+
+from __future__ import annotations
+
+import importlib
+import time
+from dataclasses import dataclass
+
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
+from rosbags.interfaces import Connection
+
+from continuum.errors import FileError
+from continuum.parameter_spec import ParameterSpec
+from continuum_manipulator.bag_qos import heard_by_all, offered
+from continuum_manipulator.bag_writer import STORAGES, BagWriter
+from continuum_manipulator.message_definitions import message_definition
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+
+SCAN_PERIOD = 0.1
+"""Seconds between two looks for new topics and publishers."""
+
+DRAIN_LIMIT = 3.0
+"""Seconds after which a stopped recorder no longer waits for messages under way."""
+
+
+@dataclass
+class _Recorded:
+    """One topic: the subscription that feeds it, and from the first message on its place in the recording."""
+
+    message_type: str
+    qos: QoSProfile
+    subscription: Subscription
+    place: Connection | None = None
+
+
+class RecorderNode(CheckedNode):
+    """Records topics to a rosbag2 folder, from when they appear, with the quality of service they are offered with.
+
+    It says ``recording N topics`` whenever it has subscribed to more, and sums up at the end.
+    """
+
+    NAME = "recorder"
+    PARAMETERS = (
+        ParameterSpec("topics", str, "topics to record; none means all, also those that appear later",
+                      is_list=True, default=[]),
+        ParameterSpec("output", str, "folder of the recording; it must not exist. Empty: rosbag2_<date>", default=""),
+        ParameterSpec("storage", str, "format of the recording", choices=STORAGES, default="mcap"),
+        ParameterSpec(
+            "flush_period", float, "time after which a message is safe even if the recorder is killed", "s", 0.01,
+            3600.0, default=1.0,
+        ),
+    )  # fmt: skip
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._wanted = {self.resolve_topic_name(topic) for topic in self.values["topics"]}
+        self._recorded: dict[str, _Recorded] = {}
+        self._refused: set[str] = set()
+        self._drain_until: float | None = None
+        self._count_before = -1
+        self._bag = BagWriter(
+            self.values["output"] or time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S"), self.values["storage"]
+        )
+        self.diagnostics.values["recording"] = lambda: self._bag.path
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._scan_timer = self.create_timer(SCAN_PERIOD, self._scan, clock=steady)
+        self._flush_timer = self.create_timer(self.values["flush_period"], self._bag.flush, clock=steady)
+        self._scan()
+
+    def _scan(self) -> None:
+        """Subscribe to what is new, and again where a publisher offers less than what was asked for."""
+        before = len(self._recorded)
+        for topic, types in self.get_topic_names_and_types():
+            if topic in self._refused or (self._wanted and topic not in self._wanted):
+                continue
+            profiles = self._profiles(topic)
+            qos = heard_by_all(profiles)
+            recorded = self._recorded.get(topic)
+            if recorded is None:
+                self._record(topic, types[0], qos)
+            elif profiles and qos != recorded.qos:
+                self.destroy_subscription(recorded.subscription)
+                recorded.qos = qos
+                recorded.subscription = self._subscribe(topic, recorded.message_type, qos)
+        if len(self._recorded) > before:
+            self.get_logger().info(f"recording {len(self._recorded)} topics to {self._bag.path}")
+
+    def _profiles(self, topic: str) -> list[QoSProfile]:
+        return [info.qos_profile for info in self.get_publishers_info_by_topic(topic)]
+
+    def _record(self, topic: str, message_type: str, qos: QoSProfile) -> None:
+        try:
+            message_definition(message_type)
+            self._recorded[topic] = _Recorded(message_type, qos, self._subscribe(topic, message_type, qos))
+        except FileError as error:
+            self._refused.add(topic)
+            self.diagnostics.warnings.note("topics that cannot be recorded", f"{topic}: {error}")
+
+    def _subscribe(self, topic: str, message_type: str, qos: QoSProfile) -> Subscription:
+        received, clock = self.diagnostics.received, self.get_clock()
+
+        def write(raw: bytes) -> None:
+            self._bag.write(self._place(topic), raw, clock.now().nanoseconds)
+            received[topic] += 1
+
+        return self.create_subscription(_message_class(message_type), topic, write, qos, raw=True)
+
+    def _place(self, topic: str) -> Connection:
+        """Where the topic's messages go; announced with the first one, when its publishers' offers are known."""
+        recorded = self._recorded[topic]
+        if recorded.place is None:
+            offers = [offered(profile) for profile in self._profiles(topic)]
+            recorded.place = self._bag.add_topic(topic, recorded.message_type, offers)
+        return recorded.place
+
+    def draining(self) -> bool:
+        """Until no message is under way any more."""
+        now, count = time.monotonic(), self.diagnostics.received.total()
+        if self._drain_until is None:
+            self._drain_until = now + DRAIN_LIMIT
+        more = count > self._count_before and now < self._drain_until
+        self._count_before = count
+        return more
+
+    def close(self) -> None:
+        for topic in self._recorded:
+            self._place(topic)  # topics without a message are listed too
+        self._bag.close()
+        counts = self._bag.counts
+        lines = [f"{count:>8}  {topic}" for topic, count in sorted(counts.items())]
+        self.get_logger().info(
+            "\n".join([f"recorded {sum(counts.values())} messages of {len(counts)} topics to {self._bag.path}", *lines])
+        )
+
+
+def _message_class(message_type: str) -> type:
+    """The Python class of e.g. ``sensor_msgs/msg/JointState``.
+
+    Raises:
+        FileError: it is not installed.
+    """
+    package, folder, name = message_type.split("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.{folder}"), name)
+    except (ImportError, AttributeError) as error:
+        raise FileError(message_type, f"cannot be imported ({error})") from error

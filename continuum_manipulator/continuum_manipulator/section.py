@@ -1,0 +1,84 @@
+"""Node of one section: its joints to its configuration and cables, and its commanded cables to its joints."""
+
+from __future__ import annotations
+
+import numpy as np
+from sensor_msgs.msg import JointState
+
+from continuum.kinematics.cables import configuration_cable_jacobian, configuration_from_cables
+from continuum.kinematics.routing import cables_through, section_length_rates, section_lengths
+from continuum.parameter_spec import ParameterSpec
+from continuum_manipulator.config_states import config_states
+from continuum_manipulator.nodekit import messages
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.faults import MessageFault
+from continuum_manipulator.section_joints import Configuration, joint_names, joint_values, read_joints
+from continuum_manipulator.section_number import checked_section
+from continuum_msgs.msg import CableStates, ConfigStates
+
+
+class SectionNode(CheckedNode):
+    """``joint_states`` to ``section_config_states`` and ``section_cable_states``, and back.
+
+    ``section_cable_commands`` for this section become ``section_joint_states``. One message in gives one out of each,
+    with the same stamp.
+    """
+
+    NAME = "section"
+    PARAMETERS = (ParameterSpec("section", int, "which section of the arm this node is, 1 at the base", lower=1),)
+    HAS_ARM = True
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._number = checked_section(self.values["section"], self.arm)
+        self._section = self.arm.sections[self._number - 1]
+        self._cables = list(cables_through(self.arm, self._number - 1).names)
+        self._joints = list(joint_names(self._section))
+        self._joints_of_others = {
+            name for section in self.arm.sections if section is not self._section for name in joint_names(section)
+        }
+        self._publish_config = self.offer(ConfigStates, "section_config_states")
+        self._publish_cables = self.offer(CableStates, "section_cable_states")
+        self._publish_joints = self.offer(JointState, "section_joint_states")
+        self.listen(JointState, "joint_states", self._on_joints)
+        self.listen(CableStates, "section_cable_commands", self._on_cables)
+
+    def _on_joints(self, message: JointState) -> None:
+        messages.same_length("position", message.position, message.name)
+        messages.same_length("velocity", message.velocity, message.name, optional=True)
+        index = messages.positions_by_name(message.name)
+        state = read_joints(index, message.position, message.velocity, self._section)
+        if state is None:
+            if self._joints_of_others.isdisjoint(index):
+                raise MessageFault(messages.MISSING_NAME, "no joint of this arm is in the message")
+            self.diagnostics.ignored["joint_states"] += 1
+            return
+        config = config_states(state, self._section, self._number)
+        config.header.stamp = message.header.stamp
+        cables = CableStates(section=self._number, name=self._cables)
+        cables.header.stamp = message.header.stamp
+        cables.position = section_lengths(state.w, self.arm, self._number - 1)
+        if state.rate is not None:
+            cables.velocity = section_length_rates(state.w, state.rate, self.arm, self._number - 1)
+        self._publish_config(config)
+        self._publish_cables(cables)
+
+    def _on_cables(self, message: CableStates) -> None:
+        if checked_section(message.section, self.arm) != self._number:
+            self.diagnostics.ignored["section_cable_commands"] += 1
+            return
+        messages.same_length("position", message.position, message.name)
+        messages.same_length("velocity", message.velocity, message.name, optional=True)
+        own = messages.indices_of(self._section.cable_names, message.name)
+        lengths = messages.finite("position", np.asarray(message.position)[own])
+        rate = None
+        if message.velocity:
+            velocities = messages.finite("velocity", np.asarray(message.velocity)[own])
+            rate = configuration_cable_jacobian(lengths, self._section) @ velocities
+        state = Configuration(configuration_from_cables(lengths, self._section), rate)
+        positions, velocities = joint_values(state, self._section)
+        joints = JointState(name=self._joints, position=positions)
+        joints.header.stamp = message.header.stamp
+        if velocities is not None:
+            joints.velocity = velocities
+        self._publish_joints(joints)

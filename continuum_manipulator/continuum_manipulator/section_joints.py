@@ -1,0 +1,103 @@
+"""Joints of a section in ``sensor_msgs/JointState``: by name, to and from the configuration (thesis appendix A).
+
+A section turns by phi at its base, bends by theta / n at each of its n joints, and turns back by -phi at its tip.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.arm import Section
+from continuum.arrays import Array
+from continuum.kinematics.configuration import allen_from_jones, allen_rates, jones_from_allen, jones_rates
+from continuum_manipulator.nodekit import messages
+from continuum_manipulator.nodekit.faults import MessageFault
+
+STRAIGHT = 1e-12
+"""Bend below which a section counts as straight [rad]: phi's rate grows without limit there and is not used."""
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """Configuration ``w`` (2,) [rad] of a section, and its rate (2,) [rad/s] where it is known."""
+
+    w: Array
+    rate: Array | None
+
+
+def joint_names(section: Section) -> tuple[str, ...]:
+    """Names of the section's joints from base to tip."""
+    return (section.phi_joint, *section.theta_joints, section.phi_back_joint)
+
+
+def joint_values(state: Configuration, section: Section) -> tuple[Array, Array | None]:
+    """Positions (n_joints + 2,) [rad] and rates [rad/s], or None, of the joints of :func:`joint_names`.
+
+    phi of the straight posture is free; it is chosen so that phi and theta can carry the rate.
+    """
+    phi, theta = jones_from_allen(state.w)
+    if state.rate is None:
+        return _spread(phi, theta, section), None
+    if theta < STRAIGHT:
+        phi, theta_rate = jones_from_allen(state.rate)
+        return _spread(phi, np.float64(0.0), section), _spread(np.float64(0.0), theta_rate, section)
+    return _spread(phi, theta, section), _spread(*jones_rates(state.w, state.rate), section)
+
+
+def read_joints(
+    index: Mapping[str, int], positions: Sequence[float], velocities: Sequence[float], section: Section
+) -> Configuration | None:
+    """Configuration of the section from a message's joints; None where it has none of the section's.
+
+    phi must be there, and of the theta joints either all, whose sum is theta, or the first alone, which leads them.
+
+    Args:
+        index: where each joint's name stands in the message.
+        positions: [rad], one for each name.
+        velocities: [rad/s], one for each name, or empty.
+        section: the section.
+
+    Raises:
+        MessageFault: some of the joints are missing, a value is not finite, or the bend is not possible.
+    """
+    own = [name for name in joint_names(section) if name in index]
+    if not own:
+        return None
+    thetas = [name for name in section.theta_joints if name in index]
+    if section.phi_joint not in index or thetas not in (list(section.theta_joints), [section.theta_joints[0]]):
+        missing = [section.phi_joint, *section.theta_joints]
+        missing = [name for name in missing if name not in index]
+        raise MessageFault(messages.MISSING_NAME, f"joints {', '.join(missing)} not in the message")
+    phi, theta = _phi_and_theta("position", index, positions, thetas, section)
+    if not abs(theta) <= section.contact_bend:
+        raise MessageFault(
+            messages.REFUSED,
+            f"bend of {section.name} is {theta:.6g} rad; allowed: up to {section.contact_bend:.6g} rad, "
+            "where its discs meet",
+        )
+    theta = theta if abs(theta) >= STRAIGHT else np.float64(0.0)
+    w = allen_from_jones(phi, theta)
+    if not len(velocities):
+        return Configuration(w, None)
+    phi_rate, theta_rate = _phi_and_theta("velocity", index, velocities, thetas, section)
+    return Configuration(w, allen_rates(phi, theta, phi_rate, theta_rate))
+
+
+def _phi_and_theta(
+    field: str, index: Mapping[str, int], values: Sequence[float], thetas: Sequence[str], section: Section
+) -> tuple[Array, Array]:
+    for name in (section.phi_joint, *thetas):
+        if not math.isfinite(values[index[name]]):
+            raise MessageFault(
+                messages.NOT_FINITE, f"{field} of {name} is {values[index[name]]}; a finite number is needed"
+            )
+    share = section.n_joints / len(thetas)
+    return np.float64(values[index[section.phi_joint]]), share * np.sum([values[index[name]] for name in thetas])
+
+
+def _spread(phi: Array, theta: Array, section: Section) -> Array:
+    return np.concatenate([[phi], np.full(section.n_joints, theta / section.n_joints), [-phi]])

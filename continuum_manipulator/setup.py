@@ -1,0 +1,28 @@
+from glob import glob
+
+from setuptools import find_packages, setup
+
+package_name = "continuum_manipulator"
+
+setup(
+    name=package_name,
+    version="0.1.0",
+    packages=find_packages(exclude=["test"]),
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
+        (f"share/{package_name}", ["package.xml"]),
+        (f"share/{package_name}/config", glob("config/*.*")),
+        (f"share/{package_name}/launch", glob("launch/*.*")),
+    ],
+    install_requires=["setuptools"],
+    zip_safe=True,
+    entry_points={
+        "console_scripts": [
+            "section = continuum_manipulator.section_node:main",
+            "robot = continuum_manipulator.robot_node:main",
+            "cable_tangler = continuum_manipulator.cable_tangler_node:main",
+            "markers = continuum_manipulator.markers_node:main",
+            "recorder = continuum_manipulator.recorder_node:main",
+        ],
+    },
+)

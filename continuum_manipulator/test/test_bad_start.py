@@ -1,0 +1,92 @@
+"""A node that is started wrongly says so in one line and ends; one that is stopped ends without a traceback."""
+
+import signal
+
+import pytest
+from harness import ARM_FILE, NodeProcess, Probe
+
+pytestmark = pytest.mark.ros
+
+ARM = (ARM_FILE,)
+
+BAD_PARAMETERS = {
+    "negative radius": ("section", ARM, {"section": 1, "arm.section_2.a": -0.03}, "arm.section_2.a is -0.03; allowed:"),
+    "section beyond the arm": ("section", ARM, {"section": 4}, "section is 4; allowed: 1 to 3"),
+    "section of the wrong type": ("section", ARM, {"section": "first"}, "section is 'first'; allowed: a whole number"),
+    "unknown name": ("robot", ARM, {"targets": "position"}, "unknown parameter 'targets'; known: target,"),
+    "unknown choice": ("robot", ARM, {"target": "speed"}, "allowed: one of position, position_direction"),
+    "not finite": ("robot", ARM, {"tolerance": ".nan"}, "tolerance is nan; allowed: a finite number"),
+    "section name without a block": ("cable_tangler", ARM, {"arm.sections": "[section_1, elbow]"}, "section_"),
+    "section block without a name": ("cable_tangler", ARM, {"arm.elbow.a": 0.03}, "arm.elbow is {'a': 0.03}; allowed:"),
+    "too few sections listed": ("cable_tangler", ARM, {"arm.sections": "[section_1]"}, "arm.section_2 is"),
+    "a value where a block is due": ("markers", ARM, {"arm.section_1.a.b": 1}, "arm.section_1.a"),
+    "no arm": ("markers", (), {}, "arm is None; allowed: a block"),
+    "unknown storage": ("recorder", (), {"storage": "tape"}, "storage is 'tape'; allowed: one of mcap, sqlite3"),
+}
+
+
+def error_lines(node: NodeProcess) -> list[str]:
+    try:
+        assert node.exit_code() == 2
+        return node.stderr.splitlines()
+    finally:
+        node.close()
+
+
+@pytest.mark.parametrize("case", BAD_PARAMETERS)
+def test_bad_parameter_ends_the_node_with_one_line(case, domain):
+    executable, files, parameters, expected = BAD_PARAMETERS[case]
+    lines = error_lines(NodeProcess("continuum_manipulator", executable, domain, files=files, parameters=parameters))
+    assert len(lines) == 1
+    assert expected in lines[0]
+    assert lines[0].startswith(f"{executable}: error: ")
+
+
+def test_existing_folder_is_not_recorded_over(domain, tmp_path):
+    (line,) = error_lines(NodeProcess("continuum_manipulator", "recorder", domain, parameters={"output": tmp_path}))
+    assert "exists already" in line
+
+
+def test_arm_file_that_is_no_parameter_file(domain, tmp_path):
+    file = tmp_path / "arm.yaml"
+    file.write_text("/**:\n  ros__parameters:\n    arm: {sections: [a, 1.5]}\n")
+    (line,) = error_lines(NodeProcess("continuum_manipulator", "robot", domain, files=(file,)))
+    assert str(file) in line
+    assert ".c:" not in line
+
+
+def test_simulated_time_is_on_or_off(domain):
+    node = NodeProcess("continuum_manipulator", "robot", domain, files=ARM, parameters={"use_sim_time": "perhaps"})
+    *said_by_ros, line = error_lines(node)
+    assert all(line.startswith("[ERROR]") for line in said_by_ros)
+    assert line == "robot: error: use_sim_time is 'perhaps'; allowed: true or false"
+
+
+def test_unknown_argument(domain):
+    (line,) = error_lines(NodeProcess("continuum_manipulator", "robot", domain, arguments=("--verbose",)))
+    assert "unknown argument '--verbose'" in line
+
+
+@pytest.fixture(scope="module")
+def probe(domain):
+    with Probe(domain) as probe:
+        yield probe
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("delay", ["at once", "when it runs"])
+@pytest.mark.parametrize("twice", [False, True])
+def test_signal_ends_a_node_cleanly_from_its_first_moment(domain, probe, number, delay, twice):
+    name = f"section_{delay}_{number.name}_{twice}".replace(" ", "_")
+    node = NodeProcess("continuum_manipulator", "section", domain, name=name, files=ARM, parameters={"section": 1})
+    try:
+        node.wait_for_handler()
+        if delay == "when it runs":
+            probe.wait_for_nodes(name)
+        node.send(number)
+        if twice:
+            node.send(number)
+        assert node.exit_code() == 0
+        assert node.stderr == ""
+    finally:
+        node.close()

@@ -1,0 +1,94 @@
+"""Joining by stamp: never two instants in one set, in order, nothing lost that could be joined, bounded."""
+
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from continuum_manipulator.nodekit.stamps import StampJoiner, nanoseconds
+
+KEYS = "abc"
+
+
+@st.composite
+def streams_in_order(draw):
+    """Arrivals (key, stamp) of sources whose own stamps rise, interleaved at random, some messages lost."""
+    stamps = {key: sorted(draw(st.sets(st.integers(0, 30)))) for key in KEYS}
+    order = draw(st.permutations([key for key, values in stamps.items() for _ in values]))
+    return [(key, stamps[key].pop(0)) for key in order]
+
+
+def feed(joiner, arrivals):
+    """Stamps of the sets given out; every part carries the stamp and source that it came with."""
+    given_out = []
+    for key, stamp in arrivals:
+        parts = joiner.add(key, stamp, (key, stamp))
+        if parts is not None:
+            assert {name: part[0] for name, part in parts.items()} == {name: name for name in KEYS}
+            instants = {part[1] for part in parts.values()}
+            assert len(instants) == 1
+            given_out += instants
+    return given_out
+
+
+@given(streams_in_order())
+def test_gives_out_exactly_the_instants_that_all_have(arrivals):
+    common = set.intersection(*({stamp for key, stamp in arrivals if key == name} for name in KEYS))
+    joiner = StampJoiner(KEYS)
+    assert feed(joiner, arrivals) == sorted(common)
+    stamps = {stamp for _, stamp in arrivals}
+    assert joiner.incomplete + joiner.waiting == len(stamps - common)
+    assert joiner.late == joiner.repeated == 0
+
+
+@given(st.lists(st.tuples(st.sampled_from(KEYS), st.integers(0, 12))))
+def test_any_arrivals_keep_order_and_instants_apart(arrivals):
+    given_out = feed(StampJoiner(KEYS), arrivals)
+    assert given_out == sorted(set(given_out))
+
+
+@given(st.lists(st.tuples(st.sampled_from(KEYS), st.integers(0, 1000))), st.integers(1, 5))
+def test_is_bounded(arrivals, capacity):
+    joiner = StampJoiner(KEYS, capacity)
+    for key, stamp in arrivals:
+        joiner.add(key, stamp, None)
+        assert joiner.waiting <= capacity
+
+
+def test_repeated_message_is_counted_and_the_first_used():
+    joiner = StampJoiner(KEYS)
+    joiner.add("a", 1, "first")
+    joiner.add("a", 1, "second")
+    joiner.add("b", 1, "b")
+    assert joiner.add("c", 1, "c") == {"a": "first", "b": "b", "c": "c"}
+    assert joiner.repeated == 1
+
+
+def test_set_completed_behind_a_newer_one_is_late():
+    joiner = StampJoiner("ab")
+    assert feed_pairs(joiner, [5, 4]) == [5]
+    assert joiner.late == 2
+
+
+def test_sources_that_go_back_in_time_start_anew():
+    joiner = StampJoiner("ab", restart_gap=10)
+    assert feed_pairs(joiner, [100, 101, 50, 51]) == [100, 101, 50, 51]
+
+
+def test_unknown_source_is_refused():
+    with pytest.raises(KeyError):
+        StampJoiner(KEYS).add("d", 1, None)
+
+
+def test_stamp_in_nanoseconds():
+    assert nanoseconds(SimpleNamespace(sec=3, nanosec=7)) == 3_000_000_007
+
+
+def feed_pairs(joiner, stamps):
+    given_out = []
+    for stamp in stamps:
+        joiner.add("a", stamp, None)
+        if joiner.add("b", stamp, None) is not None:
+            given_out.append(stamp)
+    return given_out

@@ -1,0 +1,107 @@
+"""A node within the test that listens and speaks to the nodes under test."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any
+
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile
+
+from continuum_manipulator.nodekit.qos import REPORT, STREAM
+from harness.waiting import LONG
+
+
+class Probe:
+    """Speaks on topics and keeps all that it hears. Use as a context.
+
+    Args:
+        domain: ROS domain.
+        name: of its node.
+    """
+
+    def __init__(self, domain: int, name: str = "probe") -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=domain)
+        self.node = rclpy.create_node(name, context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._heard: list[list[Any]] = []
+        self._reports: dict[str, dict[str, str]] = {}
+        self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, REPORT)
+
+    def __enter__(self) -> Probe:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None):
+        self._executor.shutdown()
+        self.node.destroy_node()
+        rclpy.try_shutdown(context=self._context)
+
+    def hear(self, message_type: type, topic: str, qos: QoSProfile = STREAM) -> list[Any]:
+        """Subscribe; the returned list grows with every message."""
+        heard: list[Any] = []
+        self.node.create_subscription(message_type, topic, heard.append, qos)
+        self._heard.append(heard)
+        return heard
+
+    def speaker(self, message_type: type, topic: str, listeners: int = 1, qos: QoSProfile = STREAM) -> Publisher:
+        """Advertise, and wait until so many subscriptions are there."""
+        publisher = self.node.create_publisher(message_type, topic, qos)
+        self.wait_until(lambda: publisher.get_subscription_count() >= listeners, f"{listeners} listeners on {topic}")
+        return publisher
+
+    def wait_until(self, condition: Callable[[], object], what: object, timeout: float = LONG) -> None:
+        """Listen until ``condition`` holds; fail with ``what`` after ``timeout`` [s]."""
+        deadline = time.monotonic() + timeout
+        while not condition():
+            if time.monotonic() > deadline:
+                raise AssertionError(f"not within {timeout} s: {what() if callable(what) else what}")
+            self._executor.spin_once(timeout_sec=0.05)
+
+    def wait_for_nodes(self, *names: str) -> None:
+        """Listen until nodes of these names run."""
+        self.wait_until(lambda: set(names) <= set(self.node.get_node_names()), f"nodes {', '.join(names)}")
+
+    def warm_up(self, send: Callable[[], None], *heard: list[Any]) -> None:
+        """Send until every list has something, then until all answers have come, and empty the lists.
+
+        That both ends know of each other here does not say that the nodes under test know it too.
+        """
+        deadline = time.monotonic() + LONG
+        while not all(heard):
+            assert time.monotonic() < deadline, "no answer"
+            send()
+            for _ in range(5):
+                self._executor.spin_once(timeout_sec=0.02)
+        self.listen_until_quiet()
+        for messages in heard:
+            messages.clear()
+
+    def listen_until_quiet(self, quiet: float = 0.3) -> None:
+        """Listen until nothing has come on the topics heard for ``quiet`` [s]."""
+        last, before = time.monotonic(), sum(map(len, self._heard))
+        while time.monotonic() - last < quiet:
+            self._executor.spin_once(timeout_sec=0.05)
+            if sum(map(len, self._heard)) != before:
+                last, before = time.monotonic(), sum(map(len, self._heard))
+
+    def report(self, node: str) -> dict[str, str]:
+        """The latest diagnostics of a node: its values by key, and ``level`` as OK or WARN; empty before the first."""
+        return self._reports.get(node, {})
+
+    def count(self, node: str, key: str) -> int:
+        """A number of the node's latest diagnostics, 0 where it has no such entry."""
+        return int(self.report(node).get(key, 0))
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        for status in message.status:
+            values = {entry.key: entry.value for entry in status.values}
+            values["level"] = {DiagnosticStatus.OK: "OK", DiagnosticStatus.WARN: "WARN"}[status.level]
+            self._reports[status.name.removesuffix(": messages")] = values

@@ -1,0 +1,1 @@
+"""What people who work on this checkout run: set-up, demonstration, stand-in for `ros2`. No part of the product."""

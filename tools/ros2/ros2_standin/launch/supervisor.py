@@ -1,0 +1,73 @@
+"""Runs the processes of a launch together, from the first to the last end."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+
+from ros2_standin.launch.child import Child
+from ros2_standin.launch.processes import LogLine, ProcessSpec
+from ros2_standin.launch.screen import Screen
+
+_SIGNALS = {
+    signal.SIGINT: "user interrupted with ctrl-c (SIGINT)",
+    signal.SIGTERM: "asked to end (SIGTERM)",
+    signal.SIGHUP: "the terminal is gone (SIGHUP)",
+}
+
+
+async def supervise(steps: list[ProcessSpec | LogLine]) -> int:
+    """Start everything, pass its lines on, and end when the last process ends, or all of them when asked to.
+
+    Returns:
+        0, also after an interrupt or the death of a process, as the stock launch; 1 if a process could not be started.
+    """
+    return await _Supervisor().run(steps)
+
+
+class _Supervisor:
+    def __init__(self) -> None:
+        self._ending = asyncio.Event()
+        self._screen = Screen(on_broken=self._ending.set)
+        self._failed = False
+
+    async def run(self, steps: list[ProcessSpec | LogLine]) -> int:
+        loop = asyncio.get_running_loop()
+        for number in _SIGNALS:
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                loop.add_signal_handler(number, self._signalled, number)
+        self._screen.say("info", "launch", f"All log files can be found below {self._screen.folder}")
+        tasks: list[asyncio.Task] = []
+        for step in steps:
+            if isinstance(step, LogLine):
+                self._screen.say(step.level, "launch.user", step.text)
+            else:
+                child = Child(step, f"{step.name}-{len(tasks) + 1}", self._screen)
+                tasks.append(asyncio.create_task(self._attend(child)))
+        if tasks:
+            await asyncio.wait(tasks)
+        self._screen.close()
+        return 1 if self._failed else 0
+
+    def _signalled(self, number: signal.Signals) -> None:
+        text = _SIGNALS[number]
+        self._screen.say("warning", "launch", f"{text} again, ignoring..." if self._ending.is_set() else text)
+        self._ending.set()
+
+    async def _attend(self, child: Child) -> None:
+        """One process from its start to its end, which an end of the launch brings about."""
+        running = asyncio.create_task(child.run())
+        ending = asyncio.create_task(self._ending.wait())
+        await asyncio.wait([running, ending], return_when=asyncio.FIRST_COMPLETED)
+        if not running.done():
+            await child.stop(running)
+        ending.cancel()
+        if (error := running.exception()) is not None:
+            if not isinstance(error, OSError):
+                raise error
+            self._failed = True
+            self._screen.say("error", "launch", f"'{child.spec.line}' cannot be started: {error.strerror or error}")
+            self._ending.set()
+        elif child.spec.ends_launch and not self._ending.is_set():
+            self._screen.say("info", "launch", f"process[{child.label}] was required: shutting down launched system")
+            self._ending.set()

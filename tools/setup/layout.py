@@ -1,0 +1,26 @@
+"""Where the set-up reads and writes, and the one error it raises on purpose."""
+
+from pathlib import Path
+
+SETUP = Path(__file__).resolve().parent
+ROOT = SETUP.parent.parent
+
+REQUIREMENTS = SETUP / "requirements.in"
+LOCK = SETUP / "requirements.lock"
+
+VENV = ROOT / ".venv"
+PYTHON = VENV / "bin" / "python3"
+BUILD = ROOT / "build"
+INSTALL = ROOT / "install"
+LOG = ROOT / "log"
+LOG_FILE = LOG / "setup.log"
+STAMP = BUILD / "setup_stamp.json"
+
+
+class SetupError(Exception):
+    """The set-up cannot go on; the text says why and what to do."""
+
+
+def package_folders() -> list[Path]:
+    """Return the ROS packages of the checkout, by name."""
+    return sorted(path.parent for path in ROOT.glob("*/package.xml"))

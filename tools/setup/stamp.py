@@ -1,0 +1,74 @@
+"""What the present state of .venv, build and install was made from: content hashes, kept in one small file."""
+
+import hashlib
+import json
+import sys
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from tools.setup.layout import BUILD, INSTALL, LOCK, PYTHON, ROOT, SETUP, STAMP, package_folders
+
+READ_BY_BUILD = ("package.xml", "setup.cfg", "setup.py")
+
+
+@dataclass
+class Stamp:
+    """Hashes of the inputs: ``environment`` of .venv, ``packages`` of each built package."""
+
+    environment: str = ""
+    packages: dict[str, str] = field(default_factory=dict)
+
+    def write(self) -> None:
+        BUILD.mkdir(exist_ok=True)
+        STAMP.write_text(json.dumps(asdict(self), indent=1), encoding="utf-8")
+
+
+def made() -> Stamp:
+    """Return the stamp of what was built, empty where nothing usable is there."""
+    try:
+        stamp = Stamp(**json.loads(STAMP.read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError):
+        return Stamp()
+    if not PYTHON.exists():
+        return Stamp()
+    if not (INSTALL / "setup.bash").exists():
+        stamp.packages = {}
+    stamp.packages = {name: value for name, value in stamp.packages.items() if _is_installed(name)}
+    return stamp
+
+
+def wanted() -> Stamp:
+    """Return the stamp that the checkout asks for."""
+    environment = _digest([str(ROOT), sys.base_prefix, sys.version, LOCK.read_bytes()])
+    built_by = [environment, *(path.read_bytes() for path in sorted(SETUP.glob("*.cmake")))]
+    return Stamp(environment, {p.name: _digest([*built_by, *_inputs(p)]) for p in package_folders()})
+
+
+def _is_installed(name: str) -> bool:
+    return (INSTALL / name / "share" / name / "package.xml").exists()
+
+
+def _inputs(package: Path) -> Iterator[str | bytes]:
+    """What a build of ``package`` depends on.
+
+    The files of Python packages are linked, not copied, into install/, so only their names matter; all of a CMake
+    package is compiled.
+    """
+    is_python = (package / "setup.py").exists()
+    for path in sorted(package.rglob("*")):
+        relative = path.relative_to(package)
+        in_code = is_python and relative.parts[0] == package.name and relative.name != "__init__.py"
+        if in_code or relative.parts[0] == "test" or "__pycache__" in relative.parts or not path.is_file():
+            continue
+        yield str(relative)
+        if not is_python or relative.name in READ_BY_BUILD:
+            yield path.read_bytes()
+
+
+def _digest(parts: Iterable[str | bytes]) -> str:
+    digest = hashlib.sha256()
+    for part in parts:
+        data = part.encode() if isinstance(part, str) else part
+        digest.update(len(data).to_bytes(8) + data)
+    return digest.hexdigest()

@@ -1,0 +1,41 @@
+"""Every package says its name and version alike in the files where ROS's tools and Python's want them."""
+
+import ast
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from tools.setup.layout import ROOT, package_folders
+
+PYTHON_PACKAGES = [path for path in package_folders() if (path / "setup.py").exists()]
+
+
+def setup_arguments(package: Path) -> dict[str, ast.expr]:
+    calls = [node for node in ast.walk(ast.parse((package / "setup.py").read_text())) if isinstance(node, ast.Call)]
+    (call,) = [call for call in calls if isinstance(call.func, ast.Name) and call.func.id == "setup"]
+    return {keyword.arg: keyword.value for keyword in call.keywords if keyword.arg}
+
+
+def test_all_packages_are_seen() -> None:
+    assert len(package_folders()) == len(list(ROOT.glob("*/package.xml"))) >= 6
+
+
+@pytest.mark.parametrize("package", PYTHON_PACKAGES, ids=lambda path: path.name)
+def test_name_and_version_agree(package: Path) -> None:
+    manifest = ElementTree.parse(package / "package.xml").getroot()
+    assert manifest.findtext("name") == package.name
+    assert f'package_name = "{package.name}"' in (package / "setup.py").read_text()
+    assert ast.literal_eval(setup_arguments(package)["version"]) == manifest.findtext("version")
+    assert (package / "resource" / package.name).exists()
+
+
+@pytest.mark.parametrize("package", PYTHON_PACKAGES, ids=lambda path: path.name)
+def test_every_executable_has_its_module(package: Path) -> None:
+    entry_points = setup_arguments(package).get("entry_points", ast.Constant({}))
+    for line in ast.literal_eval(entry_points).get("console_scripts", []):
+        module, function = line.split("=")[1].strip().split(":")
+        path = package / f"{module.replace('.', '/')}.py"
+        path = path if path.exists() else path.with_suffix("") / "__init__.py"
+        assert path.exists(), line
+        assert function in path.read_text(), line

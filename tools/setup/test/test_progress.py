@@ -1,0 +1,48 @@
+"""What a person sees of a step."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from tools.setup import progress
+from tools.setup.layout import SetupError
+
+
+@pytest.fixture(autouse=True)
+def log(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(progress, "LOG_FILE", tmp_path / "log" / "setup.log")
+    return tmp_path / "log" / "setup.log"
+
+
+def python(code: str) -> list[str]:
+    return [sys.executable, "-c", code]
+
+
+def test_output_goes_to_the_log_and_one_line_to_the_person(log: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    with progress.Step("baking", "hint") as step:
+        step.run(python("print('much output')"), dict(os.environ))
+    shown = capfd.readouterr()
+    assert shown.out.count("\n") == 1
+    assert "baking" in shown.out
+    assert "much output" not in shown.out + shown.err
+    assert "much output" in log.read_text()
+
+
+def test_failure_shows_the_end_of_its_own_output_the_hint_and_the_log(log: Path) -> None:
+    with progress.Step("baking", "failed; light the oven") as step:
+        step.run(python("print('earlier command')"), dict(os.environ))
+        with pytest.raises(SetupError) as caught:
+            step.run(python("print('line\\n' * 100, 'no fire', sep=''); raise SystemExit(3)"), dict(os.environ))
+    text = str(caught.value)
+    assert "no fire" in text
+    assert "baking: failed; light the oven" in text
+    assert str(log) in text
+    assert "earlier command" not in text
+    assert len(text.splitlines()) < 40
+
+
+def test_a_program_that_is_not_there_is_an_error_with_its_name() -> None:
+    with pytest.raises(SetupError, match="no-such-program"), progress.Step("baking", "hint") as step:
+        step.run(["no-such-program"], dict(os.environ))

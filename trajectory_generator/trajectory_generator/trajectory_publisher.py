@@ -1,0 +1,131 @@
+"""Node that publishes a trajectory as poses and twists of the arm's tip, each at its instant."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.time import Time
+
+from continuum.parameter_spec import ParameterSpec
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.stamps import NANOSECONDS
+from trajectory_generator.from_parameters import trajectory_from_mapping
+from trajectory_generator.graph_watch import GraphWatch
+from trajectory_generator.parameters import PATH, parameters_of
+from trajectory_generator.trajectory_messages import TrajectoryMessages
+
+START_PERIOD = 0.05
+"""Seconds between two looks at whether the listeners are there."""
+
+PROGRESS_PERIOD = 5.0
+"""Seconds between two lines about the progress."""
+
+ACKNOWLEDGED_WITHIN = 5.0
+"""Seconds given to the listeners to receive the last messages before the node ends."""
+
+
+class TrajectoryPublisherNode(CheckedNode):
+    """Publishes ``traj_pose`` and ``traj_twist`` with one stamp, ``rate`` times a second, on a schedule without drift.
+
+    The schedule begins when the listeners are there. Stamps are the schedule's instants, also where the node is late.
+    """
+
+    NAME = "trajectory_publisher"
+    PARAMETERS = (
+        ParameterSpec("subscribers", int, "subscriptions of each topic needed before the start", lower=0, default=1),
+        ParameterSpec("wait_for_nodes", str, "names of nodes that must run before the start", is_list=True, default=[]),
+        ParameterSpec(
+            "settle_time", float, "time for which no node or topic has come or gone, before the start", "s", 0.0, 60.0,
+            default=0.5,
+        ),
+        ParameterSpec(
+            "wait_timeout", float, "time after which the trajectory starts without those that are missing", "s", 0.0,
+            1e6, default=60.0,
+        ),
+        ParameterSpec("loop", bool, "begin again at the end", default=False),
+        ParameterSpec("exit_at_end", bool, "end the process at the end", default=False),
+    )  # fmt: skip
+
+    def __init__(self) -> None:
+        super().__init__()
+        own = {spec.name for spec in self.PARAMETERS}
+        trajectory = trajectory_from_mapping({name: value for name, value in self.values.items() if name not in own})
+        self._rate: float = self.values["rate"]
+        self._messages = TrajectoryMessages(trajectory, self._rate)
+        self._messages.at(0, Time().to_msg())  # the slow first sampling is done before the schedule begins
+        self._next = 0
+        self._start: int | None = None
+        self.diagnostics.values["progress"] = lambda: f"{self._next} of {len(self._messages)} instants"
+        self._publish_pose = self.offer(PoseStamped, "traj_pose")
+        self._publish_twist = self.offer(TwistStamped, "traj_twist")
+        self._watch = GraphWatch(self, self.values["wait_for_nodes"], self._heard, self.values["settle_time"])
+        self._wait_until = time.monotonic() + self.values["wait_timeout"]
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._wait_timer = self.create_timer(START_PERIOD, self._wait, clock=steady)
+        self._progress_timer = self.create_timer(PROGRESS_PERIOD, self._tell_progress, clock=steady)
+
+    @classmethod
+    def parameter_specs(cls, given: Mapping[str, object]) -> tuple[ParameterSpec, ...]:
+        return (*cls.PARAMETERS, *parameters_of(given.get(PATH.name, PATH.default)))
+
+    def _heard(self) -> bool:
+        return min(self._publish_pose.subscribers, self._publish_twist.subscribers) >= self.values["subscribers"]
+
+    def _wait(self) -> None:
+        if self.get_clock().now().nanoseconds == 0:
+            return  # simulated time has not begun
+        if not self._watch.ready():
+            if time.monotonic() < self._wait_until:
+                return
+            self.diagnostics.warnings.note("started without all listeners", self._who_is_missing())
+        self.destroy_timer(self._wait_timer)
+        period = 1.0 / self._rate
+        self._start = self.get_clock().now().nanoseconds + round(period * NANOSECONDS)
+        self._timer = self.create_timer(period, self._publish_due)
+        self.get_logger().info(f"trajectory of {self._messages.duration:.1f} s at {self._rate:g} Hz begins")
+
+    def _who_is_missing(self) -> str:
+        counts = f"{self._publish_pose.subscribers} and {self._publish_twist.subscribers} subscriptions"
+        missing = self._watch.missing()
+        return f"{counts}, nodes missing: {', '.join(missing) or 'none'}"
+
+    def _publish_due(self) -> None:
+        """Publish every instant whose time has come, to half a period."""
+        now = self.get_clock().now().nanoseconds
+        half = round(0.5 / self._rate * NANOSECONDS)
+        late = now - self._instant(self._next)
+        if late > max(4 * half, NANOSECONDS // 50):
+            self.diagnostics.warnings.note("behind the schedule", f"{late / 1e6:.0f} ms late; stamps are kept")
+        while self._instant(self._next) <= now + half:
+            stamp = Time(nanoseconds=self._instant(self._next)).to_msg()
+            pose, twist = self._messages.at(self._next % len(self._messages), stamp)
+            self._publish_pose(pose)
+            self._publish_twist(twist)
+            self._next += 1
+            if self._next == len(self._messages) and not self.values["loop"]:
+                self._end()
+                return
+
+    def _instant(self, i: int) -> int:
+        """The time of instant ``i`` [ns], counted on through all rounds of a loop."""
+        return self._start + round(i * NANOSECONDS / self._rate)
+
+    def _tell_progress(self) -> None:
+        if 0 < self._next < len(self._messages):
+            share = self._next / len(self._messages)
+            self.get_logger().info(f"{100 * share:.0f} %, {self._next} of {len(self._messages)} poses")
+        elif self._start is None:
+            self.get_logger().info(f"waiting for listeners: {self._who_is_missing()}")
+
+    def _end(self) -> None:
+        self.destroy_timer(self._timer)
+        self.get_logger().info(f"trajectory ended, {self._next} poses published")
+        self.finished = bool(self.values["exit_at_end"])
+
+    def close(self) -> None:
+        self._publish_pose.wait_until_received(ACKNOWLEDGED_WITHIN)
+        self._publish_twist.wait_until_received(ACKNOWLEDGED_WITHIN)
