@@ -3,7 +3,7 @@
 import signal
 
 import pytest
-from harness import ARM_FILE, NodeProcess, Probe
+from harness import ARM_FILE, NodeProcess, Probe, ended_in_any_case
 
 pytestmark = pytest.mark.ros
 
@@ -26,11 +26,9 @@ BAD_PARAMETERS = {
 
 
 def error_lines(node: NodeProcess) -> list[str]:
-    try:
+    with ended_in_any_case(node):
         assert node.exit_code() == 2
         return node.stderr.splitlines()
-    finally:
-        node.close()
 
 
 @pytest.mark.parametrize("case", BAD_PARAMETERS)
@@ -79,7 +77,7 @@ def probe(domain):
 def test_signal_ends_a_node_cleanly_from_its_first_moment(domain, probe, number, delay, twice):
     name = f"section_{delay}_{number.name}_{twice}".replace(" ", "_")
     node = NodeProcess("continuum_manipulator", "section", domain, name=name, files=ARM, parameters={"section": 1})
-    try:
+    with ended_in_any_case(node):
         node.wait_for_handler()
         if delay == "when it runs":
             probe.wait_for_nodes(name)
@@ -88,5 +86,3 @@ def test_signal_ends_a_node_cleanly_from_its_first_moment(domain, probe, number,
             node.send(number)
         assert node.exit_code() == 0
         assert node.stderr == ""
-    finally:
-        node.close()

@@ -23,8 +23,9 @@ OWN = joint_names(SECTION)
 class Bench:
     """A section node, and a probe on all of its topics."""
 
-    def __init__(self, probe: Probe) -> None:
+    def __init__(self, probe: Probe, node: NodeProcess) -> None:
         self.probe = probe
+        self.node = node
         self.configs = probe.hear(ConfigStates, "section_config_states")
         self.cables = probe.hear(CableStates, "section_cable_states")
         self.joints = probe.hear(JointState, "section_joint_states")
@@ -51,7 +52,7 @@ def bench(domain):
         "continuum_manipulator", "section", domain, name="middle", files=(ARM_FILE,), parameters={"section": NUMBER}
     )
     with running(node), Probe(domain) as probe:
-        yield Bench(probe)
+        yield Bench(probe, node)
 
 
 def picked(message: JointState, order) -> JointState:
@@ -112,10 +113,10 @@ def without(*names: str) -> JointState:
     return picked(joint_state(7, w[0], rates[0]), [i for i, name in enumerate(NAMES) if name not in names])
 
 
-def of_length(field: str, length: int) -> JointState:
+def of_length(field: str, length: int, value: float = 0.1) -> JointState:
     w, rates = postures(1)
     message = joint_state(7, w[0], rates[0])
-    setattr(message, field, [0.1] * length)
+    setattr(message, field, [value] * length)
     return message
 
 
@@ -130,7 +131,7 @@ BAD_JOINTS = {
     "NaN": (lambda: with_value("position", OWN[0], math.nan), "not finite"),
     "infinite": (lambda: with_value("position", OWN[3], -math.inf), "not finite"),
     "NaN velocity": (lambda: with_value("velocity", OWN[1], math.nan), "not finite"),
-    "absurd velocity": (lambda: with_value("velocity", OWN[0], 1e308), "value out of range"),
+    "velocities beyond all numbers": (lambda: of_length("velocity", len(NAMES), 1e308), "value out of range"),
     "impossible bend": (lambda: with_value("position", OWN[1], 50.0), "value out of range"),
     "missing joint": (lambda: without(OWN[2]), "missing name"),
     "missing phi": (lambda: without(OWN[0]), "missing name"),
@@ -155,6 +156,15 @@ def test_bad_joint_states_are_dropped_counted_and_survived(bench):
             lambda c=cause, n=expected: probe.count("middle", f"dropped: {c}") == n, lambda: probe.report("middle")
         )
     assert probe.report("middle")["level"] == "WARN"
+
+
+def test_a_burst_is_told_in_two_lines(bench):
+    before = bench.node.stderr
+    assert bench.answers([of_length("position", 3)] * 100) == []
+    bench.node.wait_for_line("wrong length: 100 in")
+    first, summary = bench.node.stderr.removeprefix(before).splitlines()
+    assert "dropped, wrong length: joint_states: position has 3 entries; allowed: 21" in first
+    assert "wrong length: 100 in" in summary
 
 
 def test_joints_of_other_sections_are_no_fault(bench):

@@ -91,12 +91,19 @@ class NodeProcess:
 
 
 @contextmanager
-def running(*nodes: NodeProcess) -> Iterator[tuple[NodeProcess, ...]]:
-    """Nodes that must live until the end of the block, and are then ended."""
+def ended_in_any_case(*nodes: NodeProcess) -> Iterator[tuple[NodeProcess, ...]]:
+    """Nodes that are killed at the end of the block if they still run."""
     try:
         yield nodes
-        for node in nodes:
-            assert node.running, f"{node.process.args} ended with {node.process.returncode}: {node.stderr}"
     finally:
         for node in nodes:
             node.close()
+
+
+@contextmanager
+def running(*nodes: NodeProcess) -> Iterator[tuple[NodeProcess, ...]]:
+    """Nodes that must live until the end of the block, and are then killed."""
+    with ended_in_any_case(*nodes):
+        yield nodes
+        for node in nodes:
+            assert node.running, f"{node.process.args} ended with {node.process.returncode}: {node.stderr}"

@@ -26,6 +26,7 @@ def build(names: list[str]) -> None:
     Raises:
         SetupError: a package does not build.
     """
+    _remove_dead_links()
     title = f"{len(names)} ROS package{'s' if len(names) > 1 else ''}"
     with Step(title, "does not build; the lines above say which and why.") as step:
         step.run(
@@ -36,7 +37,7 @@ def build(names: list[str]) -> None:
              f"-DCMAKE_PROJECT_TOP_LEVEL_INCLUDES={SETUP / 'imported_include_dirs.cmake'}"],
             venv_environment(),
         )  # fmt: skip
-    _tidy()
+    _free_scripts()
 
 
 def remove() -> None:
@@ -45,14 +46,19 @@ def remove() -> None:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _tidy() -> None:
-    """Amend what a linked build leaves: links to files that are gone, and scripts bound to one interpreter's path.
+def _remove_dead_links() -> None:
+    """Remove links to files that the checkout no longer has; colcon would stumble over them."""
+    for folder in (BUILD, INSTALL):
+        for path in folder.rglob("*"):
+            if path.is_symlink() and not path.exists():
+                path.unlink()
 
-    The latter ignores setup.cfg's ``[build_scripts] executable`` and fails where the path holds a space.
+
+def _free_scripts() -> None:
+    """Let scripts find Python on the PATH, as setup.cfg's ``[build_scripts] executable`` says.
+
+    A linked build ignores that and writes the interpreter's path, which fails where it holds a space.
     """
-    for path in INSTALL.glob("*/share/*/**/*"):
-        if path.is_symlink() and not path.exists():
-            path.unlink()
     for script in INSTALL.glob("*/lib/*/*"):
         package = script.parents[2].name
         if script.parent.name == package and script.is_file() and not script.is_symlink():

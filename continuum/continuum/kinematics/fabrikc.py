@@ -14,6 +14,7 @@ import numpy as np
 
 from continuum.arm import Arm, Section
 from continuum.arrays import Array
+from continuum.kinematics.bend_limits import within_limits
 from continuum.kinematics.chain import section_tip_poses
 from continuum.kinematics.ik_result import IkResult, IkStatus, Target, configuration_of
 from continuum.kinematics.rigid import rotation_about_z
@@ -47,7 +48,7 @@ def solve_fabrikc(
         InvalidValueError: malformed target or start. A hard target is no error: see the result's status.
     """
     task = TipTask(arm, Target(position, direction))
-    tangents = section_tip_poses(configuration_of(arm, start), arm)[:, :3, 2]
+    tangents = section_tip_poses(within_limits(configuration_of(arm, start), arm), arm)[:, :3, 2]
     joints = _forward_joints(arm, tangents)
     best = _result(task, tangents, 0, tolerance)
     for iteration in range(1, max_iterations + 1):

@@ -50,7 +50,7 @@ class Tracker:
     """
 
     def __init__(
-        self, arm: Arm, use_direction: bool = False, tolerance: float = 1e-6, unbend_gain: float = 1.0
+        self, arm: Arm, use_direction: bool = False, tolerance: float = 1e-6, unbend_gain: float = 5.0
     ) -> None:
         self.arm = arm
         self.use_direction = use_direction

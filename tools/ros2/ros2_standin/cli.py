@@ -14,9 +14,9 @@ from ros2_standin.commands import COMMANDS, Family, Verb
 from ros2_standin.errors import UserError
 
 NOTE = (
-    "This is not the stock ros2: it is a small stand-in that this workspace's set-up carries for machines without "
-    "a ROS 2 installation. It covers run, launch (XML), topic, node, param, service, bag (rosbag2, MCAP) and pkg, in the stock "
-    "grammar. Where a stock ros2 is on the PATH, that one is used."
+    "This is not the stock ros2: it is a small stand-in that this workspace's set-up carries for machines without a "
+    "ROS 2 installation. It covers run, launch (XML), topic, node, param, service, bag (rosbag2, MCAP) and pkg, in the "
+    "stock grammar. Where a stock ros2 is on the PATH, that one is used."
 )
 
 

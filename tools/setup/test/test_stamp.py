@@ -49,9 +49,9 @@ def test_a_change_of_what_is_installed_builds_a_python_package(checkout: Path, n
 
 
 @pytest.mark.parametrize(
-    "name", ["nodes/nodes/node.py", "nodes/nodes/new.py", "nodes/launch/one.launch.xml", "nodes/test/test_node.py"]
+    "name", ["nodes/nodes/node.py", "nodes/nodes/new.py", "nodes/launch/one.launch.xml", "nodes/test/test_new.py"]
 )
-def test_linked_files_need_no_build(checkout: Path, name: str) -> None:
+def test_code_tests_and_linked_files_need_no_build(checkout: Path, name: str) -> None:
     assert stale_after(checkout, name) == set()
 
 

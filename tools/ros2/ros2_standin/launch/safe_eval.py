@@ -13,6 +13,9 @@ from ros2_standin.errors import UserError
 _LARGEST = 10_000
 """Longest text or list, and largest exponent, that an expression may make."""
 
+_SLOW = ("comb", "factorial", "perm")
+"""Functions of ``math`` whose result grows beyond any use."""
+
 _BINARY: MappingProxyType[type[ast.operator], Callable] = MappingProxyType(
     {
         ast.Add: operator.add,
@@ -41,7 +44,7 @@ _COMPARE: MappingProxyType[type[ast.cmpop], Callable] = MappingProxyType(
 )
 _NAMES: MappingProxyType[str, object] = MappingProxyType(
     {
-        **{name: value for name, value in vars(math).items() if not name.startswith("_")},
+        **{name: value for name, value in vars(math).items() if not name.startswith("_") and name not in _SLOW},
         **{function.__name__: function for function in (abs, bool, float, int, len, max, min, round, str, sum)},
         "true": True,
         "false": False,
@@ -62,9 +65,12 @@ def safe_eval(expression: str) -> object:
         UserError: not such an expression, or it has no value.
     """
     try:
-        return _value(ast.parse(expression.strip(), mode="eval").body)
+        value = _value(ast.parse(expression.strip(), mode="eval").body)
     except (ArithmeticError, LookupError, TypeError, ValueError, SyntaxError, RecursionError, MemoryError) as error:
         raise UserError(f"the expression {expression!r} has no value: {error}") from error
+    if callable(value):
+        raise UserError(f"the expression {expression!r} is a function, not a value")
+    return value
 
 
 def _value(node: ast.expr) -> object:

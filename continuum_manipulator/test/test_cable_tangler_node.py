@@ -1,0 +1,172 @@
+"""The tangler over DDS: instants are never mixed; and through tangler and sections, commands give back the joints."""
+
+import math
+
+import numpy as np
+import pytest
+from arm_messages import ARM, cables, instant_of, joint_state, postures
+from harness import ARM_FILE, NodeProcess, Probe, running
+from sensor_msgs.msg import JointState
+
+from continuum.kinematics.routing import cables_through, section_lengths, tangle, tangle_rates
+from continuum_manipulator.section_joints import read_joints
+from continuum_msgs.msg import CableStates
+
+pytestmark = pytest.mark.ros
+
+N = 12
+W, RATES = postures(N, seed=4)
+
+
+class Bench:
+    """The tangler alone, with the probe in the place of the sections."""
+
+    def __init__(self, probe: Probe) -> None:
+        self.probe = probe
+        self.totals = probe.hear(CableStates, "cable_states")
+        self.commands = probe.hear(CableStates, "section_cable_commands")
+        self.say_section = probe.speaker(CableStates, "section_cable_states").publish
+        self.say_command = probe.speaker(CableStates, "cable_commands").publish
+        probe.warm_up(self._send_all, self.totals, self.commands)
+
+    def _send_all(self) -> None:
+        for section in (1, 2, 3):
+            self.say_section(part(0, section))
+        self.say_command(command(0))
+
+    def totals_after(self, messages: list[CableStates]) -> list[CableStates]:
+        self.totals.clear()
+        for message in messages:
+            self.say_section(message)
+        self.probe.listen_until_quiet()
+        return list(self.totals)
+
+
+@pytest.fixture(scope="module")
+def bench(domain):
+    node = NodeProcess("continuum_manipulator", "cable_tangler", domain, files=(ARM_FILE,))
+    with running(node), Probe(domain) as probe:
+        yield Bench(probe)
+
+
+def part(instant: int, section: int, base: int = 0, velocity=()) -> CableStates:
+    """What a section says at an instant; ``base`` instants on, the same postures again."""
+    lengths = section_lengths(W[instant % N, section - 1], ARM, section - 1)
+    return cables(base + instant, section, cables_through(ARM, section - 1).names, lengths, velocity)
+
+
+def command(instant: int) -> CableStates:
+    lengths, velocities = tangle(W[instant], ARM), tangle_rates(W[instant], RATES[instant], ARM)
+    order = np.random.default_rng(instant).permutation(len(lengths))
+    return cables(instant, 0, [ARM.cable_names[i] for i in order], lengths[order], velocities[order])
+
+
+def check_totals(totals, instants, base):
+    assert [instant_of(message) - base for message in totals] == instants
+    for message in totals:
+        assert tuple(message.name) == ARM.cable_names
+        assert message.section == CableStates.WHOLE_ARM
+        np.testing.assert_allclose(message.position, tangle(W[(instant_of(message) - base) % N], ARM), rtol=1e-12)
+
+
+def test_interleaved_instants_are_kept_apart(bench):
+    base = 1000
+    order = [(i, 1) for i in range(N)] + [(i, 3) for i in range(N)] + [(i, 2) for i in range(N)]
+    totals = bench.totals_after([part(i, section, base) for i, section in order])
+    check_totals(totals, list(range(N)), base)
+    assert not any(message.velocity for message in totals)
+
+
+def test_lost_and_late_partners(bench):
+    base = 2000
+    probe = bench.probe
+    lost = {(2, 1), (5, 3), (6, 2)}
+    sent = [(i, section) for i in range(9) for section in (3, 1, 2) if (i, section) not in lost]
+    late = [(2, 1)]
+    counts = {key: probe.count("cable_tangler", key) for key in ("instants given up with a section missing",)}
+    totals = bench.totals_after([part(i, section, base) for i, section in sent + late])
+    check_totals(totals, [0, 1, 3, 4, 7, 8], base)
+    key = "instants given up with a section missing"
+    probe.wait_until(
+        lambda: probe.count("cable_tangler", key) == counts[key] + 3, lambda: probe.report("cable_tangler")
+    )
+    assert probe.report("cable_tangler")["level"] == "WARN"
+
+
+def test_velocity_is_known_only_if_all_sections_know_it(bench):
+    base = 3000
+    velocity = {section: [0.01 * section] * len(cables_through(ARM, section - 1).names) for section in (1, 2, 3)}
+    messages = [part(0, section, base, velocity[section]) for section in (1, 2, 3)]
+    messages += [part(1, section, base, velocity[section] if section < 3 else ()) for section in (1, 2, 3)]
+    known, unknown = bench.totals_after(messages)
+    np.testing.assert_allclose(known.velocity, [0.01] * 4 + [0.03] * 4 + [0.06] * 4)
+    assert not unknown.velocity
+
+
+def test_bad_section_states_do_not_enter_a_sum(bench):
+    base = 4000
+    nan = part(0, 1, base)
+    nan.position[0] = math.nan
+    short = part(0, 1, base)
+    short.position.pop()
+    unnamed = part(0, 1, base)
+    unnamed.name = ["x", *list(unnamed.name)[1:]]
+    stranger = part(0, 1, base)
+    stranger.section = 9
+    good = [part(0, section, base) for section in (1, 2, 3)]
+    check_totals(bench.totals_after([nan, short, unnamed, stranger, *good]), [0], base)
+    causes = ("not finite", "wrong length", "missing name", "value out of range")
+    probe = bench.probe
+    probe.wait_until(
+        lambda: all(probe.count("cable_tangler", f"dropped: {cause}") for cause in causes),
+        lambda: probe.report("cable_tangler"),
+    )
+
+
+def test_commands_name_the_section_and_its_own_cables(bench):
+    bench.commands.clear()
+    bench.say_command(command(1))
+    bad = command(2)
+    bad.position[3] = math.inf
+    bench.say_command(bad)
+    bench.probe.listen_until_quiet()
+    assert [message.section for message in bench.commands] == [1, 2, 3]
+    for i, message in enumerate(bench.commands):
+        assert tuple(message.name) == ARM.sections[i].cable_names
+        np.testing.assert_allclose(message.position, section_lengths(W[1, i], ARM, i)[:4], rtol=1e-9)
+
+
+def test_through_all_nodes_and_back(bench, domain):
+    """Joints to cables by the sections and the tangler; the cables commanded; the joints come back."""
+    probe = bench.probe
+    states = probe.hear(CableStates, "cable_states")
+    sections = [
+        NodeProcess(
+            "continuum_manipulator",
+            "section",
+            domain,
+            name=f"section_{i}",
+            files=(ARM_FILE,),
+            parameters={"section": i},
+        )
+        for i in (1, 2, 3)
+    ]
+    with running(*sections):
+        joints = probe.hear(JointState, "section_joint_states")
+        say_joints = probe.speaker(JointState, "joint_states", listeners=3).publish
+        probe.warm_up(lambda: say_joints(joint_state(5000, W[0], RATES[0])), states)
+        for i in range(N):
+            say_joints(joint_state(5001 + i, W[i], RATES[i]))
+        probe.wait_until(lambda: len(states) == N, lambda: f"{N} cable states, not {len(states)}")
+        totals = list(states)
+        probe.warm_up(lambda: bench.say_command(totals[0]), joints)
+        for message in totals:
+            bench.say_command(message)
+        probe.wait_until(lambda: len(joints) == 3 * N, lambda: f"{3 * N} joint states, not {len(joints)}")
+    for message in joints:
+        i = instant_of(message) - 5001
+        index = {name: k for k, name in enumerate(message.name)}
+        (k,) = (k for k, section in enumerate(ARM.sections) if section.phi_joint in index)
+        state = read_joints(index, message.position, message.velocity, ARM.sections[k])
+        np.testing.assert_allclose(state.w, W[i, k], atol=1e-9)
+        np.testing.assert_allclose(state.rate, RATES[i, k], atol=1e-7)

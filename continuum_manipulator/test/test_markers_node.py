@@ -1,0 +1,84 @@
+"""Markers over DDS, and a node's parameters as ROS tools see them."""
+
+import numpy as np
+import pytest
+from arm_messages import ARM, instant_of, joint_state, postures
+from harness import ARM_FILE, NodeProcess, Probe, running
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters
+from sensor_msgs.msg import JointState
+from visualization_msgs.msg import Marker, MarkerArray
+
+from continuum_manipulator.cable_lines import cable_lines
+from continuum_manipulator.markers import COLOURS
+from continuum_manipulator.nodekit.qos import REPORT
+
+pytestmark = pytest.mark.ros
+
+
+@pytest.fixture(scope="module")
+def probe(domain):
+    node = NodeProcess("continuum_manipulator", "markers", domain, files=(ARM_FILE,), parameters={"rate": 1000.0})
+    with running(node), Probe(domain) as probe:
+        yield probe
+
+
+def test_markers_show_cables_and_curvature(probe):
+    cables = probe.hear(MarkerArray, "cable_markers", REPORT)
+    arrows = probe.hear(MarkerArray, "section_config_markers", REPORT)
+    say = probe.speaker(JointState, "joint_states").publish
+    w = postures(1)[0][0].copy()
+    w[1] = 0.0
+    probe.warm_up(lambda: say(joint_state(0, w)), cables, arrows)
+    say(joint_state(1, w))
+    probe.wait_until(lambda: cables and arrows, "markers")
+    lines = cable_lines(w, ARM)
+    assert len(cables[0].markers) == len(lines) == 12 + 8 + 4
+    for marker, line in zip(cables[0].markers, lines, strict=True):
+        assert marker.header.frame_id == "base_link"
+        assert instant_of(marker) == 1
+        points = [(point.x, point.y, point.z) for point in marker.points]
+        np.testing.assert_allclose(points, line.points, atol=1e-12)
+        np.testing.assert_allclose(
+            [marker.color.r, marker.color.g, marker.color.b], COLOURS[line.colour_index], atol=1e-6
+        )
+    own, passing = (
+        {m.scale.x for m, line in zip(cables[0].markers, lines, strict=True) if line.passing is p}
+        for p in (False, True)
+    )
+    assert max(passing) < min(own)
+    assert [marker.action for marker in arrows[0].markers] == [Marker.ADD, Marker.DELETE, Marker.ADD]
+    assert len({(marker.ns, marker.id) for marker in cables[0].markers + arrows[0].markers}) == 24 + 3
+
+
+def ask(probe, service_type, service, **fields):
+    client = probe.node.create_client(service_type, f"markers/{service}")
+    probe.wait_until(client.service_is_ready, service)
+    future = client.call_async(service_type.Request(**fields))
+    probe.wait_until(future.done, f"answer of {service}")
+    return future.result()
+
+
+def test_parameters_have_description_type_and_range(probe):
+    names = ["rate", "arm.section_2.a", "arm.section_1.n_joints", "arm.section_3.bend_limit", "arm.sections"]
+    rate, radius, n_joints, limit, sections = ask(
+        probe, DescribeParameters, "describe_parameters", names=names
+    ).descriptors
+    assert "radius of the cables' holes" in radius.description
+    assert radius.description.endswith("[m]")
+    assert radius.type == ParameterType.PARAMETER_DOUBLE
+    assert radius.floating_point_range[0].to_value == 10.0
+    assert n_joints.type == ParameterType.PARAMETER_INTEGER
+    assert n_joints.integer_range[0].from_value == 1
+    assert sections.type == ParameterType.PARAMETER_STRING_ARRAY
+    assert all(d.read_only and d.description and d.additional_constraints for d in (rate, radius, n_joints, limit))
+    values = ask(probe, GetParameters, "get_parameters", names=names).values
+    assert values[1].double_value == ARM.sections[1].a
+    assert values[3].double_value == ARM.sections[2].bend_limit  # a default, not in the file
+
+
+def test_parameters_do_not_change_after_the_start(probe):
+    value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=5.0)
+    (result,) = ask(probe, SetParameters, "set_parameters", parameters=[Parameter(name="rate", value=value)]).results
+    assert not result.successful
+    assert "read-only" in result.reason

@@ -1,0 +1,144 @@
+"""The trajectory publisher over DDS: starts when it is heard, one stamp for both, no drift, nothing lost."""
+
+import math
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from harness import NodeProcess, Probe, ended_in_any_case
+from rosgraph_msgs.msg import Clock
+
+from continuum_manipulator.nodekit.stamps import nanoseconds
+from trajectory_generator.from_parameters import trajectory_from_mapping
+
+pytestmark = pytest.mark.ros
+
+PATH = {
+    "path": "line",
+    "line.start": [0.1, 0.0, 0.4],
+    "line.end": [0.1, 0.05, 0.4],
+    "max_speed": 0.2,
+    "max_acceleration": 1.0,
+    "lead_time": 0.1,
+    "rest_time": 0.1,
+    "rate": 130.0,
+}
+QUICK = {"settle_time": 0.1}
+
+
+def publisher(domain, **parameters) -> NodeProcess:
+    values = PATH | QUICK | parameters
+    return NodeProcess(
+        "trajectory_generator",
+        "trajectory_publisher",
+        domain,
+        parameters={key: str(value).lower() if isinstance(value, bool) else value for key, value in values.items()},
+    )
+
+
+@pytest.fixture
+def probe(domain):
+    with Probe(domain) as probe:
+        yield probe
+
+
+def instants(messages) -> list[int]:
+    return [nanoseconds(message.header.stamp) for message in messages]
+
+
+def test_whole_trajectory_arrives_with_one_stamp_for_both(domain, probe):
+    poses, twists = probe.hear(PoseStamped, "traj_pose"), probe.hear(TwistStamped, "traj_twist")
+    trajectory = trajectory_from_mapping(PATH)
+    times = trajectory.times(PATH["rate"])
+    with ended_in_any_case(publisher(domain, exit_at_end=True)) as (node,):
+        probe.wait_until(lambda: len(twists) >= len(times) <= len(poses), lambda: f"{len(poses)} of {len(times)}")
+        assert node.exit_code() == 0
+        assert "Traceback" not in node.stderr
+        assert f"trajectory ended, {len(times)} poses" in node.stderr
+    assert len(poses) == len(twists) == len(times)
+    stamps = np.array(instants(poses))
+    assert stamps.tolist() == instants(twists)
+    np.testing.assert_allclose((stamps - stamps[0]) * 1e-9, times, atol=2e-9)
+    expected = trajectory.sample(times)
+    position = [(m.pose.position.x, m.pose.position.y, m.pose.position.z) for m in poses]
+    linear = [(m.twist.linear.x, m.twist.linear.y, m.twist.linear.z) for m in twists]
+    np.testing.assert_array_equal(position, expected.position)
+    np.testing.assert_array_equal(linear, expected.linear_velocity)
+    assert {m.header.frame_id for m in poses + twists} == {"base_link"}
+    assert all(math.isclose(m.pose.orientation.w, 1.0) for m in poses)
+
+
+def test_waits_for_listeners_and_for_nodes_then_begins_at_the_beginning(domain, probe):
+    poses = probe.hear(PoseStamped, "traj_pose")
+    with ended_in_any_case(publisher(domain, wait_for_nodes="[late]")) as (node,):
+        probe.wait_for_nodes("trajectory_publisher")
+        probe.wait_until(lambda: probe.report("trajectory_publisher"), "diagnostics")
+        assert not poses
+        twists = probe.hear(TwistStamped, "traj_twist")
+        probe.listen_until_quiet(1.0)
+        assert not poses
+        with Probe(domain, name="late"):
+            probe.wait_until(lambda: poses and twists, "the first pose")
+        assert poses[0].pose.position.y == 0.0
+        assert node.stop() == 0
+
+
+def test_starts_without_listeners_after_the_time_out_and_says_so(domain, probe):
+    with ended_in_any_case(publisher(domain, subscribers=7, wait_timeout=0.3, exit_at_end=True)) as (node,):
+        node.wait_for_line("started without all listeners: 0 and 0 subscriptions")
+        assert node.exit_code() == 0
+
+
+def test_loop_goes_on_with_rising_stamps(domain, probe):
+    poses, _ = probe.hear(PoseStamped, "traj_pose"), probe.hear(TwistStamped, "traj_twist")
+    n = len(trajectory_from_mapping(PATH).times(PATH["rate"]))
+    with ended_in_any_case(publisher(domain, loop=True)) as (node,):
+        probe.wait_until(lambda: len(poses) > 2 * n, "two rounds")
+        assert node.stop() == 0
+    assert [m.pose for m in poses[:n]] == [m.pose for m in poses[n : 2 * n]]
+    steps = np.diff(instants(poses))
+    assert steps.min() > 0
+    assert np.abs(steps - 1e9 / PATH["rate"]).max() <= 1
+
+
+def test_simulated_time_sets_the_pace(domain, probe):
+    """Time that runs ten times as fast, then stands still: the schedule does as well."""
+    poses, _ = probe.hear(PoseStamped, "traj_pose"), probe.hear(TwistStamped, "traj_twist")
+    say_clock = probe.node.create_publisher(Clock, "/clock", 10).publish
+    now = 1000 * 10**9
+    period = 1e9 / PATH["rate"]
+
+    def tick() -> None:
+        nonlocal now
+        now += 20_000_000
+        clock = Clock()
+        clock.clock.sec, clock.clock.nanosec = divmod(now, 10**9)
+        say_clock(clock)
+
+    with ended_in_any_case(publisher(domain, use_sim_time=True)) as (node,):
+        probe.wait_for_nodes("trajectory_publisher")
+        probe.wait_until(lambda: (tick(), len(poses) > 30)[1], "thirty poses")
+        probe.listen_until_quiet(0.5)
+        stood = len(poses)
+        assert instants(poses)[-1] <= now + period
+        probe.listen_until_quiet(0.5)
+        assert len(poses) == stood
+        assert instants(poses)[0] > 1000 * 10**9
+        assert node.stop() == 0
+
+
+@pytest.mark.parametrize(
+    ("parameters", "expected"),
+    [
+        ({"max_speed": -0.1}, "max_speed is -0.1; allowed:"),
+        ({"helix.radius": 0.1}, "unknown parameter 'helix.radius'; known:"),
+        ({"path": "spiral"}, "path is 'spiral'; allowed: one of helix"),
+        ({"line.end": [0.1, 0.0]}, "line.end"),
+        ({"rate": 0.0}, "rate is 0.0; allowed:"),
+    ],
+)
+def test_bad_parameters_end_the_node_with_one_line(domain, parameters, expected):
+    with ended_in_any_case(publisher(domain, **parameters)) as (node,):
+        assert node.exit_code() == 2
+        (line,) = node.stderr.splitlines()
+        assert expected in line
