@@ -13,8 +13,8 @@ help: ## list the targets
 setup: ## make .venv, install pinned versions, build the workspace; does nothing where nothing changed
 	@PYTHON="$(PYTHON)" sh tools/setup/run.sh
 
-demo: setup ## follow the thesis's helix with real nodes, results in out/demo (VIEW=1 shows the arm in a window)
-	@$(IN_WORKSPACE) python3 -m tools.demo $(if $(VIEW),--view)
+demo: setup ## follow the thesis's helix with real nodes, results in out/demo
+	@$(IN_WORKSPACE) python3 -m tools.demo $(ARGS)
 
 test: check ## run the checks and every test (ARGS="-k name" are given to pytest)
 	@$(IN_WORKSPACE) pytest $(ARGS)

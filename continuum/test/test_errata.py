@@ -1,6 +1,4 @@
-"""The thesis's equations as printed, shown wrong or in need of care, and as they should be: one test per docs/errata.md."""
-
-from functools import partial
+"""The thesis's equations as printed, shown wrong or in need of care, and as they should be: see docs/errata.md."""
 
 import numpy as np
 import pytest
@@ -39,10 +37,10 @@ def pose_of(q: np.ndarray) -> np.ndarray:
     return section_pose(allen_from_jones(q[..., 0], q[..., 1]), PROTOTYPE)
 
 
-def module_length(q: np.ndarray, azimuths: np.ndarray = ALPHA) -> np.ndarray:
+def module_length(q: np.ndarray, azimuths: np.ndarray = ALPHA, a: float = A) -> np.ndarray:
     """Distance of the cables' holes on two neighbouring discs [m], from the discs themselves; q = (phi, theta)."""
     first = [section_discs(phi, theta, PROTOTYPE)[1] for phi, theta in np.reshape(q, (-1, 2))]
-    holes = np.stack([A * np.cos(azimuths), A * np.sin(azimuths), 0 * azimuths, 1 + 0 * azimuths])
+    holes = np.stack([a * np.cos(azimuths), a * np.sin(azimuths), 0 * azimuths, 1 + 0 * azimuths])
     return np.linalg.norm((np.array(first) @ holes - holes)[:, :3], axis=1).reshape(*q.shape[:-1], len(azimuths))
 
 
@@ -216,7 +214,7 @@ def test_eq_21_is_no_tip_velocity() -> None:
 
 
 def test_eq_22_is_right_but_on_the_axis() -> None:
-    """Right also where z <= 0, which the thesis leaves out; on the axis it is not finite, in Allen's coordinates it is."""
+    """Right also where z <= 0, which the thesis leaves out; not finite on the axis."""
     points = np.array([[0.1, 0.05, 0.15], [-0.05, 0.1, 0.0], [0.03, -0.1, -0.1]])
     numeric = differences(lambda p: np.stack(jones_from_allen(configuration_from_point(p)), axis=-1), points, 1e-3)
     assert_same_slopes(jones_from_point_jacobian(points), numeric)
@@ -295,15 +293,8 @@ def test_eq_26_is_one_module(lengths_and_slopes: tuple[np.ndarray, np.ndarray]) 
 
 
 def test_passing_cables_have_their_own_chord() -> None:
-    """Taken at the proximal section's radius and azimuth, a passing cable gets a wrong length."""
-    radii, azimuths = np.array([0.02]), np.array([0.5])
-    exact = N * np.squeeze(
-        [
-            np.linalg.norm(disc @ hole - hole)
-            for hole in [np.array([0.02 * np.cos(0.5), 0.02 * np.sin(0.5), 0.0, 1.0])]
-            for disc in [section_discs(phi, theta, PROTOTYPE)[1] for phi, theta in zip(PHI, THETA, strict=True)]
-        ]
-    )
-    assert relative_error(cable_lengths(W, PROTOTYPE)[:, 0], exact) > WRONG
-    passing = partial(cable_lengths, section=PROTOTYPE, a=radii, azimuths=azimuths)
-    np.testing.assert_allclose(passing(W)[:, 0], exact, rtol=1e-12)
+    """Taken at the proximal section's own radius and azimuth, a passing cable gets a wrong length."""
+    azimuth, a = np.array([0.5]), np.array([0.02])
+    exact = N * module_length(np.stack([PHI, THETA], axis=-1), azimuth, a)
+    assert relative_error(cable_lengths(W, PROTOTYPE)[:, :1], exact) > WRONG
+    np.testing.assert_allclose(cable_lengths(W, PROTOTYPE, a, azimuth), exact, rtol=1e-12)

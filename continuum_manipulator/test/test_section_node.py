@@ -143,8 +143,18 @@ BAD_JOINTS = {
 }
 
 
+def test_a_burst_is_told_in_two_lines(bench):
+    before = bench.node.stderr
+    assert bench.answers([of_length("position", 3)] * 100) == []
+    bench.node.wait_for_line("wrong length: 100 in")
+    first, summary = bench.node.stderr.removeprefix(before).splitlines()
+    assert "dropped, wrong length: joint_states: position has 3 entries; allowed: 21" in first
+    assert "wrong length: 100 in" in summary
+
+
 def test_bad_joint_states_are_dropped_counted_and_survived(bench):
     probe = bench.probe
+    probe.wait_for_report("middle")
     before = {cause: probe.count("middle", f"dropped: {cause}") for _, cause in BAD_JOINTS.values()}
     good = joint_state(9, postures(1)[0][0])
     mixed = [message for bad, _ in BAD_JOINTS.values() for message in (bad(), good)]
@@ -158,18 +168,9 @@ def test_bad_joint_states_are_dropped_counted_and_survived(bench):
     assert probe.report("middle")["level"] == "WARN"
 
 
-def test_a_burst_is_told_in_two_lines(bench):
-    before = bench.node.stderr
-    assert bench.answers([of_length("position", 3)] * 100) == []
-    bench.node.wait_for_line("wrong length: 100 in")
-    first, summary = bench.node.stderr.removeprefix(before).splitlines()
-    assert "dropped, wrong length: joint_states: position has 3 entries; allowed: 21" in first
-    assert "wrong length: 100 in" in summary
-
-
 def test_joints_of_other_sections_are_no_fault(bench):
     probe = bench.probe
-    probe.wait_until(lambda: probe.report("middle"), "diagnostics")
+    probe.wait_for_report("middle")
     dropped, ignored = probe.count("middle", "dropped"), probe.count("middle", "ignored joint_states")
     assert bench.answers([without(*OWN)] * 3) == []
     probe.wait_until(lambda: probe.count("middle", "ignored joint_states") == ignored + 3, "three ignored")

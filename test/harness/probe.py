@@ -100,6 +100,11 @@ class Probe:
         """A number of the node's latest diagnostics, 0 where it has no such entry."""
         return int(self.report(node).get(key, 0))
 
+    def wait_for_report(self, node: str) -> None:
+        """Listen until diagnostics of the node come that are made from now on."""
+        self._reports.pop(node, None)
+        self.wait_until(lambda: self.report(node), f"diagnostics of {node}")
+
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         for status in message.status:
             values = {entry.key: entry.value for entry in status.values}

@@ -7,7 +7,9 @@ import contextlib
 import ctypes
 import os
 import signal
+import subprocess
 from collections.abc import Callable
+from typing import BinaryIO
 
 from ros2_standin.launch.processes import ProcessSpec
 from ros2_standin.launch.screen import Screen
@@ -31,6 +33,19 @@ def dies_with_parent() -> Callable[[], None]:
     return bind
 
 
+async def _end_of(process: subprocess.Popen[bytes]) -> None:
+    """Wait for the end of a process, whatever may still hold its pipes."""
+    loop = asyncio.get_running_loop()
+    ended = asyncio.Event()
+    handle = os.pidfd_open(process.pid)
+    loop.add_reader(handle, ended.set)
+    try:
+        await ended.wait()
+    finally:
+        loop.remove_reader(handle)
+        os.close(handle)
+
+
 class Child:
     """A process, started again where its launch file says so.
 
@@ -42,7 +57,7 @@ class Child:
         self.spec = spec
         self.label = label
         self._screen = screen
-        self._process: asyncio.subprocess.Process | None = None
+        self._process: subprocess.Popen[bytes] | None = None
         self._stopping = asyncio.Event()
 
     async def run(self) -> None:
@@ -61,12 +76,13 @@ class Child:
                 await asyncio.wait_for(self._stopping.wait(), self.spec.respawn_delay)
 
     async def _run_once(self) -> None:
-        process = await asyncio.create_subprocess_exec(
-            *self.spec.command,
+        # Not asyncio's own subprocess: in Python 3.12 it takes a process for alive while a helper holds its pipes.
+        process = subprocess.Popen(
+            self.spec.command,
             env=self.spec.environment,
             cwd=self.spec.folder,
-            stdout=asyncio.subprocess.PIPE,
-            stderr=asyncio.subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
             # A session of its own: a terminal's Ctrl-C reaches it through us alone, once.
             start_new_session=True,
             preexec_fn=dies_with_parent(),
@@ -79,9 +95,10 @@ class Child:
         ]
         if self._stopping.is_set():
             self._send(signal.SIGINT)
-        code = await process.wait()
-        # Helpers that it left behind end with it.
+        await _end_of(process)
+        # Helpers that it left behind end with it; its number, not yet given back, still names their group alone.
         self._send(signal.SIGKILL)
+        code = process.wait()
         _, late = await asyncio.wait(readers, timeout=_LEFTOVER_TIME)
         for reader in late:
             reader.cancel()
@@ -92,9 +109,17 @@ class Child:
             what = f"[pid {process.pid}, exit code {code}, cmd '{self.spec.line}']"
             self._screen.say("error", self.label, f"process has died {what}.")
 
-    async def _pass_on(self, stream: asyncio.StreamReader, shown: bool) -> None:
+    async def _pass_on(self, pipe: BinaryIO, shown: bool) -> None:
+        reader = asyncio.StreamReader()
+        transport, _ = await asyncio.get_running_loop().connect_read_pipe(
+            lambda: asyncio.StreamReaderProtocol(reader), pipe
+        )
+        with contextlib.closing(transport):
+            await self._pass_lines_on(reader, shown)
+
+    async def _pass_lines_on(self, reader: asyncio.StreamReader, shown: bool) -> None:
         rest = b""
-        while chunk := await stream.read(_CHUNK):
+        while chunk := await reader.read(_CHUNK):
             *lines, rest = (rest + chunk).split(b"\n")
             for line in lines:
                 self._line(line, shown)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from ros2_standin.launch.parameter_values import ParameterFiles, parameter_tree
@@ -100,7 +99,7 @@ def _process(element: Element, scope: Scope, name: str, command: list[str]) -> P
 
 
 def _folder(element: Element, text: str) -> str | None:
-    if text and not os.path.isdir(text):
+    if text and not Path(text).is_dir():
         raise element.error(f"has cwd={text!r}, which is no folder")
     return text or None
 
