@@ -9,21 +9,25 @@ links, so the answer is exact for inextensible sections: leg = chord / (2 cos(th
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
-from continuum.arm import Arm, Section
+from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.kinematics.bend_limits import within_limits
-from continuum.kinematics.chain import section_tip_poses
-from continuum.kinematics.ik_result import IkResult, IkStatus, Target, configuration_of
-from continuum.kinematics.rigid import rotation_about_z
-from continuum.kinematics.section import configuration_from_point, section_rotation
+from continuum.kinematics.compiled.arm_arrays import ArmArrays, arm_arrays
+from continuum.kinematics.compiled.equations import compiled, entry_point
+from continuum.kinematics.compiled.limits import pull_within
+from continuum.kinematics.compiled.task import TargetArrays, evaluate, radian_in_metres
+from continuum.kinematics.ik_result import IkResult, IkStatus
+from continuum.kinematics.ik_target import POSITION, Target, configuration_of
+from continuum.kinematics.rigid import IDENTITY, product, turned_about_z
 from continuum.kinematics.section.chord import chord_length
-from continuum.kinematics.tip_task import TipTask
+from continuum.kinematics.section.eq04_pose import rotation_entries
+from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
 
 _LARGEST_BEND = 0.97 * math.pi  # towards 180 degrees the legs grow without bound
-_BASE_AXIS = np.array([0.0, 0.0, 1.0])
 
 
 def solve_fabrikc(
@@ -47,114 +51,175 @@ def solve_fabrikc(
     Raises:
         InvalidValueError: malformed target or start. A hard target is no error: see the result's status.
     """
-    task = TipTask(arm, Target(position, direction))
-    tangents = section_tip_poses(within_limits(configuration_of(arm, start), arm), arm)[:, :3, 2]
-    joints = _forward_joints(arm, tangents)
-    best = _result(task, tangents, 0, tolerance)
-    for iteration in range(1, max_iterations + 1):
-        if best.solved:
-            break
-        joints = _backward(arm, task.target, joints, tangents)
-        joints, tangents = _forward(arm, task.target, joints, tangents)
-        result = _result(task, tangents, iteration, tolerance)
-        if result.distance + task.weight * result.angle < best.distance + task.weight * best.angle:
-            best = result
-    return best
+    target = Target(position, direction)
+    w = configuration_of(arm, start).reshape(-1)
+    arrays = TargetArrays(target.kind, radian_in_metres(arm), target.position, target.axes[0])
+    iterations, distance, angle = _fabrikc(arm_arrays(arm), arrays, w, tolerance, max_iterations)
+    solved = distance <= tolerance and angle <= tolerance
+    status = IkStatus.SOLVED if solved else IkStatus.NO_CONVERGENCE
+    return IkResult(w.reshape(-1, 2), status, iterations, distance, angle)
 
 
-def leg_length(theta: float, section: Section) -> float:
-    """Length [m] of a section's two virtual legs at bend ``theta`` [rad], below 180 degrees."""
-    return float(chord_length(np.asarray(theta), section)) / (2 * math.cos(0.5 * theta))
+@compiled
+def fabrikc(
+    arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, max_iterations: int
+) -> tuple[int, float, float]:
+    """Iterate from ``w`` (2 n_sections,) [rad], which becomes the best configuration seen.
+
+    Returns:
+        Iterations, distance [m] and angle [rad] of that configuration.
+    """
+    error, jacobian = np.empty(target.n_rows), np.empty((6, len(w)))
+    pull_within(arm, w)
+    distance, angle = evaluate(arm, target, w, error, jacobian)
+    tangents = _tip_tangents(arm, w)
+    joints = np.empty_like(tangents)
+    _place_joints(arm, tangents, joints)
+    trial = w.copy()
+    for iteration in range(max_iterations):
+        if distance <= tolerance and angle <= tolerance:
+            return iteration, distance, angle
+        _backward(arm, target, joints, tangents)
+        _forward(arm, target, joints, tangents)
+        _configuration_from_tangents(arm, tangents, trial)
+        trial_distance, trial_angle = evaluate(arm, target, trial, error, jacobian)
+        if trial_distance + target.weight * trial_angle < distance + target.weight * angle:
+            w[:] = trial
+            distance, angle = trial_distance, trial_angle
+    return max_iterations, distance, angle
 
 
-def _backward(arm: Arm, target: Target, joints: Array, tangents: Array) -> Array:
-    """From the target to the base: virtual joints (n_sections, 3) [m] that end at the target."""
-    joints = joints.copy()
-    end = target.position
-    tangent = tangents[-1] if target.direction is None else target.direction
+@compiled
+def leg_length(theta: float, b: float, n_joints: int) -> float:
+    """Length [m] of a section's two virtual legs at bend ``theta`` [rad], below 180 degrees; ``b`` [m]."""
+    return chord_length(theta, b, n_joints) / (2.0 * math.cos(0.5 * theta))
+
+
+@compiled
+def _backward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Array) -> None:
+    """From the target to the base: moves the virtual joints (n_sections, 3) [m] so that they end at the target."""
+    end = target.position.copy()
+    tangent = tangents[-1].copy() if target.n_rows == POSITION else target.rotation[:, 2].copy()
     bends = _bends(tangents)
-    for i in reversed(range(arm.n_sections)):
-        section = arm.sections[i]
-        joint = end - leg_length(bends[i], section) * tangent
-        towards = _BASE_AXIS if i == 0 else _unit(joint - joints[i - 1], _BASE_AXIS)
-        base_tangent, theta = _bend_within(towards, tangent, section)
-        leg = leg_length(theta, section)
+    for i in range(len(joints) - 1, -1, -1):
+        joint = end - leg_length(bends[i], arm.b[i], arm.n_joints[i]) * tangent
+        towards = _base_axis() if i == 0 else _unit(joint - joints[i - 1], _base_axis())
+        base_tangent, theta = _bend_within(towards, tangent, arm.bend_limit[i])
+        leg = leg_length(theta, arm.b[i], arm.n_joints[i])
         joints[i] = end - leg * tangent
         end, tangent = joints[i] - leg * base_tangent, base_tangent
-    return joints
 
 
-def _forward(arm: Arm, target: Target, joints: Array, tangents: Array) -> tuple[Array, Array]:
-    """From the base to the tip: virtual joints and tip tangents, each (n_sections, 3), of an arm on its base."""
-    joints, tangents = joints.copy(), tangents.copy()
+@compiled
+def _forward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Array) -> None:
+    """From the base to the tip: moves virtual joints and tip tangents, each (n_sections, 3), to an arm on its base."""
     bends = _bends(tangents)
-    base, tangent = np.zeros(3), _BASE_AXIS
-    for i, section in enumerate(arm.sections):
-        joint = base + leg_length(bends[i], section) * tangent
-        goal = target.position if i == arm.n_sections - 1 else joints[i + 1]
-        tangents[i], theta = _bend_within(_unit(goal - joint, tangents[i]), tangent, section)
-        leg = leg_length(theta, section)
+    base, tangent = np.zeros(3), _base_axis()
+    for i in range(len(joints)):
+        joint = base + leg_length(bends[i], arm.b[i], arm.n_joints[i]) * tangent
+        goal = target.position if i == len(joints) - 1 else joints[i + 1]
+        tip_tangent, theta = _bend_within(_unit(goal - joint, tangents[i]), tangent, arm.bend_limit[i])
+        leg = leg_length(theta, arm.b[i], arm.n_joints[i])
+        joints[i] = base + leg * tangent
+        tangents[i] = tip_tangent
+        base, tangent = joints[i] + leg * tip_tangent, tip_tangent
+
+
+@compiled
+def _place_joints(arm: ArmArrays, tangents: Array, joints: Array) -> None:
+    """Fill the virtual joints (n_sections, 3) [m] of the arm whose sections end with the tangents (n_sections, 3)."""
+    bends = _bends(tangents)
+    base, tangent = np.zeros(3), _base_axis()
+    for i in range(len(joints)):
+        leg = leg_length(bends[i], arm.b[i], arm.n_joints[i])
         joints[i] = base + leg * tangent
         base, tangent = joints[i] + leg * tangents[i], tangents[i]
-    return joints, tangents
 
 
-def _forward_joints(arm: Arm, tangents: Array) -> Array:
-    """Virtual joints (n_sections, 3) [m] of the arm whose sections end with the tangents (n_sections, 3)."""
-    joints = np.zeros((arm.n_sections, 3))
-    base, tangent = np.zeros(3), _BASE_AXIS
-    for i, (section, theta) in enumerate(zip(arm.sections, _bends(tangents), strict=True)):
-        leg = leg_length(theta, section)
-        joints[i] = base + leg * tangent
-        base, tangent = joints[i] + leg * tangents[i], tangents[i]
-    return joints
-
-
-def _bends(tangents: Array) -> list[float]:
+@compiled
+def _bends(tangents: Array) -> Array:
     """Bend of every section [rad], as far as its legs can follow, from the tip tangents (n_sections, 3)."""
-    before = np.vstack([_BASE_AXIS, tangents[:-1]])
-    return [min(_angle(a, b), _LARGEST_BEND) for a, b in zip(before, tangents, strict=True)]
+    bends = np.empty(len(tangents))
+    before = _base_axis()
+    for i in range(len(tangents)):
+        bends[i] = min(_angle(before, tangents[i]), _LARGEST_BEND)
+        before = tangents[i]
+    return bends
 
 
-def _bend_within(free: Array, fixed: Array, section: Section) -> tuple[Array, float]:
+@compiled
+def _bend_within(free: Array, fixed: Array, bend_limit: float) -> tuple[Array, float]:
     """The unit vector ``free``, turned towards ``fixed`` if the section cannot bend so far, and the bend [rad]."""
-    limit = min(section.bend_limit, _LARGEST_BEND)
+    limit = min(bend_limit, _LARGEST_BEND)
     theta = _angle(fixed, free)
     if theta <= limit:
         return free, theta
-    across = _unit(free - (free @ fixed) * fixed, _perpendicular(fixed))
+    across = _unit(free - np.sum(free * fixed) * fixed, _perpendicular(fixed))
     return math.cos(limit) * fixed + math.sin(limit) * across, limit
 
 
-def _result(task: TipTask, tangents: Array, iterations: int, tolerance: float) -> IkResult:
-    configuration = _configuration_from_tangents(task.arm, tangents)
-    distance, angle = task.distance_and_angle(configuration)
-    solved = distance <= tolerance and angle <= tolerance
-    status = IkStatus.SOLVED if solved else IkStatus.NO_CONVERGENCE
-    return IkResult(configuration, status, iterations, distance, angle)
+@compiled
+def _tip_tangents(arm: ArmArrays, w: Array) -> Array:
+    """Tip tangents (n_sections, 3) of the sections, in ``base_link``, at ``w`` (2 n_sections,) [rad]."""
+    tangents = np.empty((len(arm.b), 3))
+    rotation = IDENTITY
+    for i in range(len(arm.b)):
+        base = turned_about_z(rotation, arm.cos_twist[i], arm.sin_twist[i])
+        rotation = product(base, rotation_entries(w[2 * i], w[2 * i + 1]))
+        tangents[i, 0], tangents[i, 1], tangents[i, 2] = rotation[2], rotation[5], rotation[8]
+    return tangents
 
 
-def _configuration_from_tangents(arm: Arm, tangents: Array) -> Array:
-    """Configuration (n_sections, 2) [rad] of the arm whose sections end with the tangents (n_sections, 3)."""
-    rotation = np.eye(3)
-    configuration = np.zeros((arm.n_sections, 2))
-    for i, section in enumerate(arm.sections):
-        rotation = rotation @ rotation_about_z(section.twist)
-        # A tip is seen at half the angle at which it points.
-        configuration[i] = 0.5 * configuration_from_point(rotation.T @ tangents[i])
-        rotation = rotation @ section_rotation(configuration[i])
-    return configuration
+@compiled
+def _configuration_from_tangents(arm: ArmArrays, tangents: Array, w: Array) -> None:
+    """Fill ``w`` (2 n_sections,) [rad] of the arm whose sections end with the tangents (n_sections, 3)."""
+    rotation = IDENTITY
+    for i in range(len(arm.b)):
+        r = turned_about_z(rotation, arm.cos_twist[i], arm.sin_twist[i])
+        t = tangents[i]
+        u, v = configuration_entries(
+            r[0] * t[0] + r[3] * t[1] + r[6] * t[2],
+            r[1] * t[0] + r[4] * t[1] + r[7] * t[2],
+            r[2] * t[0] + r[5] * t[1] + r[8] * t[2],
+        )
+        w[2 * i], w[2 * i + 1] = 0.5 * u, 0.5 * v  # a tip is seen at half the angle at which it points
+        rotation = product(r, rotation_entries(w[2 * i], w[2 * i + 1]))
 
 
+@compiled
 def _angle(a: Array, b: Array) -> float:
-    return math.atan2(float(np.linalg.norm(np.cross(a, b))), float(a @ b))
+    return math.atan2(_length(np.cross(a, b)), np.sum(a * b))
 
 
+@compiled
 def _unit(vector: Array, otherwise: Array) -> Array:
-    length = float(np.linalg.norm(vector))
+    length = _length(vector)
     return vector / length if length > 1e-12 else otherwise
 
 
+@compiled
+def _length(vector: Array) -> float:
+    return math.sqrt(np.sum(vector * vector))
+
+
+@compiled
 def _perpendicular(vector: Array) -> Array:
-    helper = np.eye(3)[int(np.argmin(np.abs(vector)))]
+    helper = np.zeros(3)
+    helper[np.argmin(np.abs(vector))] = 1.0
     return _unit(np.cross(vector, helper), helper)
+
+
+@compiled
+def _base_axis() -> Array:
+    return np.array([0.0, 0.0, 1.0])
+
+
+def _build(digest: str) -> Callable[..., Any]:
+    def run(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, max_iterations: int) -> Any:
+        _ = digest
+        return fabrikc(arm, target, w, tolerance, max_iterations)
+
+    return run
+
+
+_fabrikc = entry_point(_build)

@@ -6,10 +6,9 @@ import enum
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.errors import InvalidValueError
 
 
 class IkStatus(enum.IntEnum):
@@ -30,7 +29,8 @@ class IkResult:
         status: SOLVED within the tolerance; otherwise why not, and the configuration is the nearest that was found.
         iterations: iterations spent.
         distance: from the tip to the target position [m].
-        angle: from the tip's z axis to the target direction [rad]; 0 where the direction is free.
+        angle: from the tip's z axis to the target direction, or from its frame to the target's [rad]; 0 where that is
+            free.
     """
 
     configuration: Array
@@ -45,47 +45,36 @@ class IkResult:
 
 
 @dataclass(frozen=True)
-class Target:
-    """Where the tip shall be, and optionally where its z axis shall point.
+class IkBatch:
+    """Answers to many targets; row k of every array is what :class:`IkResult` says of target k.
 
     Attributes:
-        position: (3,) [m] in ``base_link``.
-        direction: unit vector (3,), or None where it is free. A vector of another length is normalised.
-
-    Raises:
-        InvalidValueError: wrong shape, not finite, or a direction of length zero.
+        configurations: (n_targets, n_sections, 2) [rad].
+        statuses: (n_targets,), numbers of :class:`IkStatus`.
+        iterations: (n_targets,).
+        distances: (n_targets,) [m].
+        angles: (n_targets,) [rad].
     """
 
-    position: Array
-    direction: Array | None = None
+    configurations: Array
+    statuses: NDArray[np.int64]
+    iterations: NDArray[np.int64]
+    distances: Array
+    angles: Array
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "position", _finite("position", self.position, (3,), "three finite numbers [m]"))
-        if self.direction is not None:
-            direction = _finite("direction", self.direction, (3,), "three finite numbers, not all zero")
-            length = float(np.linalg.norm(direction))
-            if length < 1e-12:
-                raise InvalidValueError("direction", direction.tolist(), "three finite numbers, not all zero")
-            object.__setattr__(self, "direction", direction / length)
+    def __len__(self) -> int:
+        return len(self.statuses)
 
+    def __getitem__(self, k: int) -> IkResult:
+        return IkResult(
+            self.configurations[k],
+            IkStatus(int(self.statuses[k])),
+            int(self.iterations[k]),
+            float(self.distances[k]),
+            float(self.angles[k]),
+        )
 
-def configuration_of(arm: Arm, start: Array | None) -> Array:
-    """``start`` as an array (n_sections, 2) [rad], or the straight arm.
-
-    Raises:
-        InvalidValueError: wrong shape or not finite.
-    """
-    if start is None:
-        return np.zeros((arm.n_sections, 2))
-    shape = (arm.n_sections, 2)
-    return _finite("start", start, shape, f"finite numbers of shape {shape} [rad]")
-
-
-def _finite(name: str, value: object, shape: tuple[int, ...], allowed: str) -> Array:
-    try:
-        array = np.array(value, dtype=float)
-    except (TypeError, ValueError, OverflowError):
-        raise InvalidValueError(name, value, allowed) from None
-    if array.shape != shape or not np.all(np.isfinite(array)):
-        raise InvalidValueError(name, array.tolist(), allowed)
-    return array
+    @property
+    def solved(self) -> NDArray[np.bool_]:
+        """Which targets were solved, (n_targets,)."""
+        return self.statuses == IkStatus.SOLVED

@@ -1,70 +1,116 @@
-"""Inverse kinematics for a single target: FABRIKc for the start, Gauss-Newton to the end, then other starts."""
+"""Inverse kinematics that arrives: FABRIKc for the start, Gauss-Newton to machine precision, restarts, nearest pose.
+
+Position alone, position and direction of the tip, or its full pose, for any number of sections; bend limits kept. A
+target out of reach is answered by the nearest pose and its distance.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
-
 import numpy as np
+from numpy.typing import ArrayLike
 
 from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.kinematics.fabrikc import solve_fabrikc
-from continuum.kinematics.gauss_newton import refine
-from continuum.kinematics.ik_result import IkResult, Target, configuration_of
-from continuum.kinematics.nearest_pose import nearest_pose
-from continuum.kinematics.tip_task import TipTask
+from continuum.errors import InvalidValueError
+from continuum.kinematics.compiled.arm_arrays import arm_arrays
+from continuum.kinematics.compiled.search import start_postures
+from continuum.kinematics.compiled.solver import COLD, FIRST, FOLLOW, LEAST_BENDING, NEAR_START, WARM, run_solver
+from continuum.kinematics.compiled.task import radian_in_metres
+from continuum.kinematics.ik_result import IkBatch, IkResult, IkStatus
+from continuum.kinematics.ik_target import Target, Targets, configuration_of
 
-_FABRIKC_ITERATIONS = 10
-_N_RESTARTS = 8
+OBJECTIVES = {"first": FIRST, "near_start": NEAR_START, "least_bending": LEAST_BENDING}
+"""What a redundant arm does with its freedom: take the first answer found, stay near the start, or bend least."""
+
+
+class InverseKinematics:
+    """Solver for one arm.
+
+    Args:
+        arm: the arm.
+        tolerance: largest distance [m], and largest angle [rad], that counts as solved.
+        objective: one of OBJECTIVES.
+        n_restarts: postures tried after the start before a target is given up.
+
+    Raises:
+        InvalidValueError: unknown objective, or a tolerance that is not positive.
+    """
+
+    def __init__(
+        self, arm: Arm, tolerance: float = 1e-6, objective: str = "first", n_restarts: int = 200
+    ) -> None:
+        if objective not in OBJECTIVES:
+            raise InvalidValueError("objective", objective, f"one of {', '.join(OBJECTIVES)}")
+        if not 0.0 < tolerance < np.inf:
+            raise InvalidValueError("tolerance", tolerance, "a number > 0")
+        self.arm = arm
+        self.tolerance = tolerance
+        self.objective = objective
+        self._limited, self._unlimited = arm_arrays(arm), arm_arrays(arm, with_limits=False)
+        self._postures = start_postures(arm.n_sections, n_restarts)
+
+    def solve(self, target: Target, start: ArrayLike | None = None) -> IkResult:
+        """Answer one target.
+
+        Args:
+            target: position, and direction or rotation unless they are free.
+            start: configuration (n_sections, 2) [rad] near which the answer is wanted; without it, any.
+
+        Raises:
+            InvalidValueError: malformed start. A hard target is no error: see the result's status.
+        """
+        w = configuration_of(self.arm, start)
+        numbers = self._run(target, w.reshape(1, -1), COLD if start is None else WARM)
+        status, iterations, distance, angle = numbers[0].tolist()
+        return IkResult(w, IkStatus(int(status)), int(iterations), distance, angle)
+
+    def solve_many(self, targets: Targets, starts: ArrayLike | None = None) -> IkBatch:
+        """Answer each target by itself, from its own start (n_targets, n_sections, 2) [rad] if starts are given."""
+        shape = (len(targets), self.arm.n_sections, 2)
+        w = np.zeros(shape) if starts is None else np.array(np.broadcast_to(starts, shape), dtype=float)
+        return self._answer_all(targets, w, COLD if starts is None else WARM)
+
+    def follow(self, targets: Targets, start: ArrayLike | None = None) -> IkBatch:
+        """Answer the targets of a trajectory, each from the answer to the one before it."""
+        w = np.zeros((len(targets), self.arm.n_sections, 2))
+        w[:1] = configuration_of(self.arm, start)
+        return self._answer_all(targets, w, FOLLOW)
+
+    def _answer_all(self, targets: Targets, w: Array, start: int) -> IkBatch:
+        numbers = self._run(targets, w.reshape(len(targets), -1), start)
+        return IkBatch(w, numbers[:, 0].astype(int), numbers[:, 1].astype(int), numbers[:, 2], numbers[:, 3])
+
+    def _run(self, targets: Targets, w: Array, start: int) -> Array:
+        numbers = np.empty((len(targets), 4))
+        run_solver(
+            self._limited,
+            self._unlimited,
+            targets.kind,
+            radian_in_metres(self.arm),
+            targets.positions,
+            targets.axes,
+            w,
+            start,
+            self.tolerance,
+            OBJECTIVES[self.objective],
+            self._postures,
+            numbers,
+        )
+        return numbers
 
 
 def solve(
     arm: Arm,
-    position: Array,
-    direction: Array | None = None,
-    start: Array | None = None,
+    position: ArrayLike,
+    direction: ArrayLike | None = None,
+    start: ArrayLike | None = None,
     tolerance: float = 1e-6,
 ) -> IkResult:
     """Configuration that brings the tip to ``position`` (3,) [m], its z axis along ``direction`` (3,) if given.
 
-    The starts are tried in turn until one solves the target: ``start`` by itself, FABRIKc from there, FABRIKc from the
-    straight arm and from postures bent to other sides. If all fail, the distance is minimised from the best of them:
-    the answer is then the nearest pose that was found, with its distance.
+    For many targets make one :class:`InverseKinematics` and use it again.
 
     Raises:
         InvalidValueError: malformed target or start.
     """
-    target = Target(position, direction)
-    weight = TipTask(arm, target).weight
-    best: IkResult | None = None
-    iterations = 0
-    for begin in _starts(arm, target, start):
-        result = refine(arm, target, begin, tolerance)
-        iterations += result.iterations
-        if best is None or result.distance + weight * result.angle < best.distance + weight * best.angle:
-            best = result
-        if result.solved:
-            return replace(result, iterations=iterations)
-    nearest = nearest_pose(arm, target, best.configuration if best else None, tolerance)
-    return replace(nearest, iterations=iterations + nearest.iterations)
-
-
-def _starts(arm: Arm, target: Target, start: Array | None) -> Iterator[Array]:
-    first = configuration_of(arm, start)
-    if start is not None:
-        yield first
-    yield _from_fabrikc(arm, target, first)
-    if start is not None:
-        yield _from_fabrikc(arm, target, np.zeros_like(first))
-    for k in range(_N_RESTARTS):
-        # Sections bent by a right angle, each start and each section to another side.
-        azimuths = 2.0 * np.pi * (k / _N_RESTARTS + (k + 1) * np.arange(arm.n_sections) / (arm.n_sections + 1))
-        posture = 0.5 * np.pi * np.stack([-np.sin(azimuths), np.cos(azimuths)], axis=-1)
-        yield _from_fabrikc(arm, target, posture)
-
-
-def _from_fabrikc(arm: Arm, target: Target, start: Array) -> Array:
-    return solve_fabrikc(
-        arm, target.position, target.direction, start, max_iterations=_FABRIKC_ITERATIONS
-    ).configuration
+    return InverseKinematics(arm, tolerance).solve(Target(position, direction), start)

@@ -1,45 +1,53 @@
 """Even functions of an angle that stay exact at zero, where their usual quotients are 0/0.
 
-The straight posture is an ordinary input everywhere because section and cable maps are written with these.
+The straight posture is an ordinary input everywhere because section and cable maps are written with these. They take
+arrays and plain floats alike and know no branches, so that the compiled solver can use them as they stand.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import TypeVar
 
 import numpy as np
-from numpy.polynomial import polynomial
 
 from continuum.arrays import Array
 
-# Taylor coefficients in x^2, used below `_SMALL`; the first term left out is below 1e-17 of the sum there.
-_SMALL = 0.5
-_SINC_SLOPE = (-1 / 3, 1 / 30, -1 / 840, 1 / 45360, -1 / 3991680, 1 / 518918400, -1 / 93405312000)
-_ONE_MINUS_SINC = (1 / 6, -1 / 120, 1 / 5040, -1 / 362880, 1 / 39916800, -1 / 6227020800, 1 / 1307674368000)
+Real = TypeVar("Real", float, Array)
+
+_SMALL = 0.5  # below it, a series; the first term left out is below 1e-17 of the sum there
 
 
-def sinc(x: Array) -> Array:
+def sinc(x: Real) -> Real:
     """sin(x) / x, with x in rad (unlike :func:`numpy.sinc`)."""
-    return np.sinc(x / np.pi)
+    zero = x == 0.0
+    return np.sin(x) / (x + zero) + zero
 
 
-def versine(x: Array) -> Array:
+def versine(x: Real) -> Real:
     """(1 - cos x) / x^2."""
-    return 0.5 * sinc(0.5 * x) ** 2
+    half = sinc(0.5 * x)
+    return 0.5 * half * half
 
 
-def sinc_slope(x: Array) -> Array:
+def sinc_slope(x: Real) -> Real:
     """sinc'(x) / x = (x cos x - sin x) / x^3."""
-    return _series_near_zero(x, _SINC_SLOPE, lambda y: (y * np.cos(y) - np.sin(y)) / y**3)
-
-
-def one_minus_sinc(x: Array) -> Array:
-    """(1 - sinc x) / x^2 = (x - sin x) / x^3."""
-    return _series_near_zero(x, _ONE_MINUS_SINC, lambda y: (y - np.sin(y)) / y**3)
-
-
-def _series_near_zero(x: Array, coefficients: tuple[float, ...], quotient: Callable[[Array], Array]) -> Array:
-    x = np.asarray(x, dtype=float)
     small = np.abs(x) < _SMALL
-    away = np.where(small, 1.0, x)
-    return np.where(small, polynomial.polyval(x * x, coefficients), quotient(away))
+    y = x * x * small
+    series = -1 / 3 + y * (
+        1 / 30
+        + y * (-1 / 840 + y * (1 / 45360 + y * (-1 / 3991680 + y * (1 / 518918400 - y / 93405312000))))
+    )
+    away = x * (1 - small) + small
+    return small * series + (1 - small) * (away * np.cos(away) - np.sin(away)) / (away * away * away)
+
+
+def one_minus_sinc(x: Real) -> Real:
+    """(1 - sinc x) / x^2 = (x - sin x) / x^3."""
+    small = np.abs(x) < _SMALL
+    y = x * x * small
+    series = 1 / 6 + y * (
+        -1 / 120
+        + y * (1 / 5040 + y * (-1 / 362880 + y * (1 / 39916800 + y * (-1 / 6227020800 + y / 1307674368000))))
+    )
+    away = x * (1 - small) + small
+    return small * series + (1 - small) * (away - np.sin(away)) / (away * away * away)

@@ -9,26 +9,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from continuum.arm import Section
-from continuum.arrays import Array
-from continuum.kinematics.smooth_functions import sinc
+from continuum.kinematics.smooth_functions import Real, sinc
 
 
-def _links(section: Section) -> tuple[Array, Array]:
-    """Lengths of the links [m] and their angles to the chord as multiples of theta, each (n_joints + 1,)."""
-    n = section.n_joints
-    lengths = np.full(n + 1, 2 * section.b)
-    lengths[[0, -1]] = section.b
-    return lengths, (n - 2 * np.arange(n + 1)) / (2 * n)
+def chord_length(theta: Real, b: float, n_joints: int) -> Real:
+    """Distance [m] from base disc to tip disc, signed along theta / 2, at bend ``theta`` [rad]; ``b`` [m]."""
+    total = 2 * b * np.cos(0.5 * theta)  # the two half links at the ends
+    for k in range(1, n_joints):
+        total = total + 2 * b * np.cos((0.5 - k / n_joints) * theta)
+    return total
 
 
-def chord_length(theta: Array, section: Section) -> Array:
-    """Distance [m] (...) from base disc to tip disc, signed along theta / 2, at bend ``theta`` (...) [rad]."""
-    lengths, multiples = _links(section)
-    return np.cos(np.asarray(theta)[..., None] * multiples) @ lengths
-
-
-def chord_slope(theta: Array, section: Section) -> Array:
-    """(d chord / d theta) / theta [m/rad^2] (...), finite in the straight posture."""
-    lengths, multiples = _links(section)
-    return -sinc(np.asarray(theta)[..., None] * multiples) @ (lengths * multiples**2)
+def chord_slope(theta: Real, b: float, n_joints: int) -> Real:
+    """(d chord / d theta) / theta [m/rad^2], finite in the straight posture."""
+    total = -0.5 * b * sinc(0.5 * theta)
+    for k in range(1, n_joints):
+        multiple = 0.5 - k / n_joints
+        total = total - 2 * b * multiple * multiple * sinc(multiple * theta)
+    return total

@@ -8,6 +8,15 @@ from __future__ import annotations
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.kinematics.smooth_functions import Real
+
+
+def configuration_entries(x: Real, y: Real, z: Real) -> tuple[Real, Real]:
+    """(u, v) [rad] of a section whose tip lies in the direction (x, y, z) of any length."""
+    radius = np.hypot(x, y)
+    theta = 2.0 * np.arctan2(radius, z)
+    safe_radius = radius + (radius == 0.0)
+    return -theta * (y / safe_radius), theta * (x / safe_radius)
 
 
 def configuration_from_point(point: Array) -> Array:
@@ -17,8 +26,4 @@ def configuration_from_point(point: Array) -> Array:
     down (x = y = 0, z < 0) every azimuth is right; w is (0, 0) there, and for the zero point,
     which has no direction.
     """
-    x, y, z = point[..., 0], point[..., 1], point[..., 2]
-    radius = np.hypot(x, y)
-    theta = 2.0 * np.arctan2(radius, z)
-    safe_radius = np.where(radius == 0.0, 1.0, radius)
-    return np.stack([-theta * (y / safe_radius), theta * (x / safe_radius)], axis=-1)
+    return np.stack(configuration_entries(point[..., 0], point[..., 1], point[..., 2]), axis=-1)

@@ -6,10 +6,37 @@ import numpy as np
 
 from continuum.arm import Section
 from continuum.arrays import Array
-from continuum.kinematics.configuration import allen_from_jones, allen_rate_jacobian, bend
+from continuum.kinematics.configuration import allen_from_jones, allen_rate_jacobian
+from continuum.kinematics.rigid import Entries3, vector
 from continuum.kinematics.section.chord import chord_length, chord_slope
 from continuum.kinematics.section.eq04_pose import section_position
-from continuum.kinematics.smooth_functions import one_minus_sinc, sinc, sinc_slope, versine
+from continuum.kinematics.smooth_functions import Real, one_minus_sinc, sinc, sinc_slope, versine
+
+
+def position_slopes(u: Real, v: Real, b: float, n_joints: int) -> tuple[Entries3, Entries3]:
+    """Velocity of the tip point [m/rad] per rate of u, and per rate of v, at (u, v) [rad]; ``b`` [m]."""
+    theta = np.hypot(u, v)
+    half = 0.5 * theta
+    chord, slope = chord_length(theta, b, n_joints), chord_slope(theta, b, n_joints)
+    lateral = 0.5 * chord * sinc(half)
+    # Slopes over theta: d f(theta) / d (u, v) = (f'(theta) / theta) (u, v).
+    lateral_slope = 0.5 * (slope * sinc(half) + 0.25 * chord * sinc_slope(half))
+    axial_slope = slope * np.cos(half) - 0.25 * chord * sinc(half)
+    along_u = (lateral_slope * u * v, -lateral_slope * u * u - lateral, axial_slope * u)
+    along_v = (lateral_slope * v * v + lateral, -lateral_slope * u * v, axial_slope * v)
+    return along_u, along_v
+
+
+def rotation_slopes(u: Real, v: Real) -> tuple[Entries3, Entries3]:
+    """Angular velocity of the tip [rad/rad] per rate of u, and per rate of v, at (u, v) [rad].
+
+    These are the first two columns of the left Jacobian of SO(3) at the rotation vector (u, v, 0).
+    """
+    theta = np.hypot(u, v)
+    first, second = versine(theta), one_minus_sinc(theta)
+    along_u = (1.0 - second * v * v, second * u * v, -first * v)
+    along_v = (second * u * v, 1.0 - second * u * u, first * u)
+    return along_u, along_v
 
 
 def section_jacobian(w: Array, section: Section) -> Array:
@@ -17,7 +44,10 @@ def section_jacobian(w: Array, section: Section) -> Array:
 
     Rows: linear velocity of the tip point [m/rad], then angular velocity [rad/rad]; columns: u, v.
     """
-    return np.concatenate([_position_jacobian(w, section), _angular_jacobian(w)], axis=-2)
+    u, v = w[..., 0], w[..., 1]
+    linear = [vector(column) for column in position_slopes(u, v, section.b, section.n_joints)]
+    angular = [vector(column) for column in rotation_slopes(u, v)]
+    return np.concatenate([np.stack(linear, axis=-1), np.stack(angular, axis=-1)], axis=-2)
 
 
 def spatial_twist_jacobian(phi: Array, theta: Array, section: Section) -> Array:
@@ -31,33 +61,3 @@ def spatial_twist_jacobian(phi: Array, theta: Array, section: Section) -> Array:
     linear, angular = geometric[..., :3, :], geometric[..., 3:, :]
     lever = np.cross(angular, section_position(w, section)[..., None], axisa=-2, axisb=-2, axisc=-2)
     return np.concatenate([linear - lever, angular], axis=-2)
-
-
-def _position_jacobian(w: Array, section: Section) -> Array:
-    u, v = w[..., 0], w[..., 1]
-    theta = bend(w)
-    half = 0.5 * theta
-    chord, slope = chord_length(theta, section), chord_slope(theta, section)
-    lateral = 0.5 * chord * sinc(half)
-    # Slopes over theta: d f(theta) / d w = (f'(theta) / theta) w.
-    lateral_slope = 0.5 * (slope * sinc(half) + 0.25 * chord * sinc_slope(half))
-    axial_slope = slope * np.cos(half) - 0.25 * chord * sinc(half)
-    rows = [
-        [lateral_slope * u * v, lateral_slope * v * v + lateral],
-        [-lateral_slope * u * u - lateral, -lateral_slope * u * v],
-        [axial_slope * u, axial_slope * v],
-    ]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
-
-
-def _angular_jacobian(w: Array) -> Array:
-    """First two columns of the left Jacobian of SO(3) at the rotation vector (u, v, 0)."""
-    u, v = w[..., 0], w[..., 1]
-    theta = bend(w)
-    first, second = versine(theta), one_minus_sinc(theta)
-    rows = [
-        [1.0 - second * v * v, second * u * v],
-        [second * u * v, 1.0 - second * u * u],
-        [-first * v, first * u],
-    ]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)

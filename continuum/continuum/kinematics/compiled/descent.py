@@ -1,0 +1,68 @@
+"""Gauss-Newton with Levenberg's damping on the analytic Jacobian, bend limits kept: one search from one start."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.kinematics.compiled.arm_arrays import ArmArrays
+from continuum.kinematics.compiled.equations import compiled
+from continuum.kinematics.compiled.least_squares_step import least_squares_step
+from continuum.kinematics.compiled.limits import hold_outward, pull_within
+from continuum.kinematics.compiled.task import TargetArrays, evaluate, squared
+
+_LARGEST_STEP = 1.0  # of any coordinate in one iteration [rad]
+_ROUNDING = 1e-16  # keeps the normal equations definite where the Jacobian has lost rank [m2]
+_SLOW = 0.98  # a squared error that shrinks by less ...
+_N_SLOW = 4  # ... so many times in a row ends the search
+
+
+@compiled
+def descend(
+    arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, max_iterations: int, damping: float
+) -> tuple[int, float, float, bool]:
+    """Move ``w`` (2 n_sections,) [rad] in place towards the target by short steps.
+
+    The damping follows the squared error, so that convergence is quadratic where the error vanishes.
+
+    Returns:
+        Iterations, distance [m], angle [rad], and whether both are within the tolerance.
+    """
+    size = len(w)
+    jacobian, trial_jacobian = np.empty((6, size)), np.empty((6, size))
+    error, trial_error = np.empty(target.n_rows), np.empty(target.n_rows)
+    normal = np.empty((max(6, size), max(6, size)))
+    step, trial = np.empty(size), np.empty(size)
+    held = np.empty(len(arm.b), np.bool_)
+    pull_within(arm, w)
+    distance, angle = evaluate(arm, target, w, error, jacobian)
+    cost = squared(error)
+    n_slow = 0
+    for iteration in range(max_iterations):
+        if distance <= tolerance and angle <= tolerance:
+            return iteration, distance, angle, True
+        held[:] = False
+        while True:
+            least_squares_step(jacobian, error, damping * cost + _ROUNDING, normal, step)
+            if not hold_outward(arm, w, step, held, jacobian, target.n_rows):
+                break
+        largest = np.max(np.abs(step))
+        scale = 1.0 if largest < _LARGEST_STEP else _LARGEST_STEP / largest
+        for k in range(size):
+            trial[k] = w[k] + scale * step[k]
+        pull_within(arm, trial)
+        trial_distance, trial_angle = evaluate(arm, target, trial, trial_error, trial_jacobian)
+        trial_cost = squared(trial_error)
+        if trial_cost < cost:
+            n_slow = n_slow + 1 if trial_cost > _SLOW * cost else 0
+            w[:] = trial
+            jacobian, trial_jacobian = trial_jacobian, jacobian
+            error, trial_error = trial_error, error
+            distance, angle, cost = trial_distance, trial_angle, trial_cost
+            damping = max(0.2 * damping, 1e-9)
+        else:
+            damping *= 8.0
+            n_slow += 1
+        if n_slow >= _N_SLOW or damping > 1e7:
+            return iteration + 1, distance, angle, distance <= tolerance and angle <= tolerance
+    return max_iterations, distance, angle, distance <= tolerance and angle <= tolerance

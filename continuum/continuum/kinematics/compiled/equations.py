@@ -1,0 +1,60 @@
+"""The library's equations, made known to numba, and a cache of compiled code that follows their sources.
+
+Numba's cache looks at the file of the compiled function alone; ours calls equations from many files. So every entry
+point carries a digest of all of them in its closure, which is a part of the cache's key.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numba
+from numba.extending import register_jitable
+
+from continuum import kinematics
+from continuum.kinematics import rigid, smooth_functions
+from continuum.kinematics.chain import eq10_pose, eq11_jacobian
+from continuum.kinematics.section import chord, eq04_pose, eq05_configuration_from_point, eq21_jacobian
+
+_EQUATIONS = (
+    smooth_functions.sinc,
+    smooth_functions.versine,
+    smooth_functions.sinc_slope,
+    smooth_functions.one_minus_sinc,
+    rigid.rotated,
+    rigid.turned_about_z,
+    rigid.product,
+    rigid.cross,
+    chord.chord_length,
+    chord.chord_slope,
+    eq04_pose.rotation_entries,
+    eq04_pose.position_entries,
+    eq05_configuration_from_point.configuration_entries,
+    eq21_jacobian.position_slopes,
+    eq21_jacobian.rotation_slopes,
+    eq10_pose.next_tip,
+    eq11_jacobian.section_columns,
+    eq11_jacobian._carried,
+)
+for _equation in _EQUATIONS:
+    register_jitable(_equation)
+
+compiled = numba.njit(error_model="numpy")
+"""Compiles a function that is called from compiled code alone; not cached by itself."""
+
+
+def sources_digest() -> str:
+    """Digest of all source files that compiled code may come from."""
+    digest = hashlib.sha256()
+    for path in sorted(Path(kinematics.__path__[0]).rglob("*.py")):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def entry_point(build: Callable[[str], Callable[..., Any]]) -> Callable[..., Any]:
+    """Compile, once and cached on disk, the function that ``build`` makes around the digest of the sources."""
+    function: Callable[..., Any] = numba.njit(build(sources_digest()), cache=True, error_model="numpy")
+    return function

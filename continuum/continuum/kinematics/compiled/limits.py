@@ -1,0 +1,44 @@
+"""Bend limits inside the compiled search: sections at their limit slide along it or come back, but go no further."""
+
+from __future__ import annotations
+
+import math
+
+from continuum.arrays import Array
+from continuum.kinematics.compiled.arm_arrays import ArmArrays
+from continuum.kinematics.compiled.equations import compiled
+
+AT_LIMIT = 1.0 - 1e-9
+
+
+@compiled
+def pull_within(arm: ArmArrays, w: Array) -> None:
+    """Bring every section that is bent too far back to its limit."""
+    for i in range(len(arm.b)):
+        theta = math.hypot(w[2 * i], w[2 * i + 1])
+        if theta > arm.bend_limit[i]:
+            scale = arm.bend_limit[i] / theta
+            w[2 * i] *= scale
+            w[2 * i + 1] *= scale
+
+
+@compiled
+def hold_outward(arm: ArmArrays, w: Array, step: Array, held: Array, jacobian: Array, n_rows: int) -> bool:
+    """Take out of ``jacobian`` what would bend a section beyond its limit; True if that changed anything.
+
+    A section is held where it stands at its limit and ``step`` goes outward; ``held`` (n_sections,) remembers it.
+    """
+    changed = False
+    for i in range(len(arm.b)):
+        u, v = w[2 * i], w[2 * i + 1]
+        theta = math.hypot(u, v)
+        if held[i] or theta < AT_LIMIT * arm.bend_limit[i] or u * step[2 * i] + v * step[2 * i + 1] <= 0.0:
+            continue
+        held[i] = True
+        changed = True
+        u, v = u / theta, v / theta
+        for r in range(n_rows):
+            radial = jacobian[r, 2 * i] * u + jacobian[r, 2 * i + 1] * v
+            jacobian[r, 2 * i] -= radial * u
+            jacobian[r, 2 * i + 1] -= radial * v
+    return changed

@@ -1,0 +1,163 @@
+"""Nearest pose to a target out of reach: Newton's method on half the squared error, bend limits kept.
+
+Where the error does not vanish its curvature matters, which Gauss-Newton leaves out. The gradient J^T e is exact; its
+central differences give the Hessian. A section at its limit keeps its bend and moves along the limit by its azimuth,
+until the descent points inward.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from continuum.arrays import Array
+from continuum.kinematics.compiled.arm_arrays import ArmArrays
+from continuum.kinematics.compiled.equations import compiled
+from continuum.kinematics.compiled.least_squares_step import solve_positive_definite
+from continuum.kinematics.compiled.limits import AT_LIMIT, pull_within
+from continuum.kinematics.compiled.task import TargetArrays, evaluate, squared
+
+_DIFFERENCE = 1e-5  # step of the differences [rad]
+_LARGEST_STEP = 0.5  # of any coordinate in one iteration [rad]
+_MAX_ITERATIONS = 100
+_STATIONARY = 1e-10  # gradient of the half squared error, in weights per rad, that ends the search
+
+
+@compiled
+def descend_to_nearest(arm: ArmArrays, target: TargetArrays, w: Array) -> tuple[int, bool]:
+    """Move ``w`` (2 n_sections,) [rad] in place to the local minimum of the error; iterations, and whether it is one."""
+    size = len(w)
+    error, jacobian = np.empty(target.n_rows), np.empty((6, size))
+    on_limit = np.zeros(len(arm.b), np.bool_)
+    trial = np.empty(size)
+    pull_within(arm, w)
+    cost, gradient = _cost_and_gradient(arm, target, w, error, jacobian)
+    damping = 0.0
+    for iteration in range(_MAX_ITERATIONS):
+        _choose_held(arm, w, gradient, on_limit)
+        basis = _directions(w, on_limit)
+        reduced = basis @ gradient
+        if np.max(np.abs(reduced)) < _STATIONARY * target.weight**2:
+            return iteration, True
+        hessian = _hessian(arm, target, w, on_limit, basis, error, jacobian)
+        improved = False
+        while not improved and damping < 1e8:
+            step = -reduced
+            normal = hessian.copy()
+            for k in range(len(step)):
+                normal[k, k] += damping
+            if solve_positive_definite(normal, step):
+                trial[:] = w
+                _move(trial, basis, step, on_limit)
+                pull_within(arm, trial)
+                trial_cost, trial_gradient = _cost_and_gradient(arm, target, trial, error, jacobian)
+                improved = trial_cost < cost
+            if not improved:
+                damping = max(4.0 * damping, 1e-3 * target.weight**2)
+        if not improved:
+            # Rounding hides what is left to gain: a minimum if the slope says so too.
+            return iteration, np.max(np.abs(reduced)) < 1e4 * _STATIONARY * target.weight**2
+        w[:] = trial
+        cost, gradient = trial_cost, trial_gradient
+        damping = 0.1 * damping if damping > 1e-8 * target.weight**2 else 0.0
+    return _MAX_ITERATIONS, False
+
+
+@compiled
+def _cost_and_gradient(
+    arm: ArmArrays, target: TargetArrays, w: Array, error: Array, jacobian: Array
+) -> tuple[float, Array]:
+    evaluate(arm, target, w, error, jacobian)
+    gradient = np.zeros(len(w))
+    for k in range(len(w)):
+        for r in range(target.n_rows):
+            gradient[k] -= jacobian[r, k] * error[r]
+    return 0.5 * squared(error), gradient
+
+
+@compiled
+def _choose_held(arm: ArmArrays, w: Array, gradient: Array, on_limit: NDArray[np.bool_]) -> None:
+    """Hold the sections that stand at their limit and would gain by bending further."""
+    for i in range(len(on_limit)):
+        u, v = w[2 * i], w[2 * i + 1]
+        at_limit = math.hypot(u, v) >= AT_LIMIT * arm.bend_limit[i]
+        on_limit[i] = at_limit and gradient[2 * i] * u + gradient[2 * i + 1] * v < 0.0
+
+
+@compiled
+def _directions(w: Array, on_limit: NDArray[np.bool_]) -> Array:
+    """Directions (n_free, 2 n_sections) in which ``w`` may move: u and v of a free section, along the limit of a held."""
+    n_held = np.sum(on_limit)
+    basis = np.zeros((len(w) - n_held, len(w)))
+    row = 0
+    for i in range(len(on_limit)):
+        if on_limit[i]:
+            basis[row, 2 * i], basis[row, 2 * i + 1] = -w[2 * i + 1], w[2 * i]
+            row += 1
+        else:
+            basis[row, 2 * i] = basis[row + 1, 2 * i + 1] = 1.0
+            row += 2
+    return basis
+
+
+@compiled
+def _move(w: Array, basis: Array, step: Array, on_limit: NDArray[np.bool_]) -> None:
+    """Move ``w`` in place by ``step`` (n_free,) [rad]; a held section turns by it."""
+    largest = np.max(np.abs(step))
+    scale = 1.0 if largest < _LARGEST_STEP else _LARGEST_STEP / largest
+    row = 0
+    for i in range(len(on_limit)):
+        if on_limit[i]:
+            c, s = math.cos(scale * step[row]), math.sin(scale * step[row])
+            u, v = w[2 * i], w[2 * i + 1]
+            w[2 * i], w[2 * i + 1] = c * u - s * v, s * u + c * v
+            row += 1
+        else:
+            w[2 * i] += scale * step[row]
+            w[2 * i + 1] += scale * step[row + 1]
+            row += 2
+
+
+@compiled
+def _hessian(
+    arm: ArmArrays,
+    target: TargetArrays,
+    w: Array,
+    on_limit: NDArray[np.bool_],
+    basis: Array,
+    error: Array,
+    jacobian: Array,
+) -> Array:
+    """Hessian (n_free, n_free) of the cost in the free directions, by central differences of the gradient."""
+    n_free = len(basis)
+    hessian = np.empty((n_free, n_free))
+    for j in range(n_free):
+        step = np.zeros(n_free)
+        step[j] = _DIFFERENCE
+        ahead, behind = w.copy(), w.copy()
+        _move(ahead, basis, step, on_limit)
+        _move(behind, basis, -step, on_limit)
+        ahead_gradient = _directions(ahead, on_limit) @ _cost_and_gradient(arm, target, ahead, error, jacobian)[1]
+        behind_gradient = _directions(behind, on_limit) @ _cost_and_gradient(arm, target, behind, error, jacobian)[1]
+        hessian[:, j] = (ahead_gradient - behind_gradient) / (2.0 * _DIFFERENCE)
+    return 0.5 * (hessian + hessian.T)
+
+
+@compiled
+def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tries: int) -> tuple[int, bool]:
+    """The nearest pose that descents from the ``n_tries`` best of ``ends`` find; see :func:`search`. Fills ``w``."""
+    order = np.argsort(ends[:, 0])
+    best = np.inf
+    iterations, settled = 0, False
+    error, jacobian = np.empty(target.n_rows), np.empty((6, len(w)))
+    for k in order[:n_tries]:
+        candidate = ends[k, 1:].copy()
+        spent, is_minimum = descend_to_nearest(arm, target, candidate)
+        iterations += spent
+        cost = _cost_and_gradient(arm, target, candidate, error, jacobian)[0]
+        if cost < best:
+            best, settled = cost, is_minimum
+            w[:] = candidate
+    return iterations, settled

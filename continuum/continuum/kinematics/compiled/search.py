@@ -1,0 +1,66 @@
+"""Search for a configuration that solves a target: descents from several starts until one arrives."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.kinematics.compiled.arm_arrays import ArmArrays
+from continuum.kinematics.compiled.descent import descend
+from continuum.kinematics.compiled.equations import compiled
+from continuum.kinematics.compiled.task import TargetArrays
+from continuum.kinematics.fabrikc import fabrikc
+
+_FABRIKC_PASSES = 1
+_MAX_ITERATIONS = 40  # of a descent
+_DAMPING = 1e-3  # at the start of a descent
+
+
+def start_postures(n_sections: int, count: int) -> Array:
+    """Postures (count, 2 n_sections) to start from, in parts of the bend limit: a low-discrepancy sequence, no chance.
+
+    Roberts's generalisation of the golden ratio: with g the root of g^(d+1) = g + 1, coordinate j moves on by g^-j.
+    """
+    d = 2 * n_sections
+    g = 2.0
+    for _ in range(60):
+        g = (1.0 + g) ** (1.0 / (d + 1.0))
+    points = (0.5 + np.arange(1, count + 1)[:, None] * g ** -np.arange(1.0, d + 1.0)) % 1.0
+    bend, azimuth = points[:, 0::2], 2.0 * np.pi * points[:, 1::2]
+    return np.stack([bend * np.cos(azimuth), bend * np.sin(azimuth)], axis=-1).reshape(count, d)
+
+
+@compiled
+def search(
+    arm: ArmArrays, target: TargetArrays, w: Array, is_warm: bool, tolerance: float, postures: Array, ends: Array
+) -> tuple[int, float, float, bool]:
+    """Solve from ``w`` (2 n_sections,) [rad], then from the start postures in turn; ``w`` is the answer.
+
+    One pass of FABRIKc before a descent puts it on the right side of the arm's folds. A warm start, which is near the
+    answer, is tried without it first.
+
+    ``ends`` (2 + n_postures, 1 + 2 n_sections) receives where the descents ended that did not arrive, each row the
+    squared error [m2] and the configuration; it tells the search for the nearest pose where to begin.
+
+    Returns:
+        Iterations of all descents, distance [m], angle [rad], and whether the target is solved.
+    """
+    begin = w.copy()
+    iterations = 0
+    ends[:, 0] = np.inf
+    for k in range(0 if is_warm else 1, 2 + len(postures)):
+        if k < 2:
+            w[:] = begin
+        else:
+            for i in range(len(arm.b)):
+                w[2 * i] = arm.bend_limit[i] * postures[k - 2, 2 * i]
+                w[2 * i + 1] = arm.bend_limit[i] * postures[k - 2, 2 * i + 1]
+        if k > 0:
+            fabrikc(arm, target, w, tolerance, _FABRIKC_PASSES)
+        spent, distance, angle, solved = descend(arm, target, w, tolerance, _MAX_ITERATIONS, _DAMPING)
+        iterations += spent
+        if solved:
+            break
+        ends[k, 0] = distance * distance + (target.weight * angle) ** 2
+        ends[k, 1:] = w
+    return iterations, distance, angle, solved

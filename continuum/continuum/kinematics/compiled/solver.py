@@ -1,0 +1,98 @@
+"""The compiled solver's entry point: many targets in one call, each answered with a status."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.kinematics.compiled.arm_arrays import ArmArrays
+from continuum.kinematics.compiled.equations import compiled, entry_point
+from continuum.kinematics.compiled.nearest import nearest_of
+from continuum.kinematics.compiled.redundancy import slide_towards
+from continuum.kinematics.compiled.search import search
+from continuum.kinematics.compiled.task import TargetArrays, evaluate
+from continuum.kinematics.ik_result import IkStatus
+
+FIRST, NEAR_START, LEAST_BENDING = 0, 1, 2
+"""What the redundancy is used for."""
+COLD, WARM, FOLLOW = 0, 1, 2
+"""Starts: away from the answer; near the answer; each target from the answer to the one before."""
+
+_SOLVED, _LIMIT_REACHED = int(IkStatus.SOLVED), int(IkStatus.LIMIT_REACHED)
+_UNREACHABLE, _NO_CONVERGENCE = int(IkStatus.UNREACHABLE), int(IkStatus.NO_CONVERGENCE)
+_N_NEAREST = 4  # descents from which the nearest pose is looked for
+
+
+@compiled
+def answer(
+    arm: ArmArrays,
+    unlimited: ArmArrays,
+    target: TargetArrays,
+    w: Array,
+    is_warm: bool,
+    tolerance: float,
+    objective: int,
+    postures: Array,
+) -> tuple[int, int, float, float]:
+    """Answer one target from ``w`` (2 n_sections,) [rad], which becomes the answer.
+
+    Returns:
+        Status, iterations, distance [m] and angle [rad].
+    """
+    begin = w.copy()
+    ends = np.empty((2 + len(postures), 1 + len(w)))
+    iterations, distance, angle, solved = search(arm, target, w, is_warm, tolerance, postures, ends)
+    error, jacobian = np.empty(target.n_rows), np.empty((6, len(w)))
+    if solved:
+        if objective == FIRST:
+            return _SOLVED, iterations, distance, angle
+        reference = begin if objective == NEAR_START else np.zeros_like(w)
+        iterations += slide_towards(arm, target, w, reference, tolerance)
+        distance, angle = evaluate(arm, target, w, error, jacobian)
+        return _SOLVED, iterations, distance, angle
+    spent, settled = nearest_of(arm, target, ends, w, _N_NEAREST)
+    iterations += spent
+    distance, angle = evaluate(arm, target, w, error, jacobian)
+    if distance <= tolerance and angle <= tolerance:
+        return _SOLVED, iterations, distance, angle
+    beyond = w.copy()
+    spent, _, _, within_reach = search(unlimited, target, beyond, True, tolerance, postures, ends)
+    iterations += spent
+    if within_reach:
+        return _LIMIT_REACHED, iterations, distance, angle
+    return _UNREACHABLE if settled else _NO_CONVERGENCE, iterations, distance, angle
+
+
+def _build(digest: str) -> Callable[..., Any]:
+    def run(
+        arm: ArmArrays,
+        unlimited: ArmArrays,
+        n_rows: int,
+        weight: float,
+        positions: Array,
+        rotations: Array,
+        w: Array,
+        start: int,
+        tolerance: float,
+        objective: int,
+        postures: Array,
+        numbers: Array,
+    ) -> None:
+        _ = digest
+        for k in range(len(positions)):
+            target = TargetArrays(n_rows, weight, positions[k], rotations[k])
+            if start == FOLLOW and k > 0:
+                w[k] = w[k - 1]
+            status, iterations, distance, angle = answer(
+                arm, unlimited, target, w[k], start != COLD, tolerance, objective, postures
+            )
+            numbers[k, 0], numbers[k, 1], numbers[k, 2], numbers[k, 3] = status, iterations, distance, angle
+
+    return run
+
+
+run_solver = entry_point(_build)
+"""Answer targets (n, 3), (n, 3, 3) from ``w`` (n, 2 n_sections), in place; fills ``numbers`` (n, 4): see `answer`."""

@@ -1,0 +1,101 @@
+"""Error of the tip to its target, and how the coordinates lessen it: position, position and direction, or full pose."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.arm import Arm
+from continuum.arrays import Array
+from continuum.kinematics.compiled.arm_arrays import ArmArrays
+from continuum.kinematics.compiled.equations import compiled
+from continuum.kinematics.compiled.tip import tip_and_jacobian
+from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION
+from continuum.kinematics.rigid import Entries9
+
+class TargetArrays(NamedTuple):
+    """A target as compiled code sees it.
+
+    Attributes:
+        n_rows: POSITION, DIRECTION or POSE.
+        weight: what one radian counts [m].
+        position: (3,) [m].
+        rotation: (3, 3); its third column alone is used by DIRECTION.
+    """
+
+    n_rows: int
+    weight: float
+    position: Array
+    rotation: Array
+
+
+def radian_in_metres(arm: Arm) -> float:
+    """What one radian of the tip's rotation counts beside its position [m]: a tenth of the arm's length."""
+    return 0.1 * arm.length
+
+
+@compiled
+def evaluate(arm: ArmArrays, target: TargetArrays, w: Array, error: Array, jacobian: Array) -> tuple[float, float]:
+    """Distance [m] and angle [rad] from the tip at ``w`` (2 n_sections,) to the target.
+
+    Fills ``error`` (n_rows,) [m] and the first n_rows rows of ``jacobian`` (6, 2 n_sections) [m/rad]: position in
+    ``base_link``, then rotation in the tip frame times the weight. The Jacobian's transpose times the error is the exact
+    descent of half the squared error.
+    """
+    rotation, position = tip_and_jacobian(arm, w, jacobian)
+    square = 0.0
+    for k in range(3):
+        error[k] = target.position[k] - position[k]
+        square += error[k] * error[k]
+    angle = 0.0
+    if target.n_rows > POSITION:
+        angle = _fill_rotation_error(target, rotation, error)
+        _turn_into_tip_frame(rotation, target.n_rows, target.weight, jacobian)
+    return math.sqrt(square), angle
+
+
+@compiled
+def _fill_rotation_error(target: TargetArrays, rotation: Entries9, error: Array) -> float:
+    """Rotation vector, in the tip frame, that turns the tip to the target; returns its angle [rad]."""
+    d = np.empty((3, 3))  # the target's axes seen from the tip
+    for i in range(3):
+        for j in range(3):
+            d[i, j] = (
+                rotation[i] * target.rotation[0, j]
+                + rotation[3 + i] * target.rotation[1, j]
+                + rotation[6 + i] * target.rotation[2, j]
+            )
+    if target.n_rows == DIRECTION:
+        x, y, z = -d[1, 2], d[0, 2], 0.0
+        cosine = d[2, 2]
+    else:
+        x, y, z = 0.5 * (d[2, 1] - d[1, 2]), 0.5 * (d[0, 2] - d[2, 0]), 0.5 * (d[1, 0] - d[0, 1])
+        cosine = 0.5 * (d[0, 0] + d[1, 1] + d[2, 2] - 1.0)
+    sine = math.sqrt(x * x + y * y + z * z)
+    angle = math.atan2(sine, cosine)
+    if sine < 1e-12:  # no turn, or half a turn about any axis: take x
+        x, y, z, sine = 1.0, 0.0, 0.0, 1.0
+    scale = target.weight * angle / sine
+    error[3], error[4] = scale * x, scale * y
+    if target.n_rows == POSE:
+        error[5] = scale * z
+    return angle
+
+
+@compiled
+def _turn_into_tip_frame(rotation: Entries9, n_rows: int, weight: float, jacobian: Array) -> None:
+    for k in range(jacobian.shape[1]):
+        x, y, z = jacobian[3, k], jacobian[4, k], jacobian[5, k]
+        for i in range(n_rows - 3):
+            jacobian[3 + i, k] = weight * (rotation[i] * x + rotation[3 + i] * y + rotation[6 + i] * z)
+
+
+@compiled
+def squared(error: Array) -> float:
+    """Sum of squares."""
+    total = 0.0
+    for value in error:
+        total += value * value
+    return total
