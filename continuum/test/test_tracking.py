@@ -114,6 +114,14 @@ def test_it_comes_back_after_any_time_out_of_reach(wait: int) -> None:
     assert answers[-1].result.solved
 
 
+def test_stuck_away_from_a_reachable_target_it_searches_again_before_long() -> None:
+    """Curled up below, at its bend limit, no small steps lead to the target above; a new search finds it."""
+    tracker = Tracker(arm_of(2))
+    tracker.pose((-0.32, 0.093, -0.943), velocity=np.zeros(3))
+    answers = [tracker.pose((0.0, 0.0, 0.38), velocity=np.zeros(3), dt=DT) for _ in range(55)]
+    assert all(answer.result.solved for answer in answers[50:])
+
+
 def test_a_twist_is_integrated() -> None:
     """A second along the circle by twists alone: midpoint rule, so the drift falls with the square of the step."""
     drifts = []
