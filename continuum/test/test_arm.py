@@ -4,6 +4,7 @@ import math
 from dataclasses import fields, replace
 
 import pytest
+from continuum_laws.labels import label
 from continuum_laws.outcomes import outcome
 from continuum_laws.samples import PROTOTYPE, SECTIONS, mixed_arm
 from continuum_laws.strategies import LAW, arms
@@ -51,7 +52,9 @@ def test_a_cable_on_the_inner_side_vanishes_at_the_contact_bend(section: Section
     assert cable_lengths(w, section)[1] == pytest.approx(0.0, abs=1e-15)
 
 
-@pytest.mark.parametrize(("name", "value"), [(name, value) for name, values in BAD_VALUES.items() for value in values])
+@pytest.mark.parametrize(
+    ("name", "value"), [(name, value) for name, values in BAD_VALUES.items() for value in values], ids=label
+)
 def test_a_bad_value_is_refused_by_name(name: str, value: object) -> None:
     with pytest.raises(InvalidValueError) as caught:
         arm_from_mapping(with_value(name, value))

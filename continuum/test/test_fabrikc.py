@@ -46,6 +46,15 @@ def test_a_start_that_meets_the_target_is_the_answer() -> None:
         np.testing.assert_allclose(result.configuration, w, rtol=0, atol=1e-12)
 
 
+def test_the_position_alone_does_not_solve_position_and_direction() -> None:
+    arm = mixed_arm(3)
+    w = random_postures(arm, 1, seed=2, largest=1.3)[0]
+    pose = arm_pose(w, arm)
+    result = solve_fabrikc(arm, pose[:3, 3], pose[:3, 0], start=w, max_iterations=0)
+    assert (result.status, result.iterations) == (IkStatus.NO_CONVERGENCE, 0)
+    assert result.angle == pytest.approx(np.pi / 2)
+
+
 @pytest.mark.parametrize(("with_direction", "share"), [(False, 0.9), (True, 0.7)])
 def test_most_targets_are_reached_within_a_millimetre(with_direction: bool, share: float) -> None:
     """By position 99 of 100 were measured; with the direction within 1e-3 rad as well, some 82 of 100."""

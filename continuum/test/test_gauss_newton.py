@@ -59,6 +59,16 @@ def test_converges_quadratically_near_the_answer() -> None:
         assert result.iterations <= 6
 
 
+def test_slides_along_the_limit_to_an_answer_there() -> None:
+    arm = arm_of(3, bend_limit=1.0)
+    for w in random_postures(arm, 12, seed=9):
+        w[1] /= bend(w[1])
+        pose = arm_pose(w, arm)
+        start = w + 0.1 * RANDOM.normal(size=(3, 2))
+        start[1] /= bend(start[1])
+        assert refine(arm, Target(pose[:3, 3], pose[:3, 2]), start, tolerance=1e-9).solved
+
+
 def test_limits_hold_and_what_cannot_be_reached_is_no_convergence() -> None:
     arm = arm_of(2, bend_limit=0.5)
     result = refine(arm, Target((0.3, 0.0, 0.0)), start=np.full((2, 2), 2.0))

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from continuum_laws.labels import label
 from continuum_laws.strategies import LAW
 from hypothesis import given
 from hypothesis import strategies as st
@@ -55,6 +56,7 @@ def test_an_allowed_value_is_kept_in_its_type(spec: ParameterSpec, value: object
         *[(PATH, value) for value in (0, False, None, b"x", ["x"])],
         *[(POINT, value) for value in (1.0, "12", b"12", None, {1.0}, {"a": 1.0})],
     ],
+    ids=label,
 )
 def test_any_other_is_refused_in_one_line(spec: ParameterSpec, value: object) -> None:
     with pytest.raises(InvalidValueError) as caught:

@@ -95,6 +95,7 @@ def test_out_of_reach_the_nearest_pose_is_told_and_back_in_reach_it_is_solved_ag
         tip = arm_pose(answer.result.configuration, ARM)[:3, 3]
         assert answer.result.distance == pytest.approx(np.linalg.norm(tip - position), rel=1e-9)
         assert answer.result.distance == pytest.approx(out[0].result.distance, rel=1e-6)  # the arm is round
+    assert max(answer.result.iterations for answer in out[1:]) <= 50  # each from the one before, no new search
     back = follow(tracker, 60, start=40)
     assert all(answer.result.solved for answer in back)
     rates = np.array([answer.rate for answer in back[20:]])
@@ -111,6 +112,14 @@ def test_it_comes_back_after_any_time_out_of_reach(wait: int) -> None:
         assert not tracker.pose((0.8, 0.0, 0.3), velocity=np.zeros(3), dt=DT).result.solved
     answers = [tracker.pose((0.05, 0.0, 0.3), velocity=np.zeros(3), dt=DT) for _ in range(3)]
     assert answers[-1].result.solved
+
+
+def test_stuck_away_from_a_reachable_target_it_searches_again_before_long() -> None:
+    """Curled up below, at its bend limit, no small steps lead to the target above; a new search finds it."""
+    tracker = Tracker(arm_of(2))
+    tracker.pose((-0.32, 0.093, -0.943), velocity=np.zeros(3))
+    answers = [tracker.pose((0.0, 0.0, 0.38), velocity=np.zeros(3), dt=DT) for _ in range(55)]
+    assert all(answer.result.solved for answer in answers[50:])
 
 
 def test_a_twist_is_integrated() -> None:

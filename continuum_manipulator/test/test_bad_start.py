@@ -31,10 +31,21 @@ def error_lines(node: NodeProcess) -> list[str]:
         return node.stderr.splitlines()
 
 
+@pytest.fixture(scope="module")
+def badly_started(domain):
+    """Nodes of all cases, started side by side."""
+    nodes = {
+        case: NodeProcess("continuum_manipulator", executable, domain, files=files, parameters=parameters)
+        for case, (executable, files, parameters, _) in BAD_PARAMETERS.items()
+    }
+    with ended_in_any_case(*nodes.values()):
+        yield nodes
+
+
 @pytest.mark.parametrize("case", BAD_PARAMETERS)
-def test_bad_parameter_ends_the_node_with_one_line(case, domain):
-    executable, files, parameters, expected = BAD_PARAMETERS[case]
-    lines = error_lines(NodeProcess("continuum_manipulator", executable, domain, files=files, parameters=parameters))
+def test_bad_parameter_ends_the_node_with_one_line(case, badly_started):
+    executable, _, _, expected = BAD_PARAMETERS[case]
+    lines = error_lines(badly_started[case])
     assert len(lines) == 1
     assert expected in lines[0]
     assert lines[0].startswith(f"{executable}: error: ")
@@ -72,8 +83,7 @@ def probe(domain):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize("delay", ["at once", "when it runs"])
-@pytest.mark.parametrize("twice", [False, True])
+@pytest.mark.parametrize(("delay", "twice"), [("at once", False), ("at once", True), ("when it runs", True)])
 def test_signal_ends_a_node_cleanly_from_its_first_moment(domain, probe, number, delay, twice):
     name = f"section_{delay}_{number.name}_{twice}".replace(" ", "_")
     node = NodeProcess("continuum_manipulator", "section", domain, name=name, files=ARM, parameters={"section": 1})

@@ -25,6 +25,7 @@ def write(bag, n, first=0):
     handle = bag.add_topic("/joint_states", TYPE, [offered(STREAM)])
     for i in range(first, first + n):
         bag.write(handle, RAW, 1_000 + i)
+    return handle
 
 
 @pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
@@ -74,7 +75,9 @@ def test_unknown_storage_is_refused(tmp_path):
 @pytest.mark.parametrize("cut", [0, 1, 7, 100])
 def test_flushed_messages_survive_a_kill_at_any_byte(tmp_path, cut):
     with BagWriter(tmp_path / "bag") as bag:
-        write(bag, 20)
+        handle = write(bag, 20)
+        bag.flush()
+        bag.write(handle, RAW, 1_020)
         bag.flush()
         write_more = bag.add_topic("/more", TYPE, [])
         bag.write(write_more, RAW, 5_000)
@@ -82,11 +85,11 @@ def test_flushed_messages_survive_a_kill_at_any_byte(tmp_path, cut):
     (file,) = left.glob("*.mcap")
     whole = file.read_bytes()
     file.write_bytes(whole + (tmp_path / "bag" / "bag.mcap").read_bytes()[len(whole) : len(whole) + cut])
-    assert recover(left, tmp_path / "recovered") == 20
+    assert recover(left, tmp_path / "recovered") == 21
     with Reader(tmp_path / "recovered") as reader:
-        assert [(c.topic, c.msgcount) for c in reader.connections] == [("/joint_states", 20)]
+        assert [(c.topic, c.msgcount) for c in reader.connections] == [("/joint_states", 21)]
         assert reader.connections[0].ext.offered_qos_profiles == [offered(STREAM)]
-        assert [(stamp, raw) for _, stamp, raw in reader.messages()] == [(1_000 + i, RAW) for i in range(20)]
+        assert [(stamp, raw) for _, stamp, raw in reader.messages()] == [(1_000 + i, RAW) for i in range(21)]
 
 
 def test_recovery_of_nothing(tmp_path):

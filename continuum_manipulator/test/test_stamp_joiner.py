@@ -38,6 +38,7 @@ def test_gives_out_exactly_the_instants_that_all_have(arrivals):
     joiner = StampJoiner(KEYS)
     assert feed(joiner, arrivals) == sorted(common)
     stamps = {stamp for _, stamp in arrivals}
+    assert joiner.waiting == len({stamp for stamp in stamps if stamp > max(common, default=-1)})
     assert joiner.incomplete + joiner.waiting == len(stamps - common)
     assert joiner.late == joiner.repeated == 0
 

@@ -83,7 +83,7 @@ class NodeProcess:
         return self.exit_code()
 
     def close(self) -> None:
-        """End it in any case."""
+        """End it in any case; a second call does nothing."""
         if self.running:
             self.process.kill()
             self.process.wait()

@@ -78,8 +78,9 @@ class Probe:
         while not all(heard):
             assert time.monotonic() < deadline, "no answer"
             send()
-            for _ in range(5):
-                self._executor.spin_once(timeout_sec=0.02)
+            again = time.monotonic() + 0.5
+            while not all(heard) and time.monotonic() < again:
+                self._executor.spin_once(timeout_sec=0.05)
         self.listen_until_quiet()
         for messages in heard:
             messages.clear()

@@ -127,5 +127,7 @@ class TrajectoryPublisherNode(CheckedNode):
         self.finished = bool(self.values["exit_at_end"])
 
     def close(self) -> None:
+        if not self.finished:
+            return  # stopped from outside, and at once
         self._publish_pose.wait_until_received(ACKNOWLEDGED_WITHIN)
         self._publish_twist.wait_until_received(ACKNOWLEDGED_WITHIN)
