@@ -1,49 +1,82 @@
-"""Differential inverse kinematics: rates of the configurations for a velocity of the tip (thesis Eqs. 11 and 22).
-
-rate = J+ v + (I - J+ J) r: the least-norm answer, damped near singular postures, plus what the redundancy leaves free.
-"""
+"""Differential inverse kinematics of an arm: rates of its configurations for a velocity of the tip."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.kinematics.bend_limits import without_outward
+from continuum.kinematics.compiled.arm_arrays import arm_arrays
+from continuum.kinematics.compiled.limits import pull_within
+from continuum.kinematics.compiled.rate import run_tip_rate
+from continuum.kinematics.compiled.task import radian_in_metres
+from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION, configuration_of, finite
 
-_NEAR_SINGULAR = 0.02  # of the largest singular value, below which damping sets in
+__all__ = ["DIRECTION", "POSE", "POSITION", "DifferentialKinematics", "TipRate", "least_bending"]
+
+
+@dataclass(frozen=True)
+class TipRate:
+    """Rates of the configurations, and what they do to the tip.
+
+    Attributes:
+        rate: (n_sections, 2) [rad/s].
+        velocity: of the tip (3,) [m/s]; differs from the wanted one near singular postures and at bend limits.
+        spin: angular velocity of the tip (3,) [rad/s].
+        held: whether a section at its bend limit would have been bent further.
+    """
+
+    rate: Array
+    velocity: Array
+    spin: Array
+    held: bool
+
+
+class DifferentialKinematics:
+    """Rates for one arm.
+
+    Args:
+        arm: the arm.
+        kind: what of the tip's velocity counts: POSITION, DIRECTION (all but its turn about its own axis) or POSE.
+    """
+
+    def __init__(self, arm: Arm, kind: int = POSITION) -> None:
+        self.arm = arm
+        self.kind = kind
+        self._arrays = arm_arrays(arm)
+
+    def rate(
+        self, w: ArrayLike, velocity: ArrayLike, spin: ArrayLike = (0.0, 0.0, 0.0), wish: ArrayLike | None = None
+    ) -> TipRate:
+        """Rate at ``w`` (n_sections, 2) [rad] that moves the tip by ``velocity`` (3,) [m/s] and ``spin`` (3,) [rad/s].
+
+        ``wish`` (n_sections, 2) [rad/s] is followed where the tip's velocity leaves the arm free.
+
+        Raises:
+            InvalidValueError: wrong shape or not finite.
+        """
+        w = configuration_of(self.arm, w)
+        rate, moved, held = run_tip_rate(
+            self._arrays,
+            self.kind,
+            radian_in_metres(self.arm),
+            w.reshape(-1),
+            finite("velocity", velocity, (3,)),
+            finite("spin", spin, (3,)),
+            configuration_of(self.arm, wish).reshape(-1),
+        )
+        return TipRate(rate.reshape(w.shape), moved[:3], moved[3:], held)
+
+    def advance(self, w: Array, rate: Array, dt: float) -> Array:
+        """Configuration (n_sections, 2) [rad] after ``rate`` [rad/s] for ``dt`` [s], no section beyond its limit."""
+        moved = (w + dt * rate).reshape(-1)
+        pull_within.py_func(self._arrays, moved)
+        return moved.reshape(-1, 2)
 
 
 def least_bending(w: Array, gain: float) -> Array:
     """Rate (n_sections, 2) [rad/s] down the gradient of |w|^2 / 2, for a gain [1/s]: the arm unbends where it may."""
-    return -gain * w
-
-
-def configuration_rate(jacobian: Array, velocity: Array, w: Array, arm: Arm, wish: Array | None = None) -> Array:
-    """Rate (n_sections, 2) [rad/s] that moves the tip by ``velocity`` and, where free, follows ``wish``.
-
-    Args:
-        jacobian: (m, 2 n_sections), of the task at ``w``.
-        velocity: (m,) of the task.
-        w: configuration (n_sections, 2) [rad]; sections at their bend limit are not bent further.
-        arm: the arm.
-        wish: rate (n_sections, 2) [rad/s] for the null space of the task.
-    """
-    free = np.zeros(w.size) if wish is None else wish.reshape(-1)
-    rate = _damped_rate(jacobian, velocity, free)
-    held = without_outward(jacobian, w, rate.reshape(w.shape), arm)
-    if not np.array_equal(held, jacobian):
-        free = without_outward(free[None], w, rate.reshape(w.shape), arm)[0]  # a held section may not unbend either
-        rate = _damped_rate(held, velocity, free)
-    return rate.reshape(w.shape)
-
-
-def _damped_rate(jacobian: Array, velocity: Array, free: Array) -> Array:
-    left, values, right = np.linalg.svd(jacobian, full_matrices=False)
-    threshold = max(_NEAR_SINGULAR * float(values[0]), 1e-12)
-    # Damping grows smoothly from nothing at the threshold (Nakamura and Hanafusa 1986).
-    damping = (threshold * np.clip(1.0 - values / threshold, 0.0, 1.0)) ** 2
-    in_range = right[values > 1e-9 * threshold]
-    along: Array = right.T @ (values / (values**2 + damping) * (left.T @ velocity))
-    rate: Array = along + free - in_range.T @ (in_range @ free)
-    return rate
+    return -gain * np.asarray(w)

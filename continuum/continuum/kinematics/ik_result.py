@@ -77,4 +77,5 @@ class IkBatch:
     @property
     def solved(self) -> NDArray[np.bool_]:
         """Which targets were solved, (n_targets,)."""
-        return self.statuses == IkStatus.SOLVED
+        solved: NDArray[np.bool_] = self.statuses == IkStatus.SOLVED
+        return solved

@@ -87,7 +87,8 @@ class Target(Targets):
     @property
     def position(self) -> Array:
         """(3,) [m]."""
-        return self.positions[0]
+        position: Array = self.positions[0]
+        return position
 
     @property
     def direction(self) -> Array | None:

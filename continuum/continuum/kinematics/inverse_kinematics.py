@@ -20,7 +20,8 @@ from continuum.kinematics.ik_result import IkBatch, IkResult, IkStatus
 from continuum.kinematics.ik_target import Target, Targets, configuration_of
 
 OBJECTIVES = {"first": FIRST, "near_start": NEAR_START, "least_bending": LEAST_BENDING}
-"""What a redundant arm does with its freedom: take the first answer found, stay near the start, or bend least."""
+"""What a redundant arm does with its freedom: take the first answer found, the one near it
+that is nearest to the start, or the least bent of several neighbourhoods."""
 
 
 class InverseKinematics:
@@ -36,9 +37,7 @@ class InverseKinematics:
         InvalidValueError: unknown objective, or a tolerance that is not positive.
     """
 
-    def __init__(
-        self, arm: Arm, tolerance: float = 1e-6, objective: str = "first", n_restarts: int = 200
-    ) -> None:
+    def __init__(self, arm: Arm, tolerance: float = 1e-6, objective: str = "first", n_restarts: int = 200) -> None:
         if objective not in OBJECTIVES:
             raise InvalidValueError("objective", objective, f"one of {', '.join(OBJECTIVES)}")
         if not 0.0 < tolerance < np.inf:

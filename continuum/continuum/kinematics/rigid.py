@@ -44,6 +44,11 @@ def product(r: Entries9, m: Entries9) -> Entries9:
     return (x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2])
 
 
+def transposed(r: Entries9) -> Entries9:
+    """The transpose, for a rotation its inverse."""
+    return (r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8])
+
+
 def cross(a: Entries3, b: Entries3) -> Entries3:
     """The vector product a x b."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])

@@ -20,7 +20,8 @@ _SMALL = 0.5  # below it, a series; the first term left out is below 1e-17 of th
 def sinc(x: Real) -> Real:
     """sin(x) / x, with x in rad (unlike :func:`numpy.sinc`)."""
     zero = x == 0.0
-    return np.sin(x) / (x + zero) + zero
+    quotient: Real = np.sin(x) / (x + zero) + zero
+    return quotient
 
 
 def versine(x: Real) -> Real:
@@ -34,11 +35,11 @@ def sinc_slope(x: Real) -> Real:
     small = np.abs(x) < _SMALL
     y = x * x * small
     series = -1 / 3 + y * (
-        1 / 30
-        + y * (-1 / 840 + y * (1 / 45360 + y * (-1 / 3991680 + y * (1 / 518918400 - y / 93405312000))))
+        1 / 30 + y * (-1 / 840 + y * (1 / 45360 + y * (-1 / 3991680 + y * (1 / 518918400 - y / 93405312000))))
     )
     away = x * (1 - small) + small
-    return small * series + (1 - small) * (away * np.cos(away) - np.sin(away)) / (away * away * away)
+    result: Real = small * series + (1 - small) * (away * np.cos(away) - np.sin(away)) / (away * away * away)
+    return result
 
 
 def one_minus_sinc(x: Real) -> Real:
@@ -46,8 +47,8 @@ def one_minus_sinc(x: Real) -> Real:
     small = np.abs(x) < _SMALL
     y = x * x * small
     series = 1 / 6 + y * (
-        -1 / 120
-        + y * (1 / 5040 + y * (-1 / 362880 + y * (1 / 39916800 + y * (-1 / 6227020800 + y / 1307674368000))))
+        -1 / 120 + y * (1 / 5040 + y * (-1 / 362880 + y * (1 / 39916800 + y * (-1 / 6227020800 + y / 1307674368000))))
     )
     away = x * (1 - small) + small
-    return small * series + (1 - small) * (away - np.sin(away)) / (away * away * away)
+    result: Real = small * series + (1 - small) * (away - np.sin(away)) / (away * away * away)
+    return result

@@ -13,19 +13,14 @@ import numpy as np
 
 from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.kinematics.bend_limits import within_limits
-from continuum.kinematics.chain import arm_jacobian, arm_pose
-from continuum.kinematics.differential import configuration_rate, least_bending
-from continuum.kinematics.gauss_newton import refine
-from continuum.kinematics.ik_result import IkResult, IkStatus, Target
-from continuum.kinematics.inverse_kinematics import solve
-from continuum.kinematics.nearest_pose import nearest_pose
-from continuum.kinematics.tip_task import TipTask
+from continuum.kinematics.differential import DIRECTION, POSITION, DifferentialKinematics, TipRate, least_bending
+from continuum.kinematics.ik_result import IkResult, IkStatus
+from continuum.kinematics.ik_target import Target
+from continuum.kinematics.inverse_kinematics import InverseKinematics
 
-_UNBEND_STEPS = 200
-_UNBEND_STEP = 0.2
-_SEARCH_EVERY = 50  # poses out of reach, after which other answers are looked for again
-_UNBENT = 1e-7  # change of a coordinate that ends the unbending [rad]
+_NO_SPIN = np.zeros(3)
+_BEHIND = 1e-3  # part of the wanted velocity that the tip may lack and still count as following
+_JUMP = 0.5  # change of a coordinate against the prediction [rad] from which an answer does not continue the motion
 
 
 @dataclass(frozen=True)
@@ -50,15 +45,16 @@ class Tracker:
     """
 
     def __init__(
-        self, arm: Arm, use_direction: bool = False, tolerance: float = 1e-6, unbend_gain: float = 5.0
+        self, arm: Arm, use_direction: bool = False, tolerance: float = 1e-9, unbend_gain: float = 5.0
     ) -> None:
-        self.arm = arm
         self.use_direction = use_direction
-        self.tolerance = tolerance
         self.unbend_gain = unbend_gain
         self.configuration = np.zeros((arm.n_sections, 2))
-        self._rates: list[Array] = []  # of the last instants, newest last; empty before the first pose
-        self._n_out_of_reach = 0  # poses since the last one that was reached
+        self._differential = DifferentialKinematics(arm, DIRECTION if use_direction else POSITION)
+        self._begin = InverseKinematics(arm, tolerance, objective="least_bending")
+        self._stay = InverseKinematics(arm, tolerance, objective="near_start")
+        self._continue = InverseKinematics(arm, tolerance, objective="first")
+        self._rates: list[Array] = []  # of the last instants, newest last; empty where no motion is continued
 
     def pose(
         self,
@@ -86,39 +82,37 @@ class Tracker:
         if velocity is None:
             self._rates = []
             return Tracked(result, None)
-        rate = self._rate(np.asarray(velocity), angular_velocity)
+        rate = self._rate(velocity, angular_velocity).rate
         self._rates = [*self._rates[-1:], rate]
         return Tracked(result, rate)
 
     def twist(self, velocity: Array, angular_velocity: Array | None, dt: float) -> Tracked:
-        """Move the tip by a twist, (3,) [m/s] and (3,) [rad/s], for ``dt`` [s] (midpoint rule)."""
+        """Move the tip by a twist, (3,) [m/s] and (3,) [rad/s], for ``dt`` [s] (midpoint rule).
+
+        Where the arm cannot follow, at a bend limit or stretched out, the status says so; the distance is what the tip
+        falls behind by this step.
+        """
         start = self.configuration
-        middle_rate = self._rate(np.asarray(velocity), angular_velocity)
-        self.configuration = within_limits(start + 0.5 * dt * middle_rate, self.arm)
-        middle_rate = self._rate(np.asarray(velocity), angular_velocity)
-        self.configuration = within_limits(start + dt * middle_rate, self.arm)
-        rate = self._rate(np.asarray(velocity), angular_velocity)
+        middle = self._differential.advance(start, self._rate(velocity, angular_velocity).rate, 0.5 * dt)
+        self.configuration = middle
+        self.configuration = self._differential.advance(start, self._rate(velocity, angular_velocity).rate, dt)
         self._rates = []
-        return Tracked(IkResult(self.configuration, IkStatus.SOLVED, 0, 0.0, 0.0), rate)
+        now = self._rate(velocity, angular_velocity)
+        behind = float(np.linalg.norm(now.velocity - velocity))
+        status = IkStatus.SOLVED
+        if behind > _BEHIND * np.linalg.norm(velocity):
+            status = IkStatus.LIMIT_REACHED if now.held else IkStatus.UNREACHABLE
+        return Tracked(IkResult(self.configuration, status, 0, behind * dt, 0.0), now.rate)
 
     def _solve(self, target: Target, dt: float | None) -> IkResult:
-        result = self._continue(target, dt) if dt is not None else None
-        if result is None:
-            self._rates = []
-            result = solve(self.arm, target.position, target.direction, self.configuration, self.tolerance)
-            if result.solved and dt is None:
-                result = self._unbend(target, result)
-        self._n_out_of_reach = 0 if result.solved else self._n_out_of_reach + 1
-        return result
-
-    def _continue(self, target: Target, dt: float) -> IkResult | None:
-        """The answer next to the one before; None where only a new search can help."""
-        if self._n_out_of_reach % _SEARCH_EVERY:
-            return nearest_pose(self.arm, target, self.configuration, self.tolerance)
-        if self._n_out_of_reach or not self._rates:
-            return None
-        result = refine(self.arm, target, self._predict(dt), self.tolerance, max_iterations=15)
-        return result if result.solved else None
+        if dt is not None and self._rates:
+            predicted = self._predict(dt)
+            result = self._continue.solve(target, predicted)
+            if not result.solved or np.max(np.abs(result.configuration - predicted)) > _JUMP:
+                self._rates = []
+            return result
+        straight = not np.any(self.configuration)
+        return self._begin.solve(target) if straight else self._stay.solve(target, self.configuration)
 
     def _predict(self, dt: float) -> Array:
         """Configuration after ``dt`` [s] from the last two rates (Adams and Bashforth, second order)."""
@@ -126,27 +120,7 @@ class Tracker:
         slope = 0.5 * (newest - self._rates[-2]) if len(self._rates) > 1 else 0.0
         return self.configuration + dt * (newest + slope)
 
-    def _unbend(self, target: Target, result: IkResult) -> IkResult:
-        """Of the answers to one pose, the one near ``result`` that bends least."""
-        task = TipTask(self.arm, target)
-        for _ in range(_UNBEND_STEPS):
-            w = result.configuration
-            jacobian = task.jacobian(w)
-            step = configuration_rate(jacobian, np.zeros(len(jacobian)), w, self.arm, least_bending(w, _UNBEND_STEP))
-            moved = refine(self.arm, target, w + step, self.tolerance, max_iterations=15)
-            if not moved.solved or np.max(np.abs(moved.configuration - w)) < _UNBENT:
-                break
-            result = moved
-        return result
-
-    def _rate(self, velocity: Array, angular_velocity: Array | None) -> Array:
+    def _rate(self, velocity: Array, angular_velocity: Array | None) -> TipRate:
         w = self.configuration
-        geometric = arm_jacobian(w, self.arm)
-        wish = least_bending(w, self.unbend_gain)
-        if not self.use_direction or angular_velocity is None:
-            return configuration_rate(geometric[:3], velocity, w, self.arm, wish)
-        # Turning about the tip's own axis changes no direction, and the arm cannot do it: the task leaves it out.
-        axis = arm_pose(w, self.arm)[:3, 2]
-        task = TipTask(self.arm, Target(np.zeros(3), axis))
-        task_velocity = np.concatenate([velocity, task.weight * np.cross(angular_velocity, axis)])
-        return configuration_rate(task.jacobian(w), task_velocity, w, self.arm, wish)
+        spin = _NO_SPIN if angular_velocity is None else angular_velocity
+        return self._differential.rate(w, velocity, spin, least_bending(w, self.unbend_gain))

@@ -27,6 +27,7 @@ _EQUATIONS = (
     rigid.rotated,
     rigid.turned_about_z,
     rigid.product,
+    rigid.transposed,
     rigid.cross,
     chord.chord_length,
     chord.chord_slope,

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
 from continuum.kinematics.compiled.equations import compiled
@@ -23,7 +26,7 @@ def pull_within(arm: ArmArrays, w: Array) -> None:
 
 
 @compiled
-def hold_outward(arm: ArmArrays, w: Array, step: Array, held: Array, jacobian: Array, n_rows: int) -> bool:
+def hold_outward(arm: ArmArrays, w: Array, step: Array, held: NDArray[np.bool_], jacobian: Array, n_rows: int) -> bool:
     """Take out of ``jacobian`` what would bend a section beyond its limit; True if that changed anything.
 
     A section is held where it stands at its limit and ``step`` goes outward; ``held`` (n_sections,) remembers it.
@@ -36,9 +39,23 @@ def hold_outward(arm: ArmArrays, w: Array, step: Array, held: Array, jacobian: A
             continue
         held[i] = True
         changed = True
-        u, v = u / theta, v / theta
         for r in range(n_rows):
-            radial = jacobian[r, 2 * i] * u + jacobian[r, 2 * i + 1] * v
-            jacobian[r, 2 * i] -= radial * u
-            jacobian[r, 2 * i + 1] -= radial * v
+            _stop_radial_pair(u / theta, v / theta, jacobian[r], i)
     return changed
+
+
+@compiled
+def stop_radial(w: Array, held: NDArray[np.bool_], rate: Array) -> None:
+    """Take out of ``rate`` (2 n_sections,) what would bend or unbend the held sections."""
+    for i in range(len(held)):
+        if held[i]:
+            theta = math.hypot(w[2 * i], w[2 * i + 1])
+            _stop_radial_pair(w[2 * i] / theta, w[2 * i + 1] / theta, rate, i)
+
+
+@compiled
+def _stop_radial_pair(u: float, v: float, row: Array, i: int) -> None:
+    """Take out of section ``i``'s pair in ``row`` its part along the unit vector (u, v)."""
+    radial = row[2 * i] * u + row[2 * i + 1] * v
+    row[2 * i] -= radial * u
+    row[2 * i + 1] -= radial * v

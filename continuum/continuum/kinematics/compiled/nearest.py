@@ -22,6 +22,7 @@ from continuum.kinematics.compiled.task import TargetArrays, evaluate, squared
 _DIFFERENCE = 1e-5  # step of the differences [rad]
 _LARGEST_STEP = 0.5  # of any coordinate in one iteration [rad]
 _MAX_ITERATIONS = 100
+_NEARER = 1e-6  # part by which a squared error must be less to count as less
 _STATIONARY = 1e-10  # gradient of the half squared error, in weights per rad, that ends the search
 
 
@@ -147,17 +148,26 @@ def _hessian(
 
 @compiled
 def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tries: int) -> tuple[int, bool]:
-    """The nearest pose that descents from the ``n_tries`` best of ``ends`` find; see :func:`search`. Fills ``w``."""
+    """The nearest pose that descents find from the first of ``ends`` and from the ``n_tries`` best; fills ``w``.
+
+    The first end, that of a warm start, wins over others that are no nearer: a moving arm stays where it is.
+
+    Returns:
+        Iterations, and whether the answer is a minimum.
+    """
     order = np.argsort(ends[:, 0])
     best = np.inf
     iterations, settled = 0, False
     error, jacobian = np.empty(target.n_rows), np.empty((6, len(w)))
-    for k in order[:n_tries]:
-        candidate = ends[k, 1:].copy()
+    for k in range(-1, n_tries):
+        row = 0 if k < 0 else order[k]
+        if ends[row, 0] == np.inf:
+            continue
+        candidate = ends[row, 1:].copy()
         spent, is_minimum = descend_to_nearest(arm, target, candidate)
         iterations += spent
         cost = _cost_and_gradient(arm, target, candidate, error, jacobian)[0]
-        if cost < best:
+        if cost < (1.0 - _NEARER) * best:
             best, settled = cost, is_minimum
             w[:] = candidate
     return iterations, settled

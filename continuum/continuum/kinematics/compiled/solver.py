@@ -23,6 +23,7 @@ COLD, WARM, FOLLOW = 0, 1, 2
 
 _SOLVED, _LIMIT_REACHED = int(IkStatus.SOLVED), int(IkStatus.LIMIT_REACHED)
 _UNREACHABLE, _NO_CONVERGENCE = int(IkStatus.UNREACHABLE), int(IkStatus.NO_CONVERGENCE)
+_N_NEIGHBOURHOODS = 12  # in which the least bent answer is looked for
 _N_NEAREST = 4  # descents from which the nearest pose is looked for
 
 
@@ -49,8 +50,10 @@ def answer(
     if solved:
         if objective == FIRST:
             return _SOLVED, iterations, distance, angle
-        reference = begin if objective == NEAR_START else np.zeros_like(w)
-        iterations += slide_towards(arm, target, w, reference, tolerance)
+        if objective == NEAR_START:
+            iterations += slide_towards(arm, target, w, begin, tolerance)
+        else:
+            iterations += _least_bent(arm, target, w, tolerance, postures, ends)
         distance, angle = evaluate(arm, target, w, error, jacobian)
         return _SOLVED, iterations, distance, angle
     spent, settled = nearest_of(arm, target, ends, w, _N_NEAREST)
@@ -64,6 +67,26 @@ def answer(
     if within_reach:
         return _LIMIT_REACHED, iterations, distance, angle
     return _UNREACHABLE if settled else _NO_CONVERGENCE, iterations, distance, angle
+
+
+@compiled
+def _least_bent(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, postures: Array, ends: Array) -> int:
+    """Move ``w``, which solves the target, in place to the least bent answer of several neighbourhoods; iterations."""
+    straight = np.zeros_like(w)
+    iterations = slide_towards(arm, target, w, straight, tolerance)
+    if len(w) <= target.n_rows:
+        return iterations
+    for k in range(min(_N_NEIGHBOURHOODS, len(postures))):
+        other = straight.copy()
+        for i in range(len(other)):
+            other[i] = arm.bend_limit[i // 2] * postures[k, i]
+        spent, _, _, solved = search(arm, target, other, False, tolerance, postures[:0], ends)
+        iterations += spent
+        if solved:
+            iterations += slide_towards(arm, target, other, straight, tolerance)
+            if np.sum(other * other) < np.sum(w * w):
+                w[:] = other
+    return iterations
 
 
 def _build(digest: str) -> Callable[..., Any]:

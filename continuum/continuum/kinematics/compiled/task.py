@@ -15,6 +15,7 @@ from continuum.kinematics.compiled.tip import tip_and_jacobian
 from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION
 from continuum.kinematics.rigid import Entries9
 
+
 class TargetArrays(NamedTuple):
     """A target as compiled code sees it.
 
@@ -52,7 +53,7 @@ def evaluate(arm: ArmArrays, target: TargetArrays, w: Array, error: Array, jacob
     angle = 0.0
     if target.n_rows > POSITION:
         angle = _fill_rotation_error(target, rotation, error)
-        _turn_into_tip_frame(rotation, target.n_rows, target.weight, jacobian)
+        turn_into_tip_frame(rotation, target.n_rows, target.weight, jacobian)
     return math.sqrt(square), angle
 
 
@@ -85,7 +86,8 @@ def _fill_rotation_error(target: TargetArrays, rotation: Entries9, error: Array)
 
 
 @compiled
-def _turn_into_tip_frame(rotation: Entries9, n_rows: int, weight: float, jacobian: Array) -> None:
+def turn_into_tip_frame(rotation: Entries9, n_rows: int, weight: float, jacobian: Array) -> None:
+    """Turn the rows 3 to n_rows of ``jacobian`` from ``base_link`` into the tip frame, times the weight."""
     for k in range(jacobian.shape[1]):
         x, y, z = jacobian[3, k], jacobian[4, k], jacobian[5, k]
         for i in range(n_rows - 3):

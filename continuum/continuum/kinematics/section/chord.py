@@ -14,7 +14,7 @@ from continuum.kinematics.smooth_functions import Real, sinc
 
 def chord_length(theta: Real, b: float, n_joints: int) -> Real:
     """Distance [m] from base disc to tip disc, signed along theta / 2, at bend ``theta`` [rad]; ``b`` [m]."""
-    total = 2 * b * np.cos(0.5 * theta)  # the two half links at the ends
+    total: Real = 2 * b * np.cos(0.5 * theta)  # the two half links at the ends
     for k in range(1, n_joints):
         total = total + 2 * b * np.cos((0.5 - k / n_joints) * theta)
     return total
