@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from continuum.errors import FileError, InvalidValueError
 from continuum.parameter_file import read_parameter_file
@@ -13,6 +15,8 @@ from continuum.parameter_spec import ParameterSpec
 
 FOUR_CABLES = [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]
 """Azimuths of four cables, a quarter turn apart, as on the prototype [rad]."""
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")  # it becomes a part of topic, frame and parameter names
 
 SECTIONS_PARAMETER = ParameterSpec("sections", str, "names of the sections from the base", is_list=True)
 
@@ -42,6 +46,12 @@ SECTION_PARAMETERS: tuple[ParameterSpec, ...] = (
 )  # fmt: skip
 
 
+def _default(name: str) -> Any:
+    """Default of a section's parameter; of a list, as a tuple."""
+    (value,) = [spec.default for spec in SECTION_PARAMETERS if spec.name == name]
+    return tuple(value) if isinstance(value, list) else value
+
+
 @dataclass(frozen=True)
 class Section:
     """One inextensible section: ``n_joints`` spherical joints between discs, bent by cables on its last disc.
@@ -68,13 +78,15 @@ class Section:
     n_joints: int
     b: float
     a: float
-    twist: float = 0.0
-    cable_azimuths: tuple[float, ...] = tuple(FOUR_CABLES)
-    bend_limit: float = math.pi
-    link_mass: float = 0.22257
-    link_inertia: float = 79398e-9
+    twist: float = _default("twist")
+    cable_azimuths: tuple[float, ...] = _default("cable_azimuths")
+    bend_limit: float = _default("bend_limit")
+    link_mass: float = _default("link_mass")
+    link_inertia: float = _default("link_inertia")
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not _NAME.fullmatch(self.name):
+            raise InvalidValueError("name of section", self.name, "a letter, then letters, digits and underscores")
         for spec in SECTION_PARAMETERS:
             value = spec.check(getattr(self, spec.name), f"{self.name}.")
             object.__setattr__(self, spec.name, tuple(value) if isinstance(value, list) else value)

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
 import yaml
 
 from continuum.errors import FileError
+
+
+class _Loader(yaml.SafeLoader):
+    """PyYAML's safe loader, which also takes ``1e-2`` for a number as ROS does."""
+
+
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float", re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$"), list("-+.0123456789")
+)
 
 
 def read_parameter_file(path: str | Path) -> Mapping[str, object]:
@@ -17,7 +27,7 @@ def read_parameter_file(path: str | Path) -> Mapping[str, object]:
         FileError: the file cannot be read, or holds no mapping.
     """
     try:
-        block = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        block = yaml.load(Path(path).read_text(encoding="utf-8"), Loader=_Loader)  # noqa: S506  (a safe loader)
     except (OSError, UnicodeDecodeError) as error:
         raise FileError(path, f"cannot be read ({error})") from error
     except (yaml.YAMLError, ValueError, RecursionError) as error:  # ValueError: an impossible date

@@ -1,4 +1,4 @@
-"""Thesis Eqs. 20 and 21: velocity of a section's tip from the rates of its configuration."""
+"""Thesis Eqs. 20 and 21: velocity of a section's tip from the rates of its configuration. Printed: docs/errata.md."""
 
 from __future__ import annotations
 
