@@ -5,10 +5,10 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo test check format lock clean
+.PHONY: help setup demo test bench-ik check format lock clean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 setup: ## make .venv, install pinned versions, build the workspace; does nothing where nothing changed
 	@PYTHON="$(PYTHON)" sh tools/setup/run.sh
@@ -18,6 +18,9 @@ demo: setup ## follow the thesis's helix with real nodes, results in out/demo
 
 test: check ## run the checks and every test (ARGS="-k name" are given to pytest)
 	@$(IN_WORKSPACE) pytest $(ARGS)
+
+bench-ik: setup ## measure the inverse kinematics against its rivals: docs/ik-benchmark.md (about 10 minutes)
+	@$(IN_WORKSPACE) python3 -m tools.bench_ik $(ARGS)
 
 check: setup ## style, lint and types, without the tests
 	@$(IN_WORKSPACE) ruff format --check --quiet && ruff check --quiet && mypy

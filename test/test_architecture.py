@@ -19,6 +19,7 @@ CODE = ("*.py", "*.xml", "*.xacro", "*.yaml", "*.msg", "*.cfg", "CMakeLists.txt"
 
 PLAIN_PYTHON = {  # what a module is called in package.xml (rosdep's keys)
     "matplotlib": "python3-matplotlib",
+    "numba": "python3-numba",
     "numpy": "python3-numpy",
     "rich": "python3-rich",
     "scipy": "python3-scipy",

@@ -40,7 +40,10 @@ def _set_up() -> None:
         made.write()
     virtual_environment.write_shell_files()
     stale = [name for name, digest in wanted.packages.items() if made.packages.get(name) != digest]
-    workspace.build(stale)
+    if stale:
+        workspace.build(stale)
+    if made.compiled != wanted.compiled:
+        workspace.compile_solver()
     wanted.write()
     print("Ready: `make demo`, or `source install/setup.bash` and then `continuum --help`.", flush=True)
 

@@ -14,10 +14,11 @@ READ_BY_BUILD = ("package.xml", "setup.cfg", "setup.py")
 
 @dataclass
 class Stamp:
-    """Hashes of the inputs: ``environment`` of .venv, ``packages`` of each built package."""
+    """Hashes of the inputs: ``environment`` of .venv, ``packages`` of each built package, ``compiled`` of the solver."""
 
     environment: str = ""
     packages: dict[str, str] = field(default_factory=dict)
+    compiled: str = ""
 
     def write(self) -> None:
         BUILD.mkdir(exist_ok=True)
@@ -42,7 +43,13 @@ def wanted() -> Stamp:
     """Return the stamp that the checkout asks for."""
     environment = _digest([str(ROOT), sys.base_prefix, sys.version, LOCK.read_bytes()])
     built_by = [environment, *(path.read_bytes() for path in sorted(SETUP.glob("*.cmake")))]
-    return Stamp(environment, {p.name: _digest([*built_by, *_inputs(p)]) for p in package_folders()})
+    packages = {p.name: _digest([*built_by, *_inputs(p)]) for p in package_folders()}
+    return Stamp(environment, packages, _digest([environment, *(path.read_bytes() for path in _compiled_sources())]))
+
+
+def _compiled_sources() -> list[Path]:
+    """Sources that numba's cached code may come from."""
+    return sorted((ROOT / "continuum" / "continuum" / "kinematics").rglob("*.py"))
 
 
 def _is_installed(name: str) -> bool:

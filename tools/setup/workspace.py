@@ -40,6 +40,19 @@ def build(names: list[str]) -> None:
     _free_scripts()
 
 
+def compile_solver() -> None:
+    """Fill numba's cache, so that no node compiles while it runs.
+
+    Raises:
+        SetupError: the solver does not compile.
+    """
+    with Step("inverse kinematics, compiled", "does not compile; the lines above say why.") as step:
+        step.run(
+            ["bash", "-c", "source install/setup.bash && python3 -m continuum.kinematics.compiled.warm_up"],
+            venv_environment(),
+        )
+
+
 def remove() -> None:
     """Remove everything that was built."""
     for folder in (BUILD, INSTALL):

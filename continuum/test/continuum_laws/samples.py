@@ -1,5 +1,6 @@
 """Sections, arms and postures that the laws are tried on: every switch of a series, every singularity, both sides."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -55,9 +56,19 @@ def mixed_arm(n_sections: int) -> Arm:
     return Arm(tuple(replace(s, name=f"section_{i}", twist=0.7 * i - 1.0) for i, s in enumerate(chosen)))
 
 
+def limited(arm: Arm, bend_limits: Sequence[float]) -> Arm:
+    """``arm`` with other bend limits [rad], one a section."""
+    return Arm(tuple(replace(s, bend_limit=limit) for s, limit in zip(arm.sections, bend_limits, strict=True)))
+
+
+def limits_of(arm: Arm) -> np.ndarray:
+    """Bend limits (n_sections,) [rad]."""
+    return np.array([section.bend_limit for section in arm.sections])
+
+
 def random_postures(arm: Arm, n: int, seed: int, largest: float | None = None) -> np.ndarray:
     """Configurations (n, n_sections, 2) [rad], bends uniform up to the sections' limits or to ``largest``."""
     random = np.random.default_rng(seed)
-    limit = [section.bend_limit if largest is None else largest for section in arm.sections]
+    limit = limits_of(arm) if largest is None else np.full(arm.n_sections, largest)
     phi = random.uniform(-np.pi, np.pi, (n, arm.n_sections))
     return allen_from_jones(phi, random.uniform(0.0, limit, (n, arm.n_sections)))

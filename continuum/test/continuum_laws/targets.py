@@ -4,6 +4,7 @@ import numpy as np
 
 from continuum.arm import Arm
 from continuum.kinematics.chain import arm_pose
+from continuum.kinematics.ik_target import DIRECTION, POSE, Targets
 from continuum_laws.samples import random_postures
 
 HARD_POSITIONS = (
@@ -33,3 +34,26 @@ def reachable_targets(arm: Arm, n: int, seed: int) -> list[tuple[np.ndarray, np.
     """Positions (3,) [m] and directions (3,) of the tip at random postures within the bend limits."""
     poses = arm_pose(random_postures(arm, n, seed), arm)
     return [(pose[:3, 3], pose[:3, 2]) for pose in poses]
+
+
+def targets_at(arm: Arm, postures: np.ndarray, kind: int) -> Targets:
+    """The tips at ``postures`` (n, n_sections, 2) [rad] as targets: POSITION, DIRECTION or POSE."""
+    poses = arm_pose(postures, arm)
+    return Targets(
+        poses[:, :3, 3],
+        poses[:, :3, 2] if kind == DIRECTION else None,
+        poses[:, :3, :3] if kind == POSE else None,
+    )
+
+
+def misses(arm: Arm, configurations: np.ndarray, targets: Targets) -> tuple[np.ndarray, np.ndarray]:
+    """Distances [m] and angles [rad], each (n,), by which the tips at ``configurations`` miss their targets."""
+    poses = arm_pose(configurations, arm)
+    distances = np.linalg.norm(poses[:, :3, 3] - targets.positions, axis=-1)
+    if targets.directions is not None:
+        z, wanted = poses[:, :3, 2], targets.directions
+        return distances, np.arctan2(np.linalg.norm(np.cross(z, wanted), axis=-1), np.sum(z * wanted, axis=-1))
+    if targets.rotations is not None:
+        apart = np.linalg.norm(poses[:, :3, :3] - targets.rotations, axis=(-2, -1)) / np.sqrt(8.0)
+        return distances, 2.0 * np.arcsin(np.clip(apart, 0.0, 1.0))
+    return distances, np.zeros(len(distances))

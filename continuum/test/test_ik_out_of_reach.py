@@ -1,0 +1,134 @@
+"""Out of reach: the distance told is the true one to the reachable set, by a dense search, and the pose attains it."""
+
+import numpy as np
+import pytest
+from continuum_laws.dense_search import distance_of_one_section, distance_of_sections
+from continuum_laws.samples import arm_of, limited, limits_of, mixed_arm, random_postures
+from continuum_laws.targets import misses, targets_at
+
+from continuum.arm import Arm
+from continuum.kinematics.configuration import bend
+from continuum.kinematics.ik_result import IkBatch, IkStatus
+from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION, Targets
+from continuum.kinematics.inverse_kinematics import InverseKinematics
+
+ARMS = {
+    "one": arm_of(1),
+    "one_short_bend": arm_of(1, 0.7),
+    "one_mixed": mixed_arm(1),
+    "two": arm_of(2),
+    "two_short_bends": arm_of(2, 0.4),
+    "two_uneven_bends": limited(arm_of(2), (2.0, 0.2)),
+    "two_mixed": mixed_arm(2),
+    "three": arm_of(3),
+    "three_short_bends": arm_of(3, 0.5),
+    "three_uneven_bends": limited(arm_of(3), (0.05, 1.5, 3.0)),
+    "three_mixed": limited(mixed_arm(3), (0.3, 1.0, 0.1)),
+}
+each_arm = pytest.mark.parametrize("arm", ARMS.values(), ids=ARMS)
+
+
+def answers_that_attain(arm: Arm, targets: Targets) -> IkBatch:
+    """The solver's answers, after a look whether they obey the limits and lie where they say."""
+    batch = InverseKinematics(arm).solve_many(targets)
+    distances, angles = misses(arm, batch.configurations, targets)
+    np.testing.assert_allclose(batch.distances, distances, rtol=1e-12, atol=1e-14)
+    np.testing.assert_allclose(batch.angles, angles, rtol=1e-9, atol=1e-9)
+    assert np.all(bend(batch.configurations) <= limits_of(arm) + 1e-9)
+    return batch
+
+
+def assert_true_distances(arm: Arm, positions: np.ndarray, batch: IkBatch) -> None:
+    search = distance_of_one_section if arm.n_sections == 1 else distance_of_sections
+    for position, distance in zip(positions, batch.distances, strict=True):
+        assert distance == pytest.approx(search(arm, position), rel=0, abs=1e-6)
+
+
+@each_arm
+def test_farther_away_than_the_arm_is_long(arm: Arm) -> None:
+    random = np.random.default_rng(1)
+    directions = random.normal(size=(8, 3))
+    directions[0], directions[1] = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
+    lengths = random.uniform(1.01, 1.6, (8, 1)) * arm.length
+    positions = lengths * directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    batch = answers_that_attain(arm, Targets(positions))
+    assert set(batch.statuses) == {IkStatus.UNREACHABLE}
+    assert_true_distances(arm, positions, batch)
+
+
+@each_arm
+def test_reachable_by_bending_beyond_the_limits_alone(arm: Arm) -> None:
+    beyond = np.minimum(limits_of(arm) + 0.6, [0.99 * section.contact_bend for section in arm.sections])
+    postures = random_postures(limited(arm, beyond), 20, seed=2)
+    postures *= (beyond / bend(postures))[..., None]
+    targets = targets_at(arm, postures, POSITION)
+    batch = answers_that_attain(arm, targets)
+    missed = np.flatnonzero(~batch.solved)[:8]
+    assert len(missed) > 0 or arm.n_sections > 1
+    assert set(batch.statuses[missed]) <= {IkStatus.LIMIT_REACHED}
+    some = targets.positions[missed]
+    assert_true_distances(arm, some, answers_that_attain(arm, Targets(some)))
+
+
+@pytest.mark.parametrize("name", ["two_short_bends", "three_short_bends", "three_mixed"])
+def test_these_arms_do_miss_such_targets(name: str) -> None:
+    """So that the test above has something to look at."""
+    arm = ARMS[name]
+    postures = random_postures(arm, 20, seed=3, largest=0.5 + float(np.max(limits_of(arm))))
+    postures *= (limits_of(arm) + 0.4)[:, None] / bend(postures)[..., None]
+    batch = answers_that_attain(arm, targets_at(arm, postures, DIRECTION))
+    assert np.mean(batch.statuses == IkStatus.LIMIT_REACHED) > 0.5
+
+
+@each_arm
+def test_within_the_arm_s_length(arm: Arm) -> None:
+    """Anywhere near the base: what is not solved is truly that far away."""
+    random = np.random.default_rng(4)
+    directions = random.normal(size=(8, 3))
+    positions = random.uniform(0.1, 1.0, (8, 1)) * arm.length * directions
+    positions /= np.linalg.norm(directions, axis=-1, keepdims=True)
+    batch = answers_that_attain(arm, Targets(positions))
+    missed = ~batch.solved
+    assert IkStatus.NO_CONVERGENCE not in batch.statuses
+    assert_true_distances(arm, positions[missed], batch[missed] if False else _rows(batch, missed))
+
+
+def _rows(batch: IkBatch, chosen: np.ndarray) -> IkBatch:
+    return IkBatch(*(values[chosen] for values in vars(batch).values()))
+
+
+@pytest.mark.parametrize("kind", [DIRECTION, POSE], ids=["direction", "pose"])
+@pytest.mark.parametrize("name", ["two", "three", "three_short_bends", "three_mixed"])
+def test_no_random_posture_meets_position_and_rotation_better(name: str, kind: int) -> None:
+    """A radian counts as much as a tenth of the arm's length."""
+    arm = ARMS[name]
+    away = targets_at(arm, random_postures(arm, 6, seed=5), kind)
+    targets = Targets(1.4 * away.positions + [0.1, 0.0, 0.0], away.directions, away.rotations)
+    batch = answers_that_attain(arm, targets)
+    weight = 0.1 * arm.length
+    postures = np.concatenate([random_postures(arm, 8000, seed=6), random_postures(arm, 2000, seed=7, largest=0.05)])
+    for k in range(len(targets)):
+        near = batch.configurations[k] + random_postures(arm, 500, seed=8, largest=1e-3)
+        near *= np.minimum(1.0, limits_of(arm) / bend(near))[..., None]
+        tried = np.concatenate([postures, near])
+        repeated = Targets(
+            *(None if values is None else np.repeat(values[k : k + 1], len(tried), axis=0)
+              for values in (targets.positions, targets.directions, targets.rotations))
+        )
+        distances, angles = misses(arm, tried, repeated)
+        least = np.min(np.hypot(distances, weight * angles))
+        assert np.hypot(batch.distances[k], weight * batch.angles[k]) <= least + 1e-9
+
+
+def test_the_straight_arm_is_nearest_to_what_is_straight_above_it() -> None:
+    arm = arm_of(3)
+    batch = answers_that_attain(arm, Targets(np.array([[0.0, 0.0, 2.0 * arm.length]])))
+    assert batch.statuses[0] == IkStatus.UNREACHABLE
+    assert batch.distances[0] == pytest.approx(arm.length, rel=1e-12)
+    np.testing.assert_allclose(batch.configurations[0], 0.0, atol=1e-6)
+
+
+def test_farther_away_the_nearest_pose_points_at_the_target_ever_better() -> None:
+    arm = limited(arm_of(3), (1.0, 1.0, 1.0))
+    tips = [answers_that_attain(arm, Targets(np.array([[r, 0.0, 0.0]]))).distances[0] - r for r in (1e1, 1e3, 1e5)]
+    assert np.ptp(tips) < 0.02

@@ -1,0 +1,84 @@
+"""Freedom that a target leaves: used to stay near the start or to bend little, and never to the tip's harm."""
+
+import numpy as np
+import pytest
+from continuum_laws.samples import arm_of, limited, limits_of, mixed_arm, random_postures
+from continuum_laws.targets import misses, targets_at
+
+from continuum.arm import Arm
+from continuum.kinematics.chain import arm_jacobian
+from continuum.kinematics.configuration import bend
+from continuum.kinematics.ik_target import DIRECTION, POSITION
+from continuum.kinematics.inverse_kinematics import InverseKinematics
+
+N = 60
+ARMS = {
+    "two": (arm_of(2), POSITION),
+    "three": (arm_of(3), POSITION),
+    "three_direction": (arm_of(3, 2.0), DIRECTION),
+    "three_short_bends": (arm_of(3, 0.8), POSITION),
+    "four_mixed": (mixed_arm(4), POSITION),
+    "five": (arm_of(5, np.pi / 2), DIRECTION),
+    "seven": (limited(arm_of(7), (1.0, 0.4, 1.0, 0.2, 1.0, 0.3, 1.0)), POSITION),
+}
+each_arm = pytest.mark.parametrize(("arm", "kind"), ARMS.values(), ids=ARMS)
+
+
+def free_push(arm: Arm, kind: int, w: np.ndarray, wish: np.ndarray) -> float:
+    """Norm of ``wish`` (n_sections, 2) as far as tip and limits at ``w`` let it be followed [rad]."""
+    jacobian = arm_jacobian(w, arm)
+    rows = [jacobian[:3]]
+    if kind == DIRECTION:
+        axis = misses_frame(arm, w)
+        rows.append(axis.T @ jacobian[3:])
+    for i in np.flatnonzero(bend(w) >= limits_of(arm) - 1e-7):
+        if w[i] @ wish[i] > 0.0:
+            outward = np.zeros((1, 2 * arm.n_sections))
+            outward[0, 2 * i : 2 * i + 2] = w[i]
+            rows.append(outward)
+    fixed = np.concatenate(rows)
+    free = wish.reshape(-1) - np.linalg.pinv(fixed, rcond=1e-10) @ (fixed @ wish.reshape(-1))
+    return float(np.linalg.norm(free))
+
+
+def misses_frame(arm: Arm, w: np.ndarray) -> np.ndarray:
+    """x and y axes (3, 2) of the tip: turning about them changes where its z axis points."""
+    from continuum.kinematics.chain import arm_pose
+
+    return arm_pose(w, arm)[:3, :2]
+
+
+@each_arm
+@pytest.mark.parametrize("objective", ["near_start", "least_bending"])
+def test_the_answer_is_stationary_and_no_farther_than_the_first(arm: Arm, kind: int, objective: str) -> None:
+    targets = targets_at(arm, random_postures(arm, N, seed=1), kind)
+    starts = random_postures(arm, N, seed=2)
+    reference = starts if objective == "near_start" else np.zeros_like(starts)
+    first = InverseKinematics(arm, 1e-10).solve_many(targets, starts)
+    batch = InverseKinematics(arm, 1e-10, objective).solve_many(targets, starts)
+    assert np.all(batch.solved)
+    distances, angles = misses(arm, batch.configurations, targets)
+    assert max(np.max(distances), np.max(angles)) <= 1e-10 + 1e-14
+    assert np.all(bend(batch.configurations) <= limits_of(arm) + 1e-9)
+    apart, first_apart = (np.linalg.norm(b.configurations - reference, axis=(1, 2)) for b in (batch, first))
+    assert np.all(apart <= first_apart + 1e-9)
+    assert np.mean(apart < 0.9 * first_apart) > 0.2
+    pushes = [free_push(arm, kind, w, r - w) for w, r in zip(batch.configurations, reference, strict=True)]
+    print(arm.n_sections, kind, objective, np.sort(pushes)[-6:], batch.iterations.max())
+    assert np.max(pushes) <= 1e-5
+
+
+def test_the_least_bent_of_an_arm_in_a_plane_bends_in_that_plane_alone() -> None:
+    """By symmetry the least bent answer to a target on the x-z plane of untwisted sections does not leave it."""
+    arm = arm_of(3)
+    result = InverseKinematics(arm, 1e-10, "least_bending").solve_many(
+        targets_at(arm, np.array([[[0.0, 0.5], [0.0, 0.5], [0.0, 0.5]]]), POSITION)
+    )
+    np.testing.assert_allclose(result.configurations[0, :, 0], 0.0, atol=1e-6)
+
+
+def test_where_nothing_is_free_the_objective_changes_nothing() -> None:
+    arm = arm_of(1)
+    targets = targets_at(arm, random_postures(arm, 10, seed=3), POSITION)
+    answers = [InverseKinematics(arm, 1e-10, o).solve_many(targets).configurations for o in ("first", "least_bending")]
+    np.testing.assert_array_equal(*answers)
