@@ -112,8 +112,10 @@ def test_no_random_posture_meets_position_and_rotation_better(name: str, kind: i
         near *= np.minimum(1.0, limits_of(arm) / bend(near))[..., None]
         tried = np.concatenate([postures, near])
         repeated = Targets(
-            *(None if values is None else np.repeat(values[k : k + 1], len(tried), axis=0)
-              for values in (targets.positions, targets.directions, targets.rotations))
+            *(
+                None if values is None else np.repeat(values[k : k + 1], len(tried), axis=0)
+                for values in (targets.positions, targets.directions, targets.rotations)
+            )
         )
         distances, angles = misses(arm, tried, repeated)
         least = np.min(np.hypot(distances, weight * angles))

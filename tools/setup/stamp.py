@@ -14,7 +14,7 @@ READ_BY_BUILD = ("package.xml", "setup.cfg", "setup.py")
 
 @dataclass
 class Stamp:
-    """Hashes of the inputs: ``environment`` of .venv, ``packages`` of each built package, ``compiled`` of the solver."""
+    """Hashes of the inputs: ``environment`` of .venv, ``packages`` of each package, ``compiled`` of the solver."""
 
     environment: str = ""
     packages: dict[str, str] = field(default_factory=dict)

@@ -61,7 +61,9 @@ def distance_of_sections(arm: Arm, position: np.ndarray, n: int = 20000, n_polis
     best = np.inf
     for k in order[:n_polished]:
         options = {"ftol": 1e-15, "maxiter": 300}
-        found = minimize(half_square, postures[k].ravel(), jac=gradient, method="SLSQP", constraints=within, options=options)
+        found = minimize(
+            half_square, postures[k].ravel(), jac=gradient, method="SLSQP", constraints=within, options=options
+        )
         w = found.x.reshape(-1, 2)
         w = w * np.minimum(1.0, limits / np.maximum(np.linalg.norm(w, axis=-1), 1e-300))[:, None]
         best = min(best, float(np.linalg.norm(arm_pose(w, arm)[:3, 3] - position)))

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from continuum.arm import Arm, Section
 from continuum.kinematics.differential import DifferentialKinematics
 from continuum.kinematics.fabrikc import solve_fabrikc
@@ -18,7 +20,7 @@ def warm_up() -> None:
     arm = Arm((section,))
     InverseKinematics(arm).solve(Target([0.0, 0.0, section.length]))
     DifferentialKinematics(arm).rate([[0.0, 0.1]], [0.0, 0.0, 0.0])
-    solve_fabrikc(arm, [0.0, 0.0, section.length])
+    solve_fabrikc(arm, np.array([0.0, 0.0, section.length]))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,100 @@
+"""What a solver did with a sample of targets: part solved, time, iterations."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from ament_index_python.packages import get_package_share_directory
+
+from continuum.arm import load_arm
+from continuum.arrays import Array
+from continuum.kinematics.chain import arm_pose
+from continuum.kinematics.ik_target import Target, Targets
+from continuum.kinematics.inverse_kinematics import InverseKinematics
+from continuum.parameter_file import flattened, read_parameter_file
+from tools.bench_ik.sample import Sample, arrived, each_target
+from trajectory_generator.from_parameters import trajectory_from_mapping
+
+
+@dataclass(frozen=True)
+class Score:
+    """What a solver did: part solved, time per target [us] and iterations, each median and 99th percentile."""
+
+    solved: float
+    n: int
+    median: float
+    p99: float
+    iterations: float
+    iterations_p99: float
+
+    def cells(self) -> str:
+        n_failed = round((1.0 - self.solved) * self.n)
+        part = f"{100 * self.solved:.3f} %" + (f" ({n_failed} of {self.n})" if n_failed else "")
+        return f"{part} | {self.median:.1f} | {self.p99:.1f} | {self.iterations:.0f} | {self.iterations_p99:.0f}"
+
+
+def score_solver(sample: Sample, tolerance: float, from_random: bool) -> Score:
+    """Time the call that a program makes, target by target; the making of the target object is not counted."""
+    solver = InverseKinematics(sample.arm, tolerance)
+    n = len(sample.targets)
+    times, iterations, solved = np.empty(n), np.empty(n), np.zeros(n, bool)
+    for k, target in each_target(sample, n):
+        start = sample.starts[k] if from_random else None
+        began = time.perf_counter()
+        result = solver.solve(target, start)
+        times[k] = time.perf_counter() - began
+        iterations[k], solved[k] = result.iterations, arrived(sample, k, result.configuration, tolerance)
+    return _score(times, iterations, solved)
+
+
+def score_rival(sample: Sample, tolerance: float, n: int, rival: Rival) -> Score:
+    """Time a rival on the first ``n`` targets, from the straight arm."""
+    times, iterations, solved = np.empty(n), np.empty(n), np.zeros(n, bool)
+    for k, target in each_target(sample, n):
+        began = time.perf_counter()
+        configuration, iterations[k] = rival(sample, target, tolerance)
+        times[k] = time.perf_counter() - began
+        solved[k] = arrived(sample, k, configuration, tolerance)
+    return _score(times, iterations, solved)
+
+
+def score_helix() -> tuple[Score, Score, float]:
+    """The demo's helix: the call for one pose started from the answer before, and the call for the whole path.
+
+    Returns the two scores and the largest distance of the tip to the helix [m].
+    """
+    share = get_package_share_directory
+    arm = load_arm(Path(share("continuum_description")) / "config" / "three_sections.yaml")
+    parameters = flattened(read_parameter_file(Path(share("trajectory_generator")) / "config" / "helix.yaml"))
+    trajectory = trajectory_from_mapping(parameters)
+    positions = trajectory.sample(trajectory.times(120.0)).position
+    begin = InverseKinematics(arm, 1e-9, "least_bending").solve(Target(positions[0])).configuration
+    solver = InverseKinematics(arm, 1e-9)
+    times, iterations, solved = np.empty(len(positions)), np.empty(len(positions)), np.zeros(len(positions), bool)
+    w = begin
+    for k, position in enumerate(positions):
+        target = Target(position)
+        began = time.perf_counter()
+        result = solver.solve(target, w)
+        times[k] = time.perf_counter() - began
+        w, iterations[k], solved[k] = result.configuration, result.iterations, result.solved
+    single = _score(times, iterations, solved)
+    began = time.perf_counter()
+    batch = solver.follow(Targets(positions), begin)
+    each = np.full(len(positions), (time.perf_counter() - began) / len(positions))
+    worst = np.max(np.linalg.norm(arm_pose(batch.configurations, arm)[:, :3, 3] - positions, axis=-1))
+    return single, _score(each, batch.iterations.astype(float), batch.solved), float(worst)
+
+
+def _score(times: Array, iterations: Array, solved: Array) -> Score:
+    return Score(
+        float(np.mean(solved)),
+        len(solved),
+        1e6 * float(np.median(times)),
+        1e6 * float(np.percentile(times, 99)),
+        float(np.median(iterations)),
+        float(np.percentile(iterations, 99)),
+    )
