@@ -15,6 +15,7 @@ from continuum.kinematics.chain import arm_pose
 from continuum.kinematics.ik_target import Target, Targets
 from continuum.kinematics.inverse_kinematics import InverseKinematics
 from continuum.parameter_file import flattened, read_parameter_file
+from tools.bench_ik.rivals import Rival
 from tools.bench_ik.sample import Sample, arrived, each_target
 from trajectory_generator.from_parameters import trajectory_from_mapping
 

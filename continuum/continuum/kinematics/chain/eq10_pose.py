@@ -25,7 +25,7 @@ from continuum.kinematics.section.eq04_pose import position_entries, rotation_en
 
 
 def next_tip(base: Entries9, position: Entries3, u: Any, v: Any, b: float, n_joints: int) -> tuple[Entries9, Entries3]:
-    """Rotation and position [m] of a section's tip, from those of its base (twist included); (u, v) [rad], ``b`` [m]."""
+    """Rotation and position [m] of a section's tip, from those of its base, twist included; u, v [rad], ``b`` [m]."""
     step = rotated(base, position_entries(u, v, b, n_joints))
     tip = (position[0] + step[0], position[1] + step[1], position[2] + step[2])
     return product(base, rotation_entries(u, v)), tip

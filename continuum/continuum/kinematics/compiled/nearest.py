@@ -28,7 +28,7 @@ _STATIONARY = 1e-10  # gradient of the half squared error, in weights per rad, t
 
 @compiled
 def descend_to_nearest(arm: ArmArrays, target: TargetArrays, w: Array) -> tuple[int, bool]:
-    """Move ``w`` (2 n_sections,) [rad] in place to the local minimum of the error; iterations, and whether it is one."""
+    """Move ``w`` (2 n_sections,) [rad] in place to a local minimum of the error; iterations, and whether it is one."""
     size = len(w)
     error, jacobian = np.empty(target.n_rows), np.empty((6, size))
     on_limit = np.zeros(len(arm.b), np.bool_)
@@ -51,7 +51,7 @@ def descend_to_nearest(arm: ArmArrays, target: TargetArrays, w: Array) -> tuple[
                 normal[k, k] += damping
             if solve_positive_definite(normal, step):
                 trial[:] = w
-                _move(trial, basis, step, on_limit)
+                _move(trial, step, on_limit)
                 pull_within(arm, trial)
                 trial_cost, trial_gradient = _cost_and_gradient(arm, target, trial, error, jacobian)
                 improved = trial_cost < cost
@@ -89,7 +89,7 @@ def _choose_held(arm: ArmArrays, w: Array, gradient: Array, on_limit: NDArray[np
 
 @compiled
 def _directions(w: Array, on_limit: NDArray[np.bool_]) -> Array:
-    """Directions (n_free, 2 n_sections) in which ``w`` may move: u and v of a free section, along the limit of a held."""
+    """Directions (n_free, 2 n_sections) in which ``w`` may move: u, v of a free section, along the limit of a held."""
     n_held = np.sum(on_limit)
     basis = np.zeros((len(w) - n_held, len(w)))
     row = 0
@@ -104,7 +104,7 @@ def _directions(w: Array, on_limit: NDArray[np.bool_]) -> Array:
 
 
 @compiled
-def _move(w: Array, basis: Array, step: Array, on_limit: NDArray[np.bool_]) -> None:
+def _move(w: Array, step: Array, on_limit: NDArray[np.bool_]) -> None:
     """Move ``w`` in place by ``step`` (n_free,) [rad]; a held section turns by it."""
     largest = np.max(np.abs(step))
     scale = 1.0 if largest < _LARGEST_STEP else _LARGEST_STEP / largest
@@ -138,8 +138,8 @@ def _hessian(
         step = np.zeros(n_free)
         step[j] = _DIFFERENCE
         ahead, behind = w.copy(), w.copy()
-        _move(ahead, basis, step, on_limit)
-        _move(behind, basis, -step, on_limit)
+        _move(ahead, step, on_limit)
+        _move(behind, -step, on_limit)
         ahead_gradient = _directions(ahead, on_limit) @ _cost_and_gradient(arm, target, ahead, error, jacobian)[1]
         behind_gradient = _directions(behind, on_limit) @ _cost_and_gradient(arm, target, behind, error, jacobian)[1]
         hessian[:, j] = (ahead_gradient - behind_gradient) / (2.0 * _DIFFERENCE)

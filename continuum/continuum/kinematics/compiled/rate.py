@@ -1,7 +1,7 @@
 """Rates of the configurations for a velocity of the tip (thesis Eqs. 11 and 22), damped, with the null space used.
 
-rate = J+ v + (I - J+ J) wish. Damping grows smoothly from nothing as a singular value of J falls below a fiftieth of the
-largest (Nakamura and Hanafusa 1986). Sections at their bend limit are not bent further.
+rate = J+ v + (I - J+ J) wish. Damping grows smoothly from nothing as a singular value of J falls below a fiftieth of
+the largest (Nakamura and Hanafusa 1986). Sections at their bend limit are not bent further.
 """
 
 from __future__ import annotations

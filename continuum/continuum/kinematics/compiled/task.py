@@ -42,8 +42,8 @@ def evaluate(arm: ArmArrays, target: TargetArrays, w: Array, error: Array, jacob
     """Distance [m] and angle [rad] from the tip at ``w`` (2 n_sections,) to the target.
 
     Fills ``error`` (n_rows,) [m] and the first n_rows rows of ``jacobian`` (6, 2 n_sections) [m/rad]: position in
-    ``base_link``, then rotation in the tip frame times the weight. The Jacobian's transpose times the error is the exact
-    descent of half the squared error.
+    ``base_link``, then rotation in the tip frame times the weight. The Jacobian's transpose times the error is the
+    exact descent of half the squared error.
     """
     rotation, position = tip_and_jacobian(arm, w, jacobian)
     square = 0.0

@@ -1,0 +1,72 @@
+"""Bend limits in the compiled search: pulled back to them, slid along them, never beyond."""
+
+import numpy as np
+import pytest
+from continuum_laws.samples import arm_of, limited, limits_of, mixed_arm, random_postures
+from continuum_laws.targets import misses, targets_at
+
+from continuum.arm import Arm
+from continuum.kinematics.compiled.arm_arrays import arm_arrays
+from continuum.kinematics.compiled.limits import hold_outward, pull_within, stop_radial
+from continuum.kinematics.configuration import bend, jones_from_allen
+from continuum.kinematics.ik_target import POSE, POSITION
+from continuum.kinematics.inverse_kinematics import OBJECTIVES, InverseKinematics
+
+
+def test_only_sections_bent_too_far_are_pulled_back_and_keep_their_azimuth() -> None:
+    arm = mixed_arm(5)
+    for w in [np.zeros((5, 2)), *random_postures(arm, 20, seed=1, largest=8.0)]:
+        back = w.copy()
+        pull_within(arm_arrays(arm), back.reshape(-1))
+        inside = bend(w) <= limits_of(arm)
+        np.testing.assert_array_equal(back[inside], w[inside])
+        np.testing.assert_allclose(bend(back)[~inside], limits_of(arm)[~inside], rtol=1e-14)
+        np.testing.assert_allclose(jones_from_allen(back)[0], jones_from_allen(w)[0], atol=1e-14)
+
+
+def test_a_section_at_its_limit_may_turn_and_unbend_but_not_bend_further() -> None:
+    arm = arm_arrays(arm_of(3, bend_limit=1.0))
+    w = np.array([0.6, 0.8, 0.6, 0.8, 0.3, 0.4])  # the last is within its limit
+    outward, inward = w.copy(), -0.1 * w
+    whole = np.random.default_rng(2).normal(size=(6, 6))
+
+    jacobian, held = whole.copy(), np.zeros(3, bool)
+    assert not hold_outward(arm, w, inward, held, jacobian, 5)
+    np.testing.assert_array_equal(jacobian, whole)
+
+    assert hold_outward(arm, w, outward, held, jacobian, 5)
+    np.testing.assert_array_equal(held, [True, True, False])
+    np.testing.assert_allclose(jacobian[:5, :2] @ [0.6, 0.8], 0.0, atol=1e-15)
+    np.testing.assert_allclose(jacobian[:, :2] @ [-0.8, 0.6], whole[:, :2] @ [-0.8, 0.6], atol=1e-15)
+    np.testing.assert_array_equal(jacobian[:, 4:], whole[:, 4:])
+    np.testing.assert_array_equal(jacobian[5], whole[5])
+    assert not hold_outward(arm, w, outward, held, jacobian, 5)  # what is held stays so: the search for a set ends
+
+    rate = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+    stop_radial(w, held, rate)
+    np.testing.assert_allclose(rate, [-0.32, 0.24, -0.0, 0.0, 5.0, 6.0] + np.array([0, 0, 0, 0, 0, 0]), atol=1e-12)
+
+
+@pytest.mark.parametrize("objective", OBJECTIVES)
+@pytest.mark.parametrize(
+    "arm",
+    [arm_of(3, 0.8), limited(arm_of(3), (0.05, 1.5, 3.0)), limited(mixed_arm(5), (0.3, 1.0, 0.1, 2.0, 0.5))],
+    ids=["short_bends", "uneven_bends", "mixed"],
+)
+def test_targets_on_the_limits_are_reached_and_the_limits_kept(arm: Arm, objective: str) -> None:
+    """One section, or all, at the limit: the answers slide there and do not go beyond."""
+    postures = random_postures(arm, 60, seed=3)
+    postures[:30, 1] *= (limits_of(arm)[1] / bend(postures[:30, 1]))[:, None]
+    targets = targets_at(arm, postures, POSITION)
+    batch = InverseKinematics(arm, 1e-8, objective).solve_many(targets, random_postures(arm, 60, seed=4))
+    assert np.all(batch.solved)
+    assert np.max(misses(arm, batch.configurations, targets)[0]) <= 1e-8 + 1e-14
+    assert np.all(bend(batch.configurations) <= limits_of(arm) + 1e-9)
+
+
+def test_a_start_beyond_the_limits_is_pulled_back() -> None:
+    arm = arm_of(4, 0.6)
+    targets = targets_at(arm, random_postures(arm, 40, seed=5), POSE)
+    batch = InverseKinematics(arm).solve_many(targets, random_postures(arm, 40, seed=6, largest=4.0))
+    assert np.all(batch.solved)
+    assert np.all(bend(batch.configurations) <= 0.6 + 1e-9)
