@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from continuum_laws.limits import free_part
 from continuum_laws.samples import arm_of, limited, limits_of, mixed_arm, random_postures
 from continuum_laws.targets import misses, targets_at
 
 from continuum.arm import Arm
-from continuum.kinematics.chain import arm_jacobian
+from continuum.kinematics.chain import arm_jacobian, arm_pose
 from continuum.kinematics.configuration import bend
 from continuum.kinematics.ik_target import DIRECTION, POSITION
 from continuum.kinematics.inverse_kinematics import InverseKinematics
@@ -26,26 +27,8 @@ each_arm = pytest.mark.parametrize(("arm", "kind"), ARMS.values(), ids=ARMS)
 
 def free_push(arm: Arm, kind: int, w: np.ndarray, wish: np.ndarray) -> float:
     """Norm of ``wish`` (n_sections, 2) as far as tip and limits at ``w`` let it be followed [rad]."""
-    jacobian = arm_jacobian(w, arm)
-    rows = [jacobian[:3]]
-    if kind == DIRECTION:
-        axis = misses_frame(arm, w)
-        rows.append(axis.T @ jacobian[3:])
-    for i in np.flatnonzero(bend(w) >= limits_of(arm) - 1e-7):
-        if w[i] @ wish[i] > 0.0:
-            outward = np.zeros((1, 2 * arm.n_sections))
-            outward[0, 2 * i : 2 * i + 2] = w[i]
-            rows.append(outward)
-    fixed = np.concatenate(rows)
-    free = wish.reshape(-1) - np.linalg.pinv(fixed, rcond=1e-10) @ (fixed @ wish.reshape(-1))
-    return float(np.linalg.norm(free))
-
-
-def misses_frame(arm: Arm, w: np.ndarray) -> np.ndarray:
-    """x and y axes (3, 2) of the tip: turning about them changes where its z axis points."""
-    from continuum.kinematics.chain import arm_pose
-
-    return arm_pose(w, arm)[:3, :2]
+    jacobian, rotation = arm_jacobian(w, arm), arm_pose(w, arm)[:3, :3]
+    return free_part(arm, w, wish, np.concatenate([jacobian[:3], (rotation.T @ jacobian[3:])[: kind - 3]]))
 
 
 @each_arm

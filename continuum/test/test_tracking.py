@@ -39,7 +39,7 @@ def test_the_tip_stays_on_the_circle(answers: list[Tracked]) -> None:
     for k, answer in enumerate(answers):
         assert answer.result.status is IkStatus.SOLVED
         tip = arm_pose(answer.result.configuration, ARM)[:3, 3]
-        np.testing.assert_allclose(tip, circle(k * DT)[0], rtol=0, atol=1e-6)
+        np.testing.assert_allclose(tip, circle(k * DT)[0], rtol=0, atol=1e-9)
 
 
 def test_rates_are_the_differences_of_the_configurations(answers: list[Tracked]) -> None:
@@ -55,7 +55,7 @@ def test_the_redundancy_bends_no_more_than_it_must(answers: list[Tracked]) -> No
     base = arm_pose(w.reshape(3, 2), ARM)[:3, 3]
     jacobian = np.array([arm_pose((w + 1e-6 * unit).reshape(3, 2), ARM)[:3, 3] - base for unit in np.eye(6)]).T / 1e-6
     free = w - np.linalg.pinv(jacobian) @ (jacobian @ w)
-    assert np.linalg.norm(free) <= 1e-3 * np.linalg.norm(w)
+    assert np.linalg.norm(free) <= 1e-4 * np.linalg.norm(w)
 
 
 def test_following_the_direction_keeps_position_and_direction() -> None:
@@ -71,8 +71,8 @@ def test_following_the_direction_keeps_position_and_direction() -> None:
         answer = tracker.pose(position, direction, np.cross(omega, position), omega, DT if k else None)
         assert answer.result.solved
         pose = arm_pose(answer.result.configuration, ARM)
-        np.testing.assert_allclose(pose[:3, 3], position, rtol=0, atol=1e-6)
-        np.testing.assert_allclose(pose[:3, 2], direction, rtol=0, atol=1e-6)
+        np.testing.assert_allclose(pose[:3, 3], position, rtol=0, atol=1e-9)
+        np.testing.assert_allclose(pose[:3, 2], direction, rtol=0, atol=1e-9)
         configurations.append(answer.result.configuration)
         rates.append(answer.rate)
     differences = (np.array(configurations[2:]) - np.array(configurations[:-2])) / (2 * DT)
@@ -95,7 +95,6 @@ def test_out_of_reach_the_nearest_pose_is_told_and_back_in_reach_it_is_solved_ag
         tip = arm_pose(answer.result.configuration, ARM)[:3, 3]
         assert answer.result.distance == pytest.approx(np.linalg.norm(tip - position), rel=1e-9)
         assert answer.result.distance == pytest.approx(out[0].result.distance, rel=1e-6)  # the arm is round
-    assert max(answer.result.iterations for answer in out[1:]) <= 50  # each from the one before, no new search
     back = follow(tracker, 60, start=40)
     assert all(answer.result.solved for answer in back)
     rates = np.array([answer.rate for answer in back[20:]])
@@ -152,3 +151,45 @@ def test_twists_keep_the_bend_limits() -> None:
     for _ in range(60):
         tracker.twist(np.array([0.5, 0.0, 0.0]), None, 0.05)
         assert np.all(bend(tracker.configuration) <= 0.5 + 1e-12)
+
+
+def test_a_twist_that_the_arm_cannot_follow_is_told() -> None:
+    """Stretched out it goes no farther; at its bend limit neither; and the distance is what the tip falls behind."""
+    tracker = Tracker(ARM)
+    up = tracker.twist(np.array([0.0, 0.0, 0.1]), None, 0.01)
+    assert up.result.status is IkStatus.UNREACHABLE
+    assert up.result.distance == pytest.approx(0.1 * 0.01, rel=1e-6)
+    side = tracker.twist(np.array([0.1, 0.0, 0.0]), None, 0.01)
+    assert side.result.status is IkStatus.SOLVED
+    assert side.result.distance <= 1e-3 * 0.1 * 0.01
+
+    arm = arm_of(1, bend_limit=0.5)
+    tracker = Tracker(arm)
+    statuses = []
+    for _ in range(60):
+        before = arm_pose(tracker.configuration, arm)[:3, 3]
+        answer = tracker.twist(np.array([0.2, 0.0, 0.0]), None, 0.01)
+        statuses.append(answer.result.status)
+    assert statuses[0] is not IkStatus.LIMIT_REACHED
+    assert statuses[-1] is IkStatus.LIMIT_REACHED
+    np.testing.assert_allclose(arm_pose(tracker.configuration, arm)[:3, 3], before, rtol=0, atol=1e-9)
+
+
+def test_a_twist_of_nothing_moves_nothing_and_is_solved() -> None:
+    tracker = Tracker(ARM, unbend_gain=0.0)
+    tracker.pose(circle(0.0)[0])
+    before = tracker.configuration
+    answer = tracker.twist(np.zeros(3), None, 0.1)
+    assert answer.result.status is IkStatus.SOLVED
+    np.testing.assert_allclose(tracker.configuration, before, rtol=0, atol=1e-12)
+
+
+def test_a_jump_of_the_target_is_answered_at_once() -> None:
+    """No small step leads there from one pose to the other; the answers are solved all the same."""
+    tracker = Tracker(ARM)
+    for k in range(12):
+        position = circle(0.0)[0] * (1.0 if k % 2 else -1.0) * [1.0, 1.0, 0.0] + [0.0, 0.0, 0.3]
+        answer = tracker.pose(position, velocity=np.zeros(3), dt=DT if k else None)
+        assert answer.result.solved
+        tip = arm_pose(answer.result.configuration, ARM)[:3, 3]
+        np.testing.assert_allclose(tip, position, rtol=0, atol=1e-9)

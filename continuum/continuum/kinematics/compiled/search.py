@@ -10,6 +10,7 @@ from continuum.kinematics.compiled.descent import descend
 from continuum.kinematics.compiled.equations import compiled
 from continuum.kinematics.compiled.task import TargetArrays
 from continuum.kinematics.fabrikc import fabrikc
+from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
 
 _FABRIKC_PASSES = 1
 _MAX_ITERATIONS = 40  # of a descent
@@ -31,13 +32,21 @@ def start_postures(n_sections: int, count: int) -> Array:
 
 
 @compiled
+def _point_at(arm: ArmArrays, position: Array, w: Array) -> None:
+    """Closed form for an arm of one section: Eq. 5, seen from the section's base."""
+    c, s = arm.cos_twist[0], arm.sin_twist[0]
+    x, y = c * position[0] + s * position[1], c * position[1] - s * position[0]
+    w[0], w[1] = configuration_entries(x, y, position[2])
+
+
+@compiled
 def search(
     arm: ArmArrays, target: TargetArrays, w: Array, is_warm: bool, tolerance: float, postures: Array, ends: Array
 ) -> tuple[int, float, float, bool]:
     """Solve from ``w`` (2 n_sections,) [rad], then from the start postures in turn; ``w`` is the answer.
 
-    One pass of FABRIKc before a descent puts it on the right side of the arm's folds. A warm start, which is near the
-    answer, is tried without it first.
+    One pass of FABRIKc before a descent puts it on the right side of the arm's folds; for a single section Eq. 5 is the
+    answer. A warm start, which is near the answer, is tried without either first.
 
     ``ends`` (2 + n_postures, 1 + 2 n_sections) receives where the descents ended that did not arrive, each row the
     squared error [m2] and the configuration; it tells the search for the nearest pose where to begin.
@@ -55,7 +64,9 @@ def search(
             for i in range(len(arm.b)):
                 w[2 * i] = arm.bend_limit[i] * postures[k - 2, 2 * i]
                 w[2 * i + 1] = arm.bend_limit[i] * postures[k - 2, 2 * i + 1]
-        if k > 0:
+        if k == 1 and len(arm.b) == 1:
+            _point_at(arm, target.position, w)
+        elif k > 0:
             fabrikc(arm, target, w, tolerance, _FABRIKC_PASSES)
         spent, distance, angle, solved = descend(arm, target, w, tolerance, _MAX_ITERATIONS, _DAMPING)
         iterations += spent

@@ -1,0 +1,140 @@
+"""Compiled code computes what the library's own functions do, and follows their sources."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from continuum_laws.differences import assert_same_slopes, differences
+from continuum_laws.samples import arm_of, limits_of, mixed_arm, random_postures
+
+from continuum.arm import Arm
+from continuum.kinematics.chain import arm_jacobian, arm_pose
+from continuum.kinematics.compiled import equations
+from continuum.kinematics.compiled.arm_arrays import arm_arrays
+from continuum.kinematics.compiled.solver import run_solver
+from continuum.kinematics.compiled.task import TargetArrays, evaluate
+from continuum.kinematics.compiled.tip import tip_and_jacobian
+from continuum.kinematics.compiled.warm_up import warm_up
+from continuum.kinematics.differential import DIRECTION, POSE, POSITION
+from continuum.kinematics.inverse_kinematics import InverseKinematics
+from continuum_laws.targets import misses, targets_at
+
+ARMS = {f"{kind}_{n}": make(n) for n in (1, 2, 3, 5, 7) for kind, make in (("same", arm_of), ("mixed", mixed_arm))}
+
+
+@pytest.mark.parametrize("arm", ARMS.values(), ids=ARMS)
+@pytest.mark.parametrize("function", [tip_and_jacobian, tip_and_jacobian.py_func], ids=["compiled", "as_written"])
+def test_tip_and_jacobian_are_those_of_the_chain(arm: Arm, function: object) -> None:
+    n = arm.n_sections
+    for w in [np.zeros((n, 2)), np.full((n, 2), 1e-9), *random_postures(arm, 6, seed=n)]:
+        jacobian = np.full((6, 2 * n), np.nan)
+        rotation, position = function(arm_arrays(arm), w.reshape(-1), jacobian)
+        pose = arm_pose(w, arm)
+        np.testing.assert_allclose(np.reshape(rotation, (3, 3)), pose[:3, :3], rtol=0, atol=1e-13)
+        np.testing.assert_allclose(position, pose[:3, 3], rtol=0, atol=1e-13)
+        np.testing.assert_allclose(jacobian, arm_jacobian(w, arm), rtol=0, atol=1e-13)
+
+
+def test_arm_arrays_hold_the_arm() -> None:
+    arm = mixed_arm(4)
+    arrays, free = arm_arrays(arm), arm_arrays(arm, with_limits=False)
+    np.testing.assert_array_equal(arrays.bend_limit, limits_of(arm))
+    assert np.all(free.bend_limit > arrays.bend_limit)
+    assert np.all(free.bend_limit < [section.contact_bend for section in arm.sections])
+
+
+@pytest.mark.parametrize("kind", [POSITION, DIRECTION, POSE], ids=["position", "direction", "pose"])
+def test_the_task_tells_distance_and_angle_and_the_descent_of_its_squared_error(kind: int) -> None:
+    arm, weight = mixed_arm(3), 0.07
+    targets = targets_at(arm, random_postures(arm, 6, seed=1), kind)
+    postures = random_postures(arm, 6, seed=2)
+    distances, angles = misses(arm, postures, targets)
+    for k, w in enumerate(postures):
+        target = TargetArrays(kind, weight, targets.positions[k], targets.axes[k])
+
+        def half_square(x: np.ndarray, target: TargetArrays = target) -> np.ndarray:
+            squares = []
+            for row in np.atleast_2d(x):
+                error = np.empty(kind)
+                evaluate(arm_arrays(arm), target, row.copy(), error, np.empty((6, 6)))
+                squares.append(0.5 * error @ error)
+            return np.array(squares).reshape(x.shape[:-1])
+
+        error, jacobian = np.empty(kind), np.empty((6, 6))
+        told = evaluate(arm_arrays(arm), target, w.reshape(-1), error, jacobian)
+        assert told == pytest.approx((distances[k], angles[k]), rel=1e-9)
+        assert np.linalg.norm(error) == pytest.approx(np.hypot(told[0], weight * told[1]), rel=1e-9)
+        slope = differences(half_square, w.reshape(-1), step=0.01)
+        assert_same_slopes((-jacobian[:kind].T @ error)[None], slope[None], relative=1e-7)
+
+
+def test_the_digest_follows_every_source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("chord.py", "section/eq04.py"):
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("one = 1\n")
+    monkeypatch.setattr(equations.kinematics, "__path__", [str(tmp_path)])
+    first = equations.sources_digest()
+    assert equations.sources_digest() == first
+    (tmp_path / "section/eq04.py").write_text("one = 2\n")
+    assert equations.sources_digest() != first
+    (tmp_path / "section/eq04.py").write_text("one = 1\n")
+    assert equations.sources_digest() == first
+    (tmp_path / "added.py").write_text("")
+    assert equations.sources_digest() != first or (tmp_path / "added.py").stat().st_size == 0
+
+
+def test_entry_points_carry_the_digest_where_the_cache_sees_it() -> None:
+    cells = [cell.cell_contents for cell in run_solver.py_func.__closure__]
+    assert equations.sources_digest() in cells
+
+
+def test_after_the_warm_up_nothing_is_compiled() -> None:
+    from continuum.kinematics.compiled.rate import run_tip_rate
+    from continuum.kinematics.differential import DifferentialKinematics, least_bending
+    from continuum.kinematics.fabrikc import _fabrikc, solve_fabrikc
+
+    warm_up()
+    entry_points = (run_solver, run_tip_rate, _fabrikc)
+    counts = [len(function.signatures) for function in entry_points]
+    arm = mixed_arm(4)
+    w = random_postures(arm, 3, seed=1)
+    for kind in (POSITION, DIRECTION, POSE):
+        targets = targets_at(arm, w, kind)
+        InverseKinematics(arm, objective="least_bending").solve_many(targets, w)
+        DifferentialKinematics(arm, kind).rate(w[0], [0, 0, 1], [0, 1, 0], least_bending(w[0], 1.0))
+        solve_fabrikc(arm, targets.positions[0], (1, 0, 0), w[1], 1, 2)
+    assert [len(function.signatures) for function in entry_points] == counts
+
+
+_WITHOUT_COMPILER = """
+import json
+import numpy as np
+from continuum_laws.samples import mixed_arm, random_postures
+from continuum_laws.targets import targets_at
+from continuum.kinematics.inverse_kinematics import InverseKinematics
+arm = mixed_arm(3)
+targets = targets_at(arm, random_postures(arm, 6, seed=3, largest=1.2), 5)
+batch = InverseKinematics(arm, 1e-10).solve_many(targets)
+print(json.dumps([batch.configurations.tolist(), batch.statuses.tolist(), batch.iterations.tolist()]))
+"""
+
+
+def test_the_solver_as_written_gives_the_same() -> None:
+    """The whole solver run by the interpreter, in a process where numba is switched off."""
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(sys.path)}
+    done = subprocess.run(
+        [sys.executable, "-c", _WITHOUT_COMPILER], env=environment, capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    configurations, statuses, iterations = json.loads(done.stdout)
+    arm = mixed_arm(3)
+    targets = targets_at(arm, random_postures(arm, 6, seed=3, largest=1.2), DIRECTION)
+    batch = InverseKinematics(arm, 1e-10).solve_many(targets)
+    assert statuses == batch.statuses.tolist()
+    assert iterations == batch.iterations.tolist()
+    np.testing.assert_allclose(batch.configurations, configurations, rtol=0, atol=1e-8)
