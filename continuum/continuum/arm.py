@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -203,7 +204,9 @@ def _section_from_mapping(name: str, values: object) -> Section:
 def _refuse_unknown(where: str, mapping: Mapping[str, object], known: list[str]) -> None:
     for name in mapping:
         if name not in known:
-            raise InvalidValueError(f"{where}.{name}", mapping[name], f"no parameter of this name; known: {known}")
+            near = get_close_matches(str(name), known, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"
+            raise InvalidValueError(f"{where}.{name}", mapping[name], f"no parameter of this name; {hint}")
 
 
 def arm_to_mapping(arm: Arm) -> dict[str, object]:
@@ -224,6 +227,9 @@ def load_arm(path: str | Path) -> Arm:
     """
     block = read_parameter_file(path)
     arm = block.get("arm", block)
-    if not isinstance(arm, Mapping):
-        raise FileError(path, f"holds no arm, but {arm!r}")
-    return arm_from_mapping(arm)
+    if not isinstance(arm, Mapping) or "sections" not in arm:
+        raise FileError(path, "holds no arm; expected a block `arm:` with `sections: [...]` in it")
+    try:
+        return arm_from_mapping(arm)
+    except InvalidValueError as error:
+        raise InvalidValueError(f"{path}: {error.name}", error.value, error.allowed) from None

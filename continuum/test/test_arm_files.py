@@ -75,7 +75,9 @@ def test_a_file_that_holds_no_arm(scratch: Path, content: bytes) -> None:
 
 def test_a_wrong_value_is_named_as_in_the_file(scratch: Path) -> None:
     scratch.write_text(ONE_SECTION.replace("0.02", "-0.02"), encoding="utf-8")
-    with pytest.raises(InvalidValueError, match=r"^arm\.s\.b is -0\.02; allowed: a finite number > 0 and <= 10 m$"):
+    with pytest.raises(
+        InvalidValueError, match=r"arm\.yaml: arm\.s\.b is -0\.02; allowed: a finite number > 0 and <= 10 m$"
+    ):
         load_arm(scratch)
 
 
@@ -93,3 +95,20 @@ def test_a_damaged_arm_is_an_arm_or_refused(scratch: Path, at: int, width: int, 
     scratch.write_text(ONE_SECTION[:at] + piece + ONE_SECTION[at + width :], encoding="utf-8")
     found = outcome(load_arm, scratch)
     assert isinstance(found, FileError | InvalidValueError) or found.n_sections == 1
+
+
+def test_a_slip_in_a_name_is_told_with_the_right_one(scratch: Path) -> None:
+    scratch.write_text(ONE_SECTION.replace("n_joints", "n_joint"), encoding="utf-8")
+    with pytest.raises(InvalidValueError, match=r"arm\.s\.n_joint .* did you mean n_joints\?$"):
+        load_arm(scratch)
+
+
+def test_whole_numbers_among_decimals_are_refused_as_ros_does(scratch: Path) -> None:
+    scratch.write_text("arm: {sections: [s], s: {cable_azimuths: [0, 1.5, 3.0]}}", encoding="utf-8")
+    with pytest.raises(FileError, match=r"arm\.s\.cable_azimuths is \[0, 1\.5, 3\.0\].*write 0\.0, not 0"):
+        load_arm(scratch)
+
+
+def test_decimals_may_be_written_with_an_exponent(scratch: Path) -> None:
+    scratch.write_text(ONE_SECTION.replace("0.02", "2e-2"), encoding="utf-8")
+    assert load_arm(scratch).sections[0].b == 0.02

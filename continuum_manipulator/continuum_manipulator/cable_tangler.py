@@ -7,9 +7,16 @@ import numpy as np
 from continuum.kinematics.routing import cables_through, section_length_rates, section_lengths, untangle, untangle_rates
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
-from continuum_manipulator.nodekit.stamps import StampJoiner, nanoseconds
+from continuum_manipulator.nodekit.stamps import Loss, StampJoiner, nanoseconds, seconds
 from continuum_manipulator.section_number import checked_section
 from continuum_msgs.msg import CableStates
+
+LOSSES = {
+    Loss.INCOMPLETE: ("instants given up with a section missing", "no state of {sections}"),
+    Loss.LATE: ("section states too late", "{sections}; this instant, or a later one, is already summed up"),
+    Loss.REPEATED: ("section states repeated", "{sections} again; every instant needs a stamp of its own"),
+}
+"""What is counted and told of states that do not enter a sum: cause and detail."""
 
 
 class CableTanglerNode(CheckedNode):
@@ -26,13 +33,8 @@ class CableTanglerNode(CheckedNode):
         self._numbers = range(1, self.arm.n_sections + 1)
         self._names = list(self.arm.cable_names)
         self._through = {number: cables_through(self.arm, number - 1).names for number in self._numbers}
-        self._instants: StampJoiner[int, CableStates] = StampJoiner(self._numbers)
-        self.diagnostics.values |= {
-            "instants given up with a section missing": lambda: self._instants.incomplete,
-            "section states too late": lambda: self._instants.late,
-            "section states repeated": lambda: self._instants.repeated,
-            "instants waiting for a section": lambda: self._instants.waiting,
-        }
+        self._instants: StampJoiner[int, CableStates] = StampJoiner(self._numbers, told=self._tell_loss)
+        self.diagnostics.values["instants waiting for a section"] = lambda: self._instants.waiting
         self._publish_states = self.offer(CableStates, "cable_states")
         self._publish_commands = self.offer(CableStates, "section_cable_commands")
         self.listen(CableStates, "section_cable_states", self._on_section)
@@ -40,19 +42,21 @@ class CableTanglerNode(CheckedNode):
 
     def _on_section(self, message: CableStates) -> None:
         number = checked_section(message.section, self.arm)
+        messages.stamped(message.header.stamp)
+        messages.named(message.name, "cables", self._through[number])
         messages.same_length("position", message.position, message.name)
         messages.same_length("velocity", message.velocity, message.name, optional=True)
         messages.indices_of(self._through[number], message.name)
         messages.finite("position", message.position)
         messages.finite("velocity", message.velocity)
-        lost = self._instants.incomplete
         instant = self._instants.add(number, nanoseconds(message.header.stamp), message)
-        if self._instants.incomplete > lost:
-            self.diagnostics.warnings.note(
-                "instants with a section missing", f"{self._instants.incomplete} given up since the start"
-            )
         if instant is not None:
             self._tangle(instant)
+
+    def _tell_loss(self, loss: Loss, stamp: int, numbers: frozenset[int]) -> None:
+        cause, detail = LOSSES[loss]
+        sections = ", ".join(f"section {number}" for number in sorted(numbers))
+        self.diagnostics.warnings.note(cause, f"at {seconds(stamp)}: {detail.format(sections=sections)}")
 
     def _tangle(self, instant: dict[int, CableStates]) -> None:
         total = CableStates(section=CableStates.WHOLE_ARM, name=self._names)
@@ -71,6 +75,8 @@ class CableTanglerNode(CheckedNode):
         return list(total.values())
 
     def _on_commands(self, message: CableStates) -> None:
+        messages.stamped(message.header.stamp)
+        messages.named(message.name, "cables", self._names)
         messages.same_length("position", message.position, message.name)
         messages.same_length("velocity", message.velocity, message.name, optional=True)
         order = messages.indices_of(self._names, message.name)

@@ -39,7 +39,8 @@ class _Recorded:
 class RecorderNode(CheckedNode):
     """Records topics to a rosbag2 folder, from when they appear, with the quality of service they are offered with.
 
-    It says ``recording N topics`` whenever it has subscribed to more, and sums up at the end.
+    It says ``recording N topics`` whenever it has subscribed to more, and which ones asked for are not there yet, and
+    sums up at the end.
     """
 
     NAME = "recorder"
@@ -69,6 +70,12 @@ class RecorderNode(CheckedNode):
         self._scan_timer = self.create_timer(SCAN_PERIOD, self._scan, clock=steady)
         self._flush_timer = self.create_timer(self.values["flush_period"], self._bag.flush, clock=steady)
         self._scan()
+        if waiting := self._waiting():
+            self.get_logger().info(f"waiting for {waiting}")
+
+    def _waiting(self) -> str:
+        """Topics that were asked for and are not there yet."""
+        return ", ".join(sorted(self._wanted - self._recorded.keys() - self._refused))
 
     def _scan(self) -> None:
         """Subscribe to what is new, and again where a publisher offers less than what was asked for."""
@@ -86,7 +93,9 @@ class RecorderNode(CheckedNode):
                 recorded.qos = qos
                 recorded.subscription = self._subscribe(topic, recorded.message_type, qos)
         if len(self._recorded) > before:
-            self.get_logger().info(f"recording {len(self._recorded)} topics to {self._bag.path}")
+            waiting = self._waiting()
+            more = f"; waiting for {waiting}" if waiting else ""
+            self.get_logger().info(f"recording {len(self._recorded)} topics to {self._bag.path}{more}")
 
     def _profiles(self, topic: str) -> list[QoSProfile]:
         return [info.qos_profile for info in self.get_publishers_info_by_topic(topic)]
@@ -129,10 +138,15 @@ class RecorderNode(CheckedNode):
         for topic in self._recorded:
             self._place(topic)  # topics without a message are listed too
         self._bag.close()
-        counts = self._bag.counts
+        counts = dict.fromkeys(self._wanted, 0) | self._bag.counts
         lines = [f"{count:>8}  {topic}" for topic, count in sorted(counts.items())]
         self.get_logger().info(
-            "\n".join([f"recorded {sum(counts.values())} messages of {len(counts)} topics to {self._bag.path}", *lines])
+            "\n".join(
+                [
+                    f"recorded {sum(counts.values())} messages of {len(self._recorded)} topics to {self._bag.path}",
+                    *lines,
+                ]
+            )
         )
 
 

@@ -44,6 +44,8 @@ class SectionNode(CheckedNode):
         self.listen(CableStates, "section_cable_commands", self._on_cables)
 
     def _on_joints(self, message: JointState) -> None:
+        messages.stamped(message.header.stamp)
+        messages.named(message.name, "joints", self._joints)
         messages.same_length("position", message.position, message.name)
         messages.same_length("velocity", message.velocity, message.name, optional=True)
         index = messages.positions_by_name(message.name)
@@ -67,6 +69,8 @@ class SectionNode(CheckedNode):
         if checked_section(message.section, self.arm) != self._number:
             self.diagnostics.ignored["section_cable_commands"] += 1
             return
+        messages.stamped(message.header.stamp)
+        messages.named(message.name, "cables", self._section.cable_names)
         messages.same_length("position", message.position, message.name)
         messages.same_length("velocity", message.velocity, message.name, optional=True)
         own = messages.indices_of(self._section.cable_names, message.name)

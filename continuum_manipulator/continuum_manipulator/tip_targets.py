@@ -35,8 +35,9 @@ def read_pose(message: PoseStamped) -> TipPose:
     """Check a pose.
 
     Raises:
-        MessageFault: another frame, not finite, or an orientation that is none.
+        MessageFault: no stamp, another frame, not finite, or an orientation that is none.
     """
+    messages.stamped(message.header.stamp)
     messages.frame("frame_id", message.header.frame_id, BASE_FRAME)
     position = messages.finite_vector("position", message.pose.position)
     return TipPose(message.header.stamp, position, messages.z_axis("orientation", message.pose.orientation))
@@ -46,8 +47,9 @@ def read_twist(message: TwistStamped) -> TipTwist:
     """Check a twist.
 
     Raises:
-        MessageFault: another frame, or not finite.
+        MessageFault: no stamp, another frame, or not finite.
     """
+    messages.stamped(message.header.stamp)
     messages.frame("frame_id", message.header.frame_id, BASE_FRAME)
     linear = messages.finite_vector("linear", message.twist.linear)
     return TipTwist(message.header.stamp, linear, messages.finite_vector("angular", message.twist.angular))

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from arm_messages import ARM, cables, instant_of, joint_state, postures
+from builtin_interfaces.msg import Time
 from harness import ARM_FILE, NodeProcess, Probe, running
 from sensor_msgs.msg import JointState
 
@@ -21,8 +22,9 @@ W, RATES = postures(N, seed=4)
 class Bench:
     """The tangler alone, with the probe in the place of the sections."""
 
-    def __init__(self, probe: Probe) -> None:
+    def __init__(self, probe: Probe, node: NodeProcess) -> None:
         self.probe = probe
+        self.node = node
         self.totals = probe.hear(CableStates, "cable_states")
         self.commands = probe.hear(CableStates, "section_cable_commands")
         self.say_section = probe.speaker(CableStates, "section_cable_states").publish
@@ -46,7 +48,7 @@ class Bench:
 def bench(domain):
     node = NodeProcess("continuum_manipulator", "cable_tangler", domain, files=(ARM_FILE,))
     with running(node), Probe(domain) as probe:
-        yield Bench(probe)
+        yield Bench(probe, node)
 
 
 def part(instant: int, section: int, base: int = 0, velocity=()) -> CableStates:
@@ -90,6 +92,23 @@ def test_lost_and_late_partners(bench):
     check_totals(totals, [0, 1, 3, 4, 7, 8], base)
     probe.wait_until(lambda: probe.count("cable_tangler", key) == before + 3, lambda: probe.report("cable_tangler"))
     assert probe.report("cable_tangler")["level"] == "WARN"
+    bench.node.wait_for_line("instants given up with a section missing: at 120.020000000 s: no state of section 1")
+
+
+def test_an_instant_sent_again_is_warned_of(bench):
+    """As by one who publishes by hand, always with the same stamp."""
+    base = 2500
+    messages = [part(0, section, base) for section in (1, 2, 3)]
+    probe = bench.probe
+    probe.wait_for_report("cable_tangler")
+    key = "section states too late"
+    before = probe.count("cable_tangler", key)
+    check_totals(bench.totals_after(messages + messages), [0], base)
+    bench.node.wait_for_line(f"{key}: at 125.000000000 s: section 1; this instant, or a later one, is already summed")
+    probe.wait_until(lambda: probe.count("cable_tangler", key) == before + 3, lambda: probe.report("cable_tangler"))
+    assert probe.report("cable_tangler")["level"] == "WARN"
+    bench.totals_after([part(1, 2, base)] * 2)
+    bench.node.wait_for_line("section states repeated: at 125.010000000 s: section 2 again")
 
 
 def test_velocity_is_known_only_if_all_sections_know_it(bench):
@@ -128,8 +147,15 @@ def test_commands_name_the_section_and_its_own_cables(bench):
     bad = command(2)
     bad.position[3] = math.inf
     bench.say_command(bad)
+    unnamed, unstamped = command(2), command(2)
+    unnamed.name = []
+    unstamped.header.stamp = Time()
+    bench.say_command(unnamed)
+    bench.say_command(unstamped)
     bench.probe.listen_until_quiet()
     assert [message.section for message in bench.commands] == [1, 2, 3]
+    bench.node.wait_for_line(f"cable_commands: name is empty; list the cables: {', '.join(ARM.cable_names)}")
+    bench.node.wait_for_line("cable_commands: the message has no stamp; publish it with {header: {stamp: now}, ...}")
     for i, message in enumerate(bench.commands):
         assert tuple(message.name) == ARM.sections[i].cable_names
         np.testing.assert_allclose(message.position, section_lengths(W[1, i], ARM, i)[:4], rtol=1e-9)

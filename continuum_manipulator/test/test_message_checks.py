@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Quaternion, Vector3
 from hypothesis import given
 from hypothesis import strategies as st
@@ -75,6 +76,21 @@ def test_names_are_found_wherever_they_stand(names):
 def test_missing_and_repeated_names():
     assert fault(messages.indices_of, ["a", "b"], ["a"]).cause == messages.MISSING_NAME
     assert fault(messages.indices_of, ["a"], ["a", "a"]).cause == messages.REPEATED_NAME
+
+
+def test_names_that_are_not_there_are_listed():
+    error = fault(messages.named, [], "cables", ["a", "b"])
+    assert (error.cause, error.detail) == (messages.MISSING_NAME, "name is empty; list the cables: a, b")
+    messages.named(["x"], "cables", ["a", "b"])
+
+
+@given(st.integers(0, 9), st.integers(0, 9))
+def test_only_a_stamp_of_zero_is_none(sec, nanosec):
+    stamp = Time(sec=sec, nanosec=nanosec)
+    if sec == nanosec == 0:
+        assert fault(messages.stamped, stamp).cause == messages.NO_STAMP
+    else:
+        messages.stamped(stamp)
 
 
 @pytest.mark.parametrize("name", ["", "base_link"])

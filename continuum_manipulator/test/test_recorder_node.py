@@ -87,6 +87,16 @@ def test_only_the_topics_asked_for_and_publishers_that_offer_less(domain, probe,
     assert list(contents(tmp_path / "bag")) == ["/wanted"]
 
 
+def test_a_topic_that_never_comes_is_told_at_the_start_and_at_the_end(domain, tmp_path):
+    node = recorder(domain, tmp_path / "bag", topics="[nope]")
+    with ended_in_any_case(node):
+        node.wait_for_line("waiting for /nope")
+        assert node.stop() == 0
+        errors = node.stderr
+    assert "recorded 0 messages of 0 topics" in errors
+    assert "0  /nope" in errors
+
+
 def test_a_killed_recorder_leaves_what_was_flushed(domain, probe, tmp_path):
     node = recorder(domain, tmp_path / "bag", topics="[cable_states]", flush_period=0.05)
     with ended_in_any_case(node):

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from arm_messages import ARM, NAMES, instant_of, pose, postures, twist
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from harness import ARM_FILE, NodeProcess, Probe, running
 from sensor_msgs.msg import JointState
@@ -80,7 +81,15 @@ def test_poses_alone_are_answered_at_once(bench):
     bench.clear()
     no_rotation = pose(4, PLACE)
     no_rotation.pose.orientation.w = 0.0
-    for bad in (no_rotation, pose(5, [math.nan, 0, 0.3]), pose(6, [0, math.inf, 0]), pose(7, PLACE, frame="world")):
+    no_stamp = pose(4, PLACE)
+    no_stamp.header.stamp = Time()
+    for bad in (
+        no_stamp,
+        no_rotation,
+        pose(5, [math.nan, 0, 0.3]),
+        pose(6, [0, math.inf, 0]),
+        pose(7, PLACE, frame="world"),
+    ):
         say(bad)
     say(pose(8, [1e300, 0.0, -1e300]))
     say(pose(9, PLACE))
@@ -88,7 +97,7 @@ def test_poses_alone_are_answered_at_once(bench):
         lambda: any(instant_of(message) == 9 for message in bench.joints), "an answer after all the bad ones"
     )
     assert {instant_of(message) for message in bench.joints} <= {8, 9}
-    for cause, count in {"no rotation": 1, "not finite": 2, "wrong frame": 1}.items():
+    for cause, count in {"no stamp": 1, "no rotation": 1, "not finite": 2, "wrong frame": 1}.items():
         probe.wait_until(lambda c=cause, n=count: probe.count("robot", f"dropped: {c}") == n, f"{count} {cause}")
 
 

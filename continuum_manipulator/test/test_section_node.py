@@ -127,6 +127,16 @@ def named_twice() -> JointState:
     return message
 
 
+def of_joints(names: list[str]) -> JointState:
+    message = JointState(name=names, position=[1.0])
+    message.header.stamp = stamp(7)
+    return message
+
+
+def without_stamp() -> JointState:
+    return JointState(name=NAMES, position=[0.1] * len(NAMES))
+
+
 BAD_JOINTS = {
     "NaN": (lambda: with_value("position", OWN[0], math.nan), "not finite"),
     "infinite": (lambda: with_value("position", OWN[3], -math.inf), "not finite"),
@@ -135,8 +145,9 @@ BAD_JOINTS = {
     "impossible bend": (lambda: with_value("position", OWN[1], 50.0), "value out of range"),
     "missing joint": (lambda: without(OWN[2]), "missing name"),
     "missing phi": (lambda: without(OWN[0]), "missing name"),
-    "no joint of the arm": (lambda: JointState(name=["gripper"], position=[1.0]), "missing name"),
-    "empty": (lambda: JointState(), "missing name"),
+    "no joint of the arm": (lambda: of_joints(["gripper"]), "missing name"),
+    "no names": (lambda: of_joints([]), "missing name"),
+    "no stamp": (lambda: without_stamp(), "no stamp"),
     "too few positions": (lambda: of_length("position", 4), "wrong length"),
     "too many velocities": (lambda: of_length("velocity", 99), "wrong length"),
     "repeated name": (lambda: named_twice(), "repeated name"),
@@ -205,7 +216,18 @@ def test_bad_commands_are_dropped(bench):
     bench.say_cables(cables(2, NUMBER, SECTION.cable_names[:3], lengths[:3]))
     bench.say_cables(cables(2, NUMBER, SECTION.cable_names, [math.nan, *lengths[1:]]))
     bench.say_cables(cables(2, NUMBER, SECTION.cable_names, lengths[:2]))
+    bench.say_cables(CableStates(section=NUMBER, name=list(SECTION.cable_names), position=lengths))
+    bench.say_cables(cables(2, NUMBER, [], lengths))
     bench.say_cables(good)
     bench.probe.listen_until_quiet()
     assert [instant_of(message) for message in bench.joints] == [1]
     assert stamp(1) == bench.joints[0].header.stamp
+    bench.node.wait_for_line(f"name is empty; list the cables: {', '.join(SECTION.cable_names)}")
+
+
+def test_a_burst_without_stamps_is_told_once_with_the_remedy(bench):
+    before = bench.node.stderr
+    assert bench.answers([without_stamp()] * 50) == []
+    bench.node.wait_for_line("no stamp: 50 in")
+    first, _ = bench.node.stderr.removeprefix(before).splitlines()
+    assert "joint_states: the message has no stamp; publish it with {header: {stamp: now}, ...}" in first

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from continuum_manipulator.nodekit.stamps import StampJoiner, nanoseconds
+from continuum_manipulator.nodekit.stamps import Loss, StampJoiner, nanoseconds
 
 KEYS = "abc"
 
@@ -75,6 +75,19 @@ def test_set_completed_behind_a_newer_one_is_late():
 def test_sources_that_go_back_in_time_start_anew():
     joiner = StampJoiner("ab", restart_gap=10)
     assert feed_pairs(joiner, [100, 101, 50, 51]) == [100, 101, 50, 51]
+
+
+def test_every_loss_is_told_with_its_stamp_and_sources():
+    told = []
+    joiner = StampJoiner(KEYS, told=lambda *loss: told.append(loss))
+    for key, stamp in [("a", 1), ("a", 1), ("a", 2), ("b", 2), ("c", 2), ("b", 2), *((key, 1) for key in KEYS)]:
+        joiner.add(key, stamp, None)
+    assert told == [
+        (Loss.REPEATED, 1, {"a"}),
+        (Loss.INCOMPLETE, 1, {"b", "c"}),
+        (Loss.LATE, 2, {"b"}),
+        (Loss.LATE, 1, set(KEYS)),
+    ]
 
 
 def test_unknown_source_is_refused():

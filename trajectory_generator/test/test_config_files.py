@@ -7,6 +7,7 @@ import pytest
 import yaml
 from scipy.spatial.transform import Rotation
 
+from continuum.errors import InvalidValueError
 from trajectory_generator.from_parameters import trajectory_from_mapping
 from trajectory_generator.parameters import PATH_PARAMETERS, parameters_of
 
@@ -63,6 +64,14 @@ def test_what_the_comment_in_the_helix_file_says_of_its_corners() -> None:
         lines, arcs = pieces.travel[2:-2:2], pieces.travel[1::2]
         assert arcs == pytest.approx(in_arc, abs=0.05e-3)
         assert lines == pytest.approx(11.4e-3 - in_arc, abs=0.1e-3)
+
+
+@pytest.mark.parametrize("radius", [0.02, 0.05, 0.5])
+def test_the_share_of_the_radius_that_the_comment_gives_fits(radius: float) -> None:
+    values = {**parameters("helix.yaml"), "helix.radius": radius, "helix.n_points": 9 * 29 // 8 + 2}
+    assert trajectory_from_mapping({**values, "corner_radius": 0.93 * radius}).duration > 0
+    with pytest.raises(InvalidValueError, match="make it smaller"):
+        trajectory_from_mapping({**values, "helix.n_points": 301, "corner_radius": 1.5 * radius})
 
 
 def test_defaults_are_the_helix_of_the_thesis() -> None:

@@ -9,7 +9,9 @@ from harness import NodeProcess, Probe, ended_in_any_case
 from rosgraph_msgs.msg import Clock
 
 from continuum_manipulator.nodekit.stamps import nanoseconds
+from continuum_manipulator.nodekit.usage import usage
 from trajectory_generator.from_parameters import trajectory_from_mapping
+from trajectory_generator.trajectory_publisher import TrajectoryPublisherNode
 
 pytestmark = pytest.mark.ros
 
@@ -126,6 +128,44 @@ def test_simulated_time_sets_the_pace(domain, probe):
         assert len(poses) == stood
         assert instants(poses)[0] > 1000 * 10**9
         assert node.stop() == 0
+
+
+def test_being_late_is_told_but_not_of_the_start(domain, probe):
+    """Simulated time that jumps: by half a second at the start, and again when the motion runs."""
+    poses, _ = probe.hear(PoseStamped, "traj_pose"), probe.hear(TwistStamped, "traj_twist")
+    say_clock = probe.node.create_publisher(Clock, "/clock", 10).publish
+    now = 1000 * 10**9
+
+    def tick(step: int = 5_000_000) -> None:
+        nonlocal now
+        now += step
+        clock = Clock()
+        clock.clock.sec, clock.clock.nanosec = divmod(now, 10**9)
+        say_clock(clock)
+
+    def until(count: int) -> None:
+        probe.wait_until(lambda: (tick(), len(poses) > count)[1], lambda: f"{count} poses, not {len(poses)}")
+
+    with ended_in_any_case(publisher(domain, use_sim_time=True, lead_time=5.0, rate=50.0)) as (node,):
+        until(2)
+        tick(500_000_000)
+        until(100)
+        assert "behind" not in node.stderr
+        tick(500_000_000)
+        until(130)
+        node.wait_for_line("behind the schedule")
+        assert node.stop() == 0
+
+
+def test_help_lists_the_parameters_of_every_path(domain):
+    names = [line.strip() for line in usage(TrajectoryPublisherNode).splitlines() if " " not in line.strip()]
+    for name in ("corner_radius", "helix.radius", "line.start", "circle.angle", "via_points.list", "loop", "rate"):
+        assert names.count(name) == 1
+    with ended_in_any_case(
+        NodeProcess("trajectory_generator", "trajectory_publisher", domain, arguments=("--help",))
+    ) as (node,):
+        assert node.exit_code() == 0
+        assert node.stderr == ""
 
 
 @pytest.mark.parametrize(

@@ -129,6 +129,7 @@ def _refuse_tight_corners(legs: Legs, cut: Array, corner_radius: float) -> None:
     raise InvalidValueError(
         "corner_radius",
         corner_radius,
-        f"less than {corner_radius * legs.distance[i] / needed[i]:.6g} m: from via_points[{i}] to via_points[{i + 1}] "
-        f"are {legs.distance[i]:.6g} m, the rounding of the corners there takes {needed[i]:.6g} m",
+        f"less than {corner_radius * legs.distance[i] / needed[i]:.6g} m; make it smaller: "
+        f"from via_points[{i}] to via_points[{i + 1}] are {legs.distance[i]:.6g} m, "
+        f"the rounding of the corners there takes {needed[i]:.6g} m",
     )

@@ -15,11 +15,14 @@ from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.stamps import NANOSECONDS
 from trajectory_generator.from_parameters import trajectory_from_mapping
 from trajectory_generator.graph_watch import GraphWatch
-from trajectory_generator.parameters import PATH, parameters_of
+from trajectory_generator.parameters import PATH, PATH_PARAMETERS, parameters_of
 from trajectory_generator.trajectory_messages import TrajectoryMessages
 
 START_PERIOD = 0.05
 """Seconds between two looks at whether the listeners are there."""
+
+START_UP = NANOSECONDS
+"""First part of the schedule [ns] in which being late is not told: the first messages take longer than the rest."""
 
 PROGRESS_PERIOD = 5.0
 """Seconds between two lines about the progress."""
@@ -31,7 +34,8 @@ ACKNOWLEDGED_WITHIN = 5.0
 class TrajectoryPublisherNode(CheckedNode):
     """Publishes ``traj_pose`` and ``traj_twist`` with one stamp, ``rate`` times a second, on a schedule without drift.
 
-    The schedule begins when the listeners are there. Stamps are the schedule's instants, also where the node is late.
+    The schedule begins with the first messages, when the listeners are there. Stamps are the schedule's instants, also
+    where the node is late.
     """
 
     NAME = "trajectory_publisher"
@@ -69,6 +73,11 @@ class TrajectoryPublisherNode(CheckedNode):
         self._progress_timer = self.create_timer(PROGRESS_PERIOD, self._tell_progress, clock=steady)
 
     @classmethod
+    def all_parameter_specs(cls) -> tuple[ParameterSpec, ...]:
+        of_paths = {spec.name: spec for kind in PATH_PARAMETERS for spec in parameters_of(kind)}
+        return (*cls.PARAMETERS, *of_paths.values())
+
+    @classmethod
     def parameter_specs(cls, given: Mapping[str, object]) -> tuple[ParameterSpec, ...]:
         return (*cls.PARAMETERS, *parameters_of(given.get(PATH.name, PATH.default)))
 
@@ -84,7 +93,6 @@ class TrajectoryPublisherNode(CheckedNode):
             self.diagnostics.warnings.note("started without all listeners", self._who_is_missing())
         self.destroy_timer(self._wait_timer)
         period = 1.0 / self._rate
-        self._start = self.get_clock().now().nanoseconds + round(period * NANOSECONDS)
         self._timer = self.create_timer(period, self._publish_due)
         self.get_logger().info(f"trajectory of {self._messages.duration:.1f} s at {self._rate:g} Hz begins")
 
@@ -96,9 +104,12 @@ class TrajectoryPublisherNode(CheckedNode):
     def _publish_due(self) -> None:
         """Publish every instant whose time has come, to half a period."""
         now = self.get_clock().now().nanoseconds
+        if self._start is None:
+            self._start = now
         half = round(0.5 / self._rate * NANOSECONDS)
         late = now - self._instant(self._next)
-        if late > max(4 * half, NANOSECONDS // 50):
+        started = now - self._start > START_UP
+        if started and late > max(4 * half, NANOSECONDS // 50):
             self.diagnostics.warnings.note("behind the schedule", f"{late / 1e6:.0f} ms late; stamps are kept")
         while self._instant(self._next) <= now + half:
             stamp = Time(nanoseconds=self._instant(self._next)).to_msg()

@@ -87,6 +87,11 @@ class CheckedNode(Node):
         """The node's own parameters; to be overridden where some depend on what is given."""
         return cls.PARAMETERS
 
+    @classmethod
+    def all_parameter_specs(cls) -> tuple[ParameterSpec, ...]:
+        """The node's own parameters, whatever is given."""
+        return cls.parameter_specs({})
+
     def listen(
         self, message_type: type, topic: str, handle: Callable[[Any], None], qos: QoSProfile = STREAM
     ) -> Subscription:

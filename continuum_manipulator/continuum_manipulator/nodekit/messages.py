@@ -9,7 +9,9 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum_manipulator.nodekit.faults import MessageFault
+from continuum_manipulator.nodekit.stamps import Stamp, nanoseconds
 
+NO_STAMP = "no stamp"
 NOT_FINITE = "not finite"
 WRONG_LENGTH = "wrong length"
 REPEATED_NAME = "repeated name"
@@ -18,6 +20,12 @@ UNKNOWN_NAME = "unknown name"
 WRONG_FRAME = "wrong frame"
 NO_ROTATION = "no rotation"
 REFUSED = "value out of range"
+
+
+def stamped(stamp: Stamp) -> None:
+    """The message has a stamp: without one, two messages would be of the same instant."""
+    if nanoseconds(stamp) == 0:
+        raise MessageFault(NO_STAMP, "the message has no stamp; publish it with {header: {stamp: now}, ...}")
 
 
 def finite(field: str, values: Sequence[float]) -> Array:
@@ -57,6 +65,12 @@ def same_length(field: str, values: Sequence[float], names: Sequence[str], optio
         return
     allowed = f"{len(names)}, one for every name" + (", or none" if optional else "")
     raise MessageFault(WRONG_LENGTH, f"{field} has {len(values)} entries; allowed: {allowed}")
+
+
+def named(names: Sequence[str], kind: str, wanted: Sequence[str]) -> None:
+    """There are names; without any, the message is told which ``kind`` of things (cables, joints) to list."""
+    if len(names) == 0:
+        raise MessageFault(MISSING_NAME, f"name is empty; list the {kind}: {', '.join(wanted)}")
 
 
 def positions_by_name(names: Sequence[str]) -> dict[str, int]:

@@ -23,6 +23,10 @@ FAILED = 1
 """Exit code of a node that had to give up while running."""
 
 
+HELP = frozenset(("-h", "--help"))
+"""Arguments that ask for the usage."""
+
+
 class StopRequest:
     """True once SIGINT or SIGTERM came. A launcher may send several; all after the first change nothing.
 
@@ -53,7 +57,7 @@ def run(node: str) -> int:
     """Run the node ``package.module:Class`` until a signal comes or the node is finished.
 
     Returns:
-        The exit code: 0, or with one line on stderr :data:`BAD_START` or :data:`FAILED`.
+        The exit code: 0, also for ``--help``, or with one line on stderr :data:`BAD_START` or :data:`FAILED`.
     """
     with StopRequest() as stop:
         # Discovery stays on this host unless the user says otherwise.
@@ -71,10 +75,14 @@ def _run(node_class: type[CheckedNode], stop: StopRequest) -> int:
 
     from continuum.errors import ContinuumError
     from continuum_manipulator.nodekit.start_errors import START_ERRORS, one_line
+    from continuum_manipulator.nodekit.usage import usage
 
     set_logger_level("rcl", LoggingSeverity.FATAL)  # it would say the same as our one line, less clearly
     try:
         extra = remove_ros_args(sys.argv)[1:]
+        if not HELP.isdisjoint(extra):
+            print(usage(node_class))
+            return 0
         if extra:
             return _fail(node_class, f"unknown argument {extra[0]!r}; parameters go after --ros-args as -p name:=value")
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)

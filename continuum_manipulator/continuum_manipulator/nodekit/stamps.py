@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Callable, Hashable, Iterable
+from enum import Enum, auto
 from typing import Protocol
 
 NANOSECONDS = 1_000_000_000
@@ -20,6 +21,19 @@ def nanoseconds(stamp: Stamp) -> int:
     return stamp.sec * NANOSECONDS + stamp.nanosec
 
 
+def seconds(stamp: int) -> str:
+    """A stamp [ns] in words, in seconds to the nanosecond."""
+    return "{}.{:09d} s".format(*divmod(stamp, NANOSECONDS))
+
+
+class Loss(Enum):
+    """Why messages did not enter a set that was given out."""
+
+    INCOMPLETE = auto()
+    LATE = auto()
+    REPEATED = auto()
+
+
 class StampJoiner[Key: Hashable, Message]:
     """Collects one message of every key for each stamp and gives out the complete sets, in the order of their stamps.
 
@@ -32,6 +46,8 @@ class StampJoiner[Key: Hashable, Message]:
         keys: the sources of a complete set.
         capacity: stamps kept open at once; beyond it the set that was opened first is given up.
         restart_gap: how far behind the last set a complete set must be to count as a restart [ns].
+        told: called for every loss with its stamp [ns] and keys: of an incomplete set those that are missing, else
+            those whose messages are not used.
 
     Attributes:
         incomplete: sets given up.
@@ -39,10 +55,17 @@ class StampJoiner[Key: Hashable, Message]:
         repeated: messages that a source sent twice for one stamp; the first is used.
     """
 
-    def __init__(self, keys: Iterable[Key], capacity: int = 200, restart_gap: int = NANOSECONDS) -> None:
+    def __init__(
+        self,
+        keys: Iterable[Key],
+        capacity: int = 200,
+        restart_gap: int = NANOSECONDS,
+        told: Callable[[Loss, int, frozenset[Key]], object] = lambda _loss, _stamp, _keys: None,
+    ) -> None:
         self._keys = frozenset(keys)
         self._capacity = capacity
         self._restart_gap = restart_gap
+        self._told = told
         self._open: dict[int, dict[Key, Message]] = {}
         self._last: int | None = None
         self.incomplete = 0
@@ -64,10 +87,12 @@ class StampJoiner[Key: Hashable, Message]:
             raise KeyError(key)
         if stamp == self._last:
             self.late += 1
+            self._told(Loss.LATE, stamp, frozenset([key]))
             return None
         parts = self._open.setdefault(stamp, {})
         if key in parts:
             self.repeated += 1
+            self._told(Loss.REPEATED, stamp, frozenset([key]))
             return None
         parts[key] = message
         if len(parts) < len(self._keys):
@@ -76,6 +101,7 @@ class StampJoiner[Key: Hashable, Message]:
         del self._open[stamp]
         if self._last is not None and self._last - self._restart_gap <= stamp < self._last:
             self.late += len(parts)
+            self._told(Loss.LATE, stamp, self._keys)
             return None
         self._last = stamp
         self._give_up([other for other in self._open if other < stamp])
@@ -87,6 +113,6 @@ class StampJoiner[Key: Hashable, Message]:
             self._give_up(list(self._open)[:surplus])
 
     def _give_up(self, stamps: list[int]) -> None:
-        for stamp in stamps:
-            del self._open[stamp]
         self.incomplete += len(stamps)
+        for stamp in stamps:
+            self._told(Loss.INCOMPLETE, stamp, self._keys - self._open.pop(stamp).keys())

@@ -69,7 +69,9 @@ def play_verb(args: argparse.Namespace) -> None:
         clock = session.node.create_publisher(Clock, "/clock", 10) if args.clock else None
         first = reader.start_time + round(args.start_offset * 1e9)
         last = first + round(args.playback_duration * 1e9) if args.playback_duration else reader.end_time
+        _tell(playing_text(args.bag_path, wanted, last - first))
         session.spin_for(args.delay)
+        count = 0
         while reader.message_count:
             messages = (
                 (stamp, publishers[connection.id], data)
@@ -77,22 +79,41 @@ def play_verb(args: argparse.Namespace) -> None:
             )
             if clock:
                 messages = with_clock(messages, clock, first, last, args.rate / args.clock)
-            _play(session, messages, first, args.rate)
+            count += _play(session, messages, first, args.rate)
             if not args.loop:
                 break
         for publisher in publishers.values():
             publisher.wait_for_all_acked(_ACKNOWLEDGED)
+        _tell(f"ended, {count} messages played")
 
 
-def _play(session: Session, messages: Iterable[tuple[int, Publisher, bytes]], first: int, rate: float) -> None:
-    """Publish each message when its time has come; times of the bag in ns, ``rate`` of bag over wall time."""
+def _tell(text: str) -> None:
+    print(f"[INFO] [rosbag2_player]: {text}", file=sys.stderr, flush=True)
+
+
+def playing_text(path: Path, connections: Iterable[Connection], duration: int) -> str:
+    """What is going to be played, topic by topic; ``duration`` [ns] of the bag."""
+    topics = sorted((connection.topic, connection.msgcount) for connection in connections)
+    lines = [f"playing '{path}': {max(duration, 0) / 1e9:.1f} s, {len(topics)} topics; recorded messages of each:"]
+    return "\n".join([*lines, *(f"{count:>8}  {topic}" for topic, count in topics)])
+
+
+def _play(session: Session, messages: Iterable[tuple[int, Publisher, object]], first: int, rate: float) -> int:
+    """Publish each message when its time has come; times of the bag in ns, ``rate`` of bag over wall time.
+
+    Returns:
+        How many messages of the bag, those of ``/clock`` left out.
+    """
     begin = time.monotonic()
+    count = 0
     for stamp, publisher, data in messages:
         wait = begin + (stamp - first) * 1e-9 / rate - time.monotonic()
         if wait > 0:
             time.sleep(wait)
         publisher.publish(data)
+        count += isinstance(data, bytes)
     session.spin_for(0.0)
+    return count
 
 
 def with_clock(

@@ -61,6 +61,14 @@ def test_mistakes(ros2, bag: Path) -> None:
 
 
 @pytest.mark.ros
+def test_play_tells_what_and_that_it_ended(ros2, bag: Path) -> None:
+    told = ros2("bag", "play", bag, "--rate", "5", "--clock").stderr
+    assert f"playing '{bag}': 0.6 s, 1 topics" in told
+    assert f"{COUNT}  /numbers" in told
+    assert told.splitlines()[-1] == f"[INFO] [rosbag2_player]: ended, {COUNT} messages played"
+
+
+@pytest.mark.ros
 def test_played_messages_are_those_recorded(ros2, bag: Path, tmp_path: Path) -> None:
     """Play over and over, record that, and find the numbers in turn, nothing missing between them."""
     player = ros2.start("bag", "play", bag, "--loop", "--rate", "2", "--clock", "50", "--remap", "/numbers:=/again")
