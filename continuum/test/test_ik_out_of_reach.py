@@ -128,3 +128,18 @@ def test_the_straight_arm_is_nearest_to_what_is_straight_above_it() -> None:
     assert batch.statuses[0] == IkStatus.UNREACHABLE
     assert batch.distances[0] == pytest.approx(arm.length, rel=1e-12)
     np.testing.assert_allclose(batch.configurations[0], 0.0, atol=1e-6)
+
+
+@pytest.mark.parametrize("times", [1e1, 1e3, 1e6])
+@pytest.mark.parametrize("name", ["one", "three", "three_short_bends", "three_mixed"])
+def test_ever_so_far_away_is_out_of_reach(name: str, times: float) -> None:
+    """By the status, and by a distance that differs from the target's by no more than the arm's length."""
+    arm = ARMS[name]
+    directions = np.random.default_rng(9).normal(size=(20, 3))
+    directions[0], directions[1] = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
+    far = times * arm.length
+    positions = far * directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    for wanted in (None, -directions):
+        batch = answers_that_attain(arm, Targets(positions, wanted))
+        assert set(batch.statuses) == {IkStatus.UNREACHABLE}
+        assert np.all(np.abs(batch.distances - far) <= arm.length + 1e-9 * far)

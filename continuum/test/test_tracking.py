@@ -159,6 +159,7 @@ def test_a_twist_that_the_arm_cannot_follow_is_told() -> None:
     up = tracker.twist(np.array([0.0, 0.0, 0.1]), None, 0.01)
     assert up.result.status is IkStatus.UNREACHABLE
     assert up.result.distance == pytest.approx(0.1 * 0.01, rel=1e-6)
+    tracker.pose(circle(0.0)[0])
     side = tracker.twist(np.array([0.1, 0.0, 0.0]), None, 0.01)
     assert side.result.status is IkStatus.SOLVED
     assert side.result.distance <= 1e-3 * 0.1 * 0.01

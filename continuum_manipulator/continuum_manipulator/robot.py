@@ -6,6 +6,7 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from sensor_msgs.msg import JointState
 
+from continuum.kinematics.compiled.warm_up import warm_up
 from continuum.kinematics.ik_result import IkStatus
 from continuum.kinematics.tracking import Tracked, Tracker
 from continuum.parameter_spec import ParameterSpec
@@ -38,7 +39,7 @@ class RobotNode(CheckedNode):
         ),
         ParameterSpec(
             "tolerance", float, "distance in m, and angle in rad, up to which a pose counts as reached",
-            lower=1e-12, upper=1.0, default=1e-6,
+            lower=1e-12, upper=1.0, default=1e-9,
         ),
         ParameterSpec(
             "max_twist_gap", float, "longest time between two stamps over which motion is continued", "s", 0.0, 3600.0,
@@ -49,6 +50,7 @@ class RobotNode(CheckedNode):
 
     def __init__(self) -> None:
         super().__init__()
+        warm_up()  # before the first pose comes, not with it
         use_direction = self.values["target"] == "position_direction"
         self._tracker = Tracker(self.arm, use_direction=use_direction, tolerance=self.values["tolerance"])
         self._joints = list(arm_joint_names(self.arm))

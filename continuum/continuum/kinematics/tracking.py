@@ -20,6 +20,8 @@ from continuum.kinematics.inverse_kinematics import InverseKinematics
 
 _NO_SPIN = np.zeros(3)
 _BEHIND = 1e-3  # part of the wanted velocity that the tip may lack and still count as following
+_RESTARTS_IN_MOTION = 16  # so that a pose out of reach takes about a millisecond
+_SEARCH_EVERY = 25  # poses out of reach, after which all restarts are tried again
 _JUMP = 0.5  # change of a coordinate against the prediction [rad] from which an answer does not continue the motion
 
 
@@ -53,7 +55,8 @@ class Tracker:
         self._differential = DifferentialKinematics(arm, DIRECTION if use_direction else POSITION)
         self._begin = InverseKinematics(arm, tolerance, objective="least_bending")
         self._stay = InverseKinematics(arm, tolerance, objective="near_start")
-        self._continue = InverseKinematics(arm, tolerance, objective="first")
+        self._continue = InverseKinematics(arm, tolerance, objective="first", n_restarts=_RESTARTS_IN_MOTION)
+        self._n_out_of_reach = 0  # poses since the last one that was reached
         self._rates: list[Array] = []  # of the last instants, newest last; empty where no motion is continued
 
     def pose(
@@ -105,14 +108,25 @@ class Tracker:
         return Tracked(IkResult(self.configuration, status, 0, behind * dt, 0.0), now.rate)
 
     def _solve(self, target: Target, dt: float | None) -> IkResult:
-        if dt is not None and self._rates:
-            predicted = self._predict(dt)
-            result = self._continue.solve(target, predicted)
-            if not result.solved or np.max(np.abs(result.configuration - predicted)) > _JUMP:
-                self._rates = []
-            return result
-        straight = not np.any(self.configuration)
-        return self._begin.solve(target) if straight else self._stay.solve(target, self.configuration)
+        result = self._continued(target, dt) if dt is not None else None
+        if result is None:
+            straight = not np.any(self.configuration)
+            result = self._begin.solve(target) if straight else self._stay.solve(target, self.configuration)
+        self._n_out_of_reach = 0 if result.solved else self._n_out_of_reach + 1
+        return result
+
+    def _continued(self, target: Target, dt: float) -> IkResult | None:
+        """The answer that continues the motion; None where there is none, or where all restarts shall be tried."""
+        if not self._rates and self._n_out_of_reach == 0:
+            return None
+        predicted = self._predict(dt) if self._rates else self.configuration
+        result = self._continue.solve(target, predicted)
+        if not result.solved:
+            self._rates = []
+            return result if self._n_out_of_reach % _SEARCH_EVERY else None
+        if np.max(np.abs(result.configuration - predicted)) > _JUMP:
+            self._rates = []
+        return result
 
     def _predict(self, dt: float) -> Array:
         """Configuration after ``dt`` [s] from the last two rates (Adams and Bashforth, second order)."""

@@ -54,6 +54,7 @@ def misses(arm: Arm, configurations: np.ndarray, targets: Targets) -> tuple[np.n
         z, wanted = poses[:, :3, 2], targets.directions
         return distances, np.arctan2(np.linalg.norm(np.cross(z, wanted), axis=-1), np.sum(z * wanted, axis=-1))
     if targets.rotations is not None:
-        apart = np.linalg.norm(poses[:, :3, :3] - targets.rotations, axis=(-2, -1)) / np.sqrt(8.0)
-        return distances, 2.0 * np.arcsin(np.clip(apart, 0.0, 1.0))
+        turn = np.swapaxes(poses[:, :3, :3], -1, -2) @ targets.rotations
+        sine = np.linalg.norm(turn - np.swapaxes(turn, -1, -2), axis=(-2, -1)) / np.sqrt(8.0)
+        return distances, np.arctan2(sine, 0.5 * (np.trace(turn, axis1=-2, axis2=-1) - 1.0))
     return distances, np.zeros(len(distances))
