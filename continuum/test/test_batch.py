@@ -1,4 +1,4 @@
-"""Many targets in one call: each answer is that of its target alone, always the same, and a trajectory is continuous."""
+"""Many targets in one call: each answer is that of its target alone, always the same; trajectories do not jump."""
 
 import numpy as np
 import pytest

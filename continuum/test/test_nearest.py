@@ -41,7 +41,7 @@ def test_the_error_pushes_no_section(arm: Arm) -> None:
 def test_no_small_change_meets_position_and_rotation_better(kind: int) -> None:
     arm = arm_of(4, 1.2)
     reachable = targets_at(arm, random_postures(arm, 10, seed=2), kind)
-    targets = Targets(reachable.positions + [0.9, 0.0, 0.0], reachable.directions, reachable.rotations)
+    targets = Targets(reachable.positions + np.array([0.9, 0.0, 0.0]), reachable.directions, reachable.rotations)
     batch = InverseKinematics(arm).solve_many(targets)
     assert not np.any(batch.solved)
 

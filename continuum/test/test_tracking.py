@@ -173,7 +173,10 @@ def test_a_twist_that_the_arm_cannot_follow_is_told() -> None:
         statuses.append(answer.result.status)
     assert statuses[0] is not IkStatus.LIMIT_REACHED
     assert statuses[-1] is IkStatus.LIMIT_REACHED
+    np.testing.assert_allclose(bend(tracker.configuration), 0.5, rtol=1e-12)
     np.testing.assert_allclose(arm_pose(tracker.configuration, arm)[:3, 3], before, rtol=0, atol=1e-9)
+    assert answer.result.distance == pytest.approx(0.2 * 0.01, rel=1e-9)
+    np.testing.assert_allclose(answer.rate, 0.0, atol=1e-9)
 
 
 def test_a_twist_of_nothing_moves_nothing_and_is_solved() -> None:

@@ -54,7 +54,7 @@ def solve_fabrikc(
     target = Target(position, direction)
     w = configuration_of(arm, start).reshape(-1)
     arrays = TargetArrays(target.kind, radian_in_metres(arm), target.position, target.axes[0])
-    iterations, distance, angle = _fabrikc(arm_arrays(arm), arrays, w, tolerance, max_iterations)
+    iterations, distance, angle = _fabrikc(arm_arrays(arm), arrays, w, float(tolerance), max_iterations)
     solved = distance <= tolerance and angle <= tolerance
     status = IkStatus.SOLVED if solved else IkStatus.NO_CONVERGENCE
     return IkResult(w.reshape(-1, 2), status, iterations, distance, angle)

@@ -106,7 +106,7 @@ def configuration_of(arm: Arm, start: ArrayLike | None) -> Array:
 
 
 def finite(name: str, value: object, shape: tuple[int, ...]) -> Array:
-    """``value`` as a new array of ``shape``, -1 for any number, all finite.
+    """``value`` as a new array of ``shape``, -1 for any number, all finite, in C order as compiled code expects it.
 
     Raises:
         InvalidValueError: it is none.
@@ -114,7 +114,7 @@ def finite(name: str, value: object, shape: tuple[int, ...]) -> Array:
     words = " x ".join("n" if count < 0 else str(count) for count in shape)
     allowed = f"finite numbers, {words}"
     try:
-        array = np.array(value, dtype=float)
+        array = np.array(value, dtype=float, order="C")
     except (TypeError, ValueError, OverflowError):
         raise InvalidValueError(name, value, allowed) from None
     fits = len(array.shape) == len(shape) and all(b in (-1, a) for a, b in zip(array.shape, shape, strict=True))

@@ -17,7 +17,7 @@ from continuum.kinematics.compiled.search import start_postures
 from continuum.kinematics.compiled.solver import COLD, FIRST, FOLLOW, LEAST_BENDING, NEAR_START, WARM, run_solver
 from continuum.kinematics.compiled.task import radian_in_metres
 from continuum.kinematics.ik_result import IkBatch, IkResult, IkStatus
-from continuum.kinematics.ik_target import Target, Targets, configuration_of
+from continuum.kinematics.ik_target import Target, Targets, configuration_of, finite
 
 OBJECTIVES = {"first": FIRST, "near_start": NEAR_START, "least_bending": LEAST_BENDING}
 """What a redundant arm does with its freedom: take the first answer found, the one near it
@@ -34,16 +34,20 @@ class InverseKinematics:
         n_restarts: postures tried after the start before a target is given up.
 
     Raises:
-        InvalidValueError: unknown objective, or a tolerance that is not positive.
+        InvalidValueError: unknown objective, a tolerance that is not positive, or a negative number of restarts.
     """
 
     def __init__(self, arm: Arm, tolerance: float = 1e-6, objective: str = "first", n_restarts: int = 200) -> None:
         if objective not in OBJECTIVES:
             raise InvalidValueError("objective", objective, f"one of {', '.join(OBJECTIVES)}")
+        if not 0 <= n_restarts <= 100_000:
+            raise InvalidValueError("n_restarts", n_restarts, "a whole number from 0 to 100000")
         if not 0.0 < tolerance < np.inf:
             raise InvalidValueError("tolerance", tolerance, "a number > 0")
+        if n_restarts < 0:
+            raise InvalidValueError("n_restarts", n_restarts, "a number >= 0")
         self.arm = arm
-        self.tolerance = tolerance
+        self.tolerance = float(tolerance)
         self.objective = objective
         self._limited, self._unlimited = arm_arrays(arm), arm_arrays(arm, with_limits=False)
         self._postures = start_postures(arm.n_sections, n_restarts)
@@ -64,9 +68,17 @@ class InverseKinematics:
         return IkResult(w, IkStatus(int(status)), int(iterations), distance, angle)
 
     def solve_many(self, targets: Targets, starts: ArrayLike | None = None) -> IkBatch:
-        """Answer each target by itself, from its own start (n_targets, n_sections, 2) [rad] if starts are given."""
+        """Answer each target by itself.
+
+        Args:
+            targets: n_targets of them.
+            starts: configurations (n_targets, n_sections, 2) [rad] near which the answers are wanted; without, any.
+
+        Raises:
+            InvalidValueError: malformed starts.
+        """
         shape = (len(targets), self.arm.n_sections, 2)
-        w = np.zeros(shape) if starts is None else np.array(np.broadcast_to(starts, shape), dtype=float)
+        w = np.zeros(shape) if starts is None else finite("starts", starts, shape)
         return self._answer_all(targets, w, COLD if starts is None else WARM)
 
     def follow(self, targets: Targets, start: ArrayLike | None = None) -> IkBatch:
@@ -76,7 +88,7 @@ class InverseKinematics:
         return self._answer_all(targets, w, FOLLOW)
 
     def _answer_all(self, targets: Targets, w: Array, start: int) -> IkBatch:
-        numbers = self._run(targets, w.reshape(len(targets), -1), start)
+        numbers = self._run(targets, w.reshape(len(targets), 2 * self.arm.n_sections), start)
         return IkBatch(w, numbers[:, 0].astype(int), numbers[:, 1].astype(int), numbers[:, 2], numbers[:, 3])
 
     def _run(self, targets: Targets, w: Array, start: int) -> Array:

@@ -96,9 +96,11 @@ class Tracker:
         falls behind by this step.
         """
         start = self.configuration
-        middle = self._differential.advance(start, self._rate(velocity, angular_velocity).rate, 0.5 * dt)
-        self.configuration = middle
-        self.configuration = self._differential.advance(start, self._rate(velocity, angular_velocity).rate, dt)
+        first = self._rate(velocity, angular_velocity)
+        self.configuration = self._differential.advance(start, first.rate, 0.5 * dt)
+        middle = self._rate(velocity, angular_velocity)
+        reaches_limit = middle.held and not first.held  # go all the way to it, not to where the middle is not held
+        self.configuration = self._differential.advance(start, (first if reaches_limit else middle).rate, dt)
         self._rates = []
         now = self._rate(velocity, angular_velocity)
         behind = float(np.linalg.norm(now.velocity - velocity))

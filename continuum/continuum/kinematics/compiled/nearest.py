@@ -23,6 +23,7 @@ _DIFFERENCE = 1e-5  # step of the differences [rad]
 _LARGEST_STEP = 0.5  # of any coordinate in one iteration [rad]
 _MAX_ITERATIONS = 100
 _NEARER = 1e-6  # part by which a squared error must be less to count as less
+_ROUNDING = 1e-13  # part of a squared error that rounding may hide
 _STATIONARY = 1e-10  # gradient of the half squared error, in weights per rad, that ends the search
 
 
@@ -58,8 +59,9 @@ def descend_to_nearest(arm: ArmArrays, target: TargetArrays, w: Array) -> tuple[
             if not improved:
                 damping = max(4.0 * damping, 1e-3 * target.weight**2)
         if not improved:
-            # Rounding hides what is left to gain: a minimum if the slope says so too.
-            return iteration, np.max(np.abs(reduced)) < 1e4 * _STATIONARY * target.weight**2
+            # Rounding hides what is left to gain: a minimum if the slope promises no more than that.
+            stiffest = np.max(np.abs(np.diag(hessian))) if len(hessian) > 0 else 0.0
+            return iteration, np.max(np.abs(reduced)) ** 2 <= _ROUNDING * cost * stiffest
         w[:] = trial
         cost, gradient = trial_cost, trial_gradient
         damping = 0.1 * damping if damping > 1e-8 * target.weight**2 else 0.0
@@ -159,7 +161,7 @@ def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tr
     best = np.inf
     iterations, settled = 0, False
     error, jacobian = np.empty(target.n_rows), np.empty((6, len(w)))
-    for k in range(-1, n_tries):
+    for k in range(-1, min(n_tries, len(ends))):
         row = 0 if k < 0 else order[k]
         if ends[row, 0] == np.inf:
             continue

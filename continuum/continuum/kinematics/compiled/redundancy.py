@@ -12,12 +12,13 @@ from continuum.kinematics.compiled.arm_arrays import ArmArrays
 from continuum.kinematics.compiled.descent import descend
 from continuum.kinematics.compiled.equations import compiled
 from continuum.kinematics.compiled.least_squares_step import least_squares_step
-from continuum.kinematics.compiled.limits import hold_outward
+from continuum.kinematics.compiled.limits import hold_outward, stop_radial
 from continuum.kinematics.compiled.task import TargetArrays, evaluate
 
 _MAX_ITERATIONS = 100
 _SETTLED = 1e-9  # change of a coordinate that ends the slide [rad]
 _CORRECTION_ITERATIONS = 10
+_EXACT = 1e-13  # distance [m] and angle [rad] that corrections aim at: slack in the target would pass for a gain
 _ROUNDING = 1e-14
 
 
@@ -34,6 +35,7 @@ def slide_towards(arm: ArmArrays, target: TargetArrays, w: Array, reference: Arr
     error, jacobian = np.empty(target.n_rows), np.empty((6, size))
     normal, correction = np.empty((size, size)), np.empty(size)
     held = np.empty(len(arm.b), np.bool_)
+    descend(arm, target, w, _EXACT, _CORRECTION_ITERATIONS, 0.0)
     remaining = np.sum((w - reference) ** 2)
     gain = 1.0
     for iteration in range(_MAX_ITERATIONS):
@@ -46,10 +48,11 @@ def slide_towards(arm: ArmArrays, target: TargetArrays, w: Array, reference: Arr
             step = wish + correction
             if not hold_outward(arm, w, step, held, jacobian, target.n_rows):
                 break
+            stop_radial(w, held, wish)
         trial = w + step
-        _, _, _, solved = descend(arm, target, trial, tolerance, _CORRECTION_ITERATIONS, 0.0)
+        _, distance, angle, _ = descend(arm, target, trial, _EXACT, _CORRECTION_ITERATIONS, 0.0)
         left = np.sum((trial - reference) ** 2)
-        if solved and left < remaining:
+        if distance <= tolerance and angle <= tolerance and left < remaining:
             moved = np.max(np.abs(trial - w))
             w[:] = trial
             remaining = left
