@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sqlite3
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
@@ -73,7 +74,7 @@ class BagWriter:
         """Write a serialised message, received at ``stamp`` [ns since 1970]."""
         try:
             self._writer.write(handle, stamp, raw)
-        except OSError as error:
+        except (OSError, sqlite3.Error) as error:
             raise FileError(self.path, f"cannot be written ({error})") from error
 
     def flush(self) -> None:
@@ -86,7 +87,7 @@ class BagWriter:
             if storage.chunk.msgs:
                 storage.close_chunk()
             storage.bio.flush()
-        except OSError as error:
+        except (OSError, sqlite3.Error) as error:
             raise FileError(self.path, f"cannot be written ({error})") from error
 
     def close(self) -> None:
@@ -95,5 +96,5 @@ class BagWriter:
             return
         try:
             self._writer.close()
-        except OSError as error:
+        except (OSError, sqlite3.Error) as error:
             raise FileError(self.path, f"cannot be finished ({error})") from error

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from continuum.kinematics.routing import cables_through, section_length_rates, section_lengths, untangle, untangle_rates
+from continuum.kinematics.routing import (
+    cables_through,
+    section_length_rates,
+    section_lengths,
+    tangle,
+    untangle,
+    untangle_rates,
+)
+from continuum_manipulator.command_checks import check_configuration, check_fit, check_lengths, check_rates
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.stamps import Loss, StampJoiner, nanoseconds, seconds
@@ -81,11 +89,15 @@ class CableTanglerNode(CheckedNode):
         messages.same_length("velocity", message.velocity, message.name, optional=True)
         order = messages.indices_of(self._names, message.name)
         lengths = messages.finite("position", np.asarray(message.position)[order])
+        check_lengths(lengths, self._names)
         w = untangle(lengths, self.arm)
+        check_configuration(w, self.arm.sections)
+        check_fit(lengths, tangle(w, self.arm), self._names)
         w_rate = None
         if message.velocity:
             velocities = messages.finite("velocity", np.asarray(message.velocity)[order])
             w_rate = untangle_rates(lengths, velocities, self.arm)
+            check_rates(w_rate)
         for i, section in enumerate(self.arm.sections):
             n_own = len(section.cable_names)
             command = CableStates(section=i + 1, name=list(section.cable_names))

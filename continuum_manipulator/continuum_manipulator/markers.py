@@ -7,6 +7,8 @@ import time
 import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, Vector3
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 from sensor_msgs.msg import JointState
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
@@ -18,7 +20,8 @@ from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_manipulator.nodekit.qos import REPORT
-from continuum_manipulator.section_joints import read_joints
+from continuum_manipulator.nodekit.stamps import NANOSECONDS
+from continuum_manipulator.section_joints import read_joints, read_names
 from continuum_manipulator.tip_targets import BASE_FRAME
 
 COLOURS = ((0.0, 0.0, 1.0), (0.0, 0.6, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -55,14 +58,34 @@ class MarkersNode(CheckedNode):
         self._next = -float("inf")
         self._publish_cables = self.offer(MarkerArray, "cable_markers", REPORT)
         self._publish_arrows = self.offer(MarkerArray, "section_config_markers", REPORT)
+        self._held: JointState | None = None
+        self._handle_held = self.checked("joint_states", self._draw)
+        self._held_timer = self.create_timer(
+            1.0 / self.values["rate"], self._draw_held, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
+        self._held_timer.cancel()
         self.listen(JointState, "joint_states", self._on_joints)
 
     def _on_joints(self, message: JointState) -> None:
+        """Draw the message, or keep it until the rate allows: the last posture of a burst is drawn as well."""
         now = time.monotonic()
-        if now < self._next:
+        if now >= self._next:
+            self._draw(message)
             return
-        messages.same_length("position", message.position, message.name)
-        index = messages.positions_by_name(message.name)
+        if self._held is None:
+            self._held_timer.timer_period_ns = max(1, round((self._next - now) * NANOSECONDS))
+            self._held_timer.reset()
+        self._held = message
+
+    def _draw_held(self) -> None:
+        self._held_timer.cancel()
+        held, self._held = self._held, None
+        if held is not None:
+            self._handle_held(held)
+
+    def _draw(self, message: JointState) -> None:
+        self._held = None
+        index = read_names(message)
         found = {i: read_joints(index, message.position, (), section) for i, section in enumerate(self.arm.sections)}
         found = {i: state.w for i, state in found.items() if state is not None}
         if not found:
@@ -70,7 +93,7 @@ class MarkersNode(CheckedNode):
         self._configurations |= found
         if len(self._configurations) < self.arm.n_sections:
             return
-        self._next = now + 1.0 / self.values["rate"]
+        self._next = time.monotonic() + 1.0 / self.values["rate"]
         w = np.stack([self._configurations[i] for i in range(self.arm.n_sections)])
         self._publish_cables(MarkerArray(markers=self._cable_markers(w, message.header.stamp)))
         self._publish_arrows(MarkerArray(markers=self._arrow_markers(w, message.header.stamp)))

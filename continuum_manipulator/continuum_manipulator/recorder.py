@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 
 from rclpy.clock import Clock
@@ -24,6 +25,9 @@ SCAN_PERIOD = 0.1
 
 DRAIN_LIMIT = 3.0
 """Seconds after which a stopped recorder no longer waits for messages under way."""
+
+QUIET = 0.5
+"""Seconds without a message after which a stopped recorder takes it that none is under way."""
 
 
 @dataclass
@@ -62,6 +66,7 @@ class RecorderNode(CheckedNode):
         self._refused: set[str] = set()
         self._drain_until: float | None = None
         self._count_before = -1
+        self._quiet_since = 0.0
         self._bag = BagWriter(
             self.values["output"] or time.strftime("rosbag2_%Y_%m_%d-%H_%M_%S"), self.values["storage"]
         )
@@ -126,15 +131,23 @@ class RecorderNode(CheckedNode):
         return recorded.place
 
     def draining(self) -> bool:
-        """Until no message is under way any more."""
+        """Until no message came for a while: publishers that are stopped together with the recorder finish first."""
         now, count = time.monotonic(), self.diagnostics.received.total()
         if self._drain_until is None:
             self._drain_until = now + DRAIN_LIMIT
-        more = count > self._count_before and now < self._drain_until
-        self._count_before = count
-        return more
+        if count > self._count_before:
+            self._count_before, self._quiet_since = count, now
+        return now < min(self._drain_until, self._quiet_since + QUIET)
+
+    def give_up(self, problem: str) -> str:
+        """Finish the recording as far as that goes, and say how the rest is got back."""
+        with suppress(FileError):
+            self._bag.close()
+        recovery = f"python3 -m continuum_manipulator.bag_recovery {self._bag.path} RECOVERED"
+        return f"{problem}; what was written before can be had with {recovery}"
 
     def close(self) -> None:
+        super().close()
         for topic in self._recorded:
             self._place(topic)  # topics without a message are listed too
         self._bag.close()

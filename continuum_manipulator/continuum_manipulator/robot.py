@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import time
+from collections import deque
+
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 from sensor_msgs.msg import JointState
 
 from continuum.kinematics.compiled.warm_up import warm_up
@@ -12,9 +17,15 @@ from continuum.kinematics.tracking import Tracked, Tracker
 from continuum.parameter_spec import ParameterSpec
 from continuum_manipulator.arm_joints import arm_joint_names, arm_joint_values
 from continuum_manipulator.nodekit.checked_node import CheckedNode
-from continuum_manipulator.nodekit.stamps import NANOSECONDS, StampJoiner, nanoseconds
+from continuum_manipulator.nodekit.stamps import NANOSECONDS, StampJoiner, nanoseconds, seconds
 from continuum_manipulator.tip_targets import BASE_FRAME, TipPose, TipTwist, read_pose, read_twist
 from continuum_msgs.msg import IkStatus as IkStatusMessage
+
+TWIST_PATIENCE = 0.5
+"""Seconds, by the machine's clock, for which a pose waits for its twist."""
+
+CAPACITY = 1000
+"""Poses and twists that may wait for their partner."""
 
 WORDS = {
     IkStatus.LIMIT_REACHED: "a bend limit keeps the arm from the pose",
@@ -27,8 +38,8 @@ class RobotNode(CheckedNode):
     """``traj_pose`` and ``traj_twist`` to ``joint_states`` and ``ik_status``.
 
     A pose and a twist of one stamp are answered together. Where nobody publishes twists, a pose is answered at once
-    without velocities; where nobody publishes poses, twists are integrated. A pose out of reach is answered by the
-    nearest that was found.
+    without velocities; where its twist does not come, after half a second. Where nobody publishes poses, twists are
+    integrated. A pose out of reach is answered by the nearest that was found.
     """
 
     NAME = "robot"
@@ -56,13 +67,16 @@ class RobotNode(CheckedNode):
         self._joints = list(arm_joint_names(self.arm))
         self._max_gap = round(self.values["max_twist_gap"] * NANOSECONDS)
         self._last: int | None = None
-        self._pairs: StampJoiner[str, TipPose | TipTwist] = StampJoiner(("pose", "twist"))
+        self._pairs: StampJoiner[str, TipPose | TipTwist] = StampJoiner(("pose", "twist"), CAPACITY)
+        self._waiting: deque[tuple[float, TipPose]] = deque()
         self.diagnostics.values |= {
             "poses and twists given up without their partner": lambda: self._pairs.incomplete + self._pairs.late,
             "poses and twists waiting for their partner": lambda: self._pairs.waiting,
         }
         self._publish_joints = self.offer(JointState, "joint_states")
         self._publish_status = self.offer(IkStatusMessage, "ik_status")
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._patience_timer = self.create_timer(TWIST_PATIENCE / 10, self._answer_alone, clock=steady)
         self._poses = self.listen(PoseStamped, "traj_pose", self._on_pose)
         self._twists = self.listen(TwistStamped, "traj_twist", self._on_twist)
 
@@ -71,6 +85,7 @@ class RobotNode(CheckedNode):
         if self._twists.get_publisher_count() == 0:
             self._answer(pose, None)
         else:
+            self._waiting.append((time.monotonic() + TWIST_PATIENCE, pose))
             self._join("pose", pose)
 
     def _on_twist(self, message: TwistStamped) -> None:
@@ -84,6 +99,17 @@ class RobotNode(CheckedNode):
         pair = self._pairs.add(source, nanoseconds(target.stamp), target)
         if pair is not None:
             self._answer(pair["pose"], pair["twist"])
+
+    def _answer_alone(self) -> None:
+        """Answer the poses whose twist does not come: whoever advertises twists may never send one."""
+        while self._waiting and self._waiting[0][0] <= time.monotonic():
+            _, pose = self._waiting.popleft()
+            stamp = nanoseconds(pose.stamp)
+            if self._pairs.withdraw("pose", stamp, pose):
+                self.diagnostics.warnings.note(
+                    "poses answered without their twist", f"at {seconds(stamp)}: no twist of this stamp on traj_twist"
+                )
+                self._answer(pose, None)
 
     def _answer(self, pose: TipPose, twist: TipTwist | None) -> None:
         velocity, angular_velocity = (None, None) if twist is None else (twist.linear, twist.angular)

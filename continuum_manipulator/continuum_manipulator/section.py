@@ -8,11 +8,12 @@ from sensor_msgs.msg import JointState
 from continuum.kinematics.cables import configuration_cable_jacobian, configuration_from_cables
 from continuum.kinematics.routing import cables_through, section_length_rates, section_lengths
 from continuum.parameter_spec import ParameterSpec
+from continuum_manipulator.command_checks import check_configuration, check_fit, check_lengths, check_rates
 from continuum_manipulator.config_states import config_states
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
-from continuum_manipulator.section_joints import Configuration, joint_names, joint_values, read_joints
+from continuum_manipulator.section_joints import Configuration, joint_names, joint_values, read_joints, read_names
 from continuum_manipulator.section_number import checked_section
 from continuum_msgs.msg import CableStates, ConfigStates
 
@@ -46,9 +47,7 @@ class SectionNode(CheckedNode):
     def _on_joints(self, message: JointState) -> None:
         messages.stamped(message.header.stamp)
         messages.named(message.name, "joints", self._joints)
-        messages.same_length("position", message.position, message.name)
-        messages.same_length("velocity", message.velocity, message.name, optional=True)
-        index = messages.positions_by_name(message.name)
+        index = read_names(message)
         state = read_joints(index, message.position, message.velocity, self._section)
         if state is None:
             if self._joints_of_others.isdisjoint(index):
@@ -75,11 +74,17 @@ class SectionNode(CheckedNode):
         messages.same_length("velocity", message.velocity, message.name, optional=True)
         own = messages.indices_of(self._section.cable_names, message.name)
         lengths = messages.finite("position", np.asarray(message.position)[own])
+        check_lengths(lengths, self._section.cable_names)
+        w = configuration_from_cables(lengths, self._section)
+        check_configuration(w, [self._section])
+        n_own = len(self._section.cable_names)
+        check_fit(lengths, section_lengths(w, self.arm, self._number - 1)[:n_own], self._section.cable_names)
         rate = None
         if message.velocity:
             velocities = messages.finite("velocity", np.asarray(message.velocity)[own])
             rate = configuration_cable_jacobian(lengths, self._section) @ velocities
-        state = Configuration(configuration_from_cables(lengths, self._section), rate)
+            check_rates(rate)
+        state = Configuration(w, rate)
         positions, velocities = joint_values(state, self._section)
         joints = JointState(name=self._joints, position=positions)
         joints.header.stamp = message.header.stamp

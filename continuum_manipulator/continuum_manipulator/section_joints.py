@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from sensor_msgs.msg import JointState
 
 from continuum.arm import Section
 from continuum.arrays import Array
@@ -85,6 +86,20 @@ def read_joints(
         return Configuration(w, None)
     phi_rate, theta_rate = _phi_and_theta("velocity", index, velocities, thetas, section)
     return Configuration(w, allen_rates(phi, theta, phi_rate, theta_rate))
+
+
+def read_names(message: JointState) -> dict[str, int]:
+    """Where each joint's name stands in a message whose arrays are one entry a name; rates and efforts may be missing.
+
+    Raises:
+        MessageFault: an array of another length, a rate or effort that is not finite, or a repeated name.
+    """
+    messages.same_length("position", message.position, message.name)
+    for field in ("velocity", "effort"):
+        values = getattr(message, field)
+        messages.same_length(field, values, message.name, optional=True)
+        messages.finite(field, values)
+    return messages.positions_by_name(message.name)
 
 
 def _phi_and_theta(

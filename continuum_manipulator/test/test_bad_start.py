@@ -12,6 +12,25 @@ ARM = (ARM_FILE,)
 BAD_PARAMETERS = {
     "negative radius": ("section", ARM, {"section": 1, "arm.section_2.a": -0.03}, "arm.section_2.a is -0.03; allowed:"),
     "section beyond the arm": ("section", ARM, {"section": 4}, "section is 4; allowed: 1 to 3"),
+    "section beyond all numbers": (
+        "section",
+        ARM,
+        {"section": 99999999999999999999},
+        "section is 100000000000000000000; allowed: ",
+    ),
+    "no sections": ("cable_tangler", (), {"arm.sections": "[]"}, "arm is None; allowed: a block"),
+    "quality of service of an unknown topic": (
+        "robot",
+        ARM,
+        {"qos_overrides./joint_state.publisher.depth": 5},
+        "unknown parameter 'qos_overrides./joint_state.",
+    ),
+    "unknown quality of service": (
+        "robot",
+        ARM,
+        {"qos_overrides./joint_states.publisher.reliability": "perhaps"},
+        "reliability is 'perhaps'; allowed",
+    ),
     "section of the wrong type": ("section", ARM, {"section": "first"}, "section is 'first'; allowed: a whole number"),
     "unknown name": ("robot", ARM, {"targets": "position"}, "unknown parameter 'targets'; known: target,"),
     "unknown choice": ("robot", ARM, {"target": "speed"}, "allowed: one of position, position_direction"),

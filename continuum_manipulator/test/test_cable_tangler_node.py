@@ -150,6 +150,9 @@ def test_commands_name_the_section_and_its_own_cables(bench):
     unnamed, unstamped = command(2), command(2)
     unnamed.name = []
     unstamped.header.stamp = Time()
+    elsewhere = command(2)
+    elsewhere.position[0] += 0.01
+    bench.say_command(elsewhere)
     bench.say_command(unnamed)
     bench.say_command(unstamped)
     bench.probe.listen_until_quiet()

@@ -51,6 +51,20 @@ def test_markers_show_cables_and_curvature(probe):
     assert len({(marker.ns, marker.id) for marker in cables[0].markers + arrows[0].markers}) == 24 + 3
 
 
+def test_last_posture_of_a_burst_is_drawn(domain):
+    node = NodeProcess(
+        "continuum_manipulator", "markers", domain, name="slow", files=(ARM_FILE,), parameters={"rate": 2.0}
+    )
+    with running(node), Probe(domain, "burst") as probe:
+        markers = probe.hear(MarkerArray, "cable_markers", REPORT)
+        say = probe.speaker(JointState, "joint_states").publish
+        w = postures(1)[0][0]
+        probe.warm_up(lambda: say(joint_state(0, w)), markers)
+        for i in range(1, 20):
+            say(joint_state(i, w))
+        probe.wait_until(lambda: markers and instant_of(markers[-1].markers[0]) == 19, "markers of the last posture")
+
+
 def ask(probe, service_type, service, **fields):
     client = probe.node.create_client(service_type, f"markers/{service}")
     probe.wait_until(client.service_is_ready, service)

@@ -1,5 +1,6 @@
 """The recorder over DDS: nothing that was sent is lost, whichever signal ends it, and rosbags reads what it left."""
 
+import resource
 import signal
 
 import pytest
@@ -115,6 +116,42 @@ def test_a_killed_recorder_leaves_what_was_flushed(domain, probe, tmp_path):
     probe.node.destroy_publisher(states)
     assert recover(tmp_path / "bag", tmp_path / "recovered") == N + 1
     assert contents(tmp_path / "recovered") == {"/cable_states": N + 1}
+
+
+def test_a_full_disk_is_told_in_one_line_that_names_the_remedy(domain, probe, tmp_path):
+    node = recorder(domain, tmp_path / "bag", topics="[cable_states]", flush_period=0.05)
+    with ended_in_any_case(node):
+        node.wait_for_line("waiting for")
+        resource.prlimit(node.process.pid, resource.RLIMIT_FSIZE, (4096, 4096))
+        states = probe.speaker(CableStates, "cable_states")
+        probe.wait_until(lambda: (states.publish(cables(0, 0, ["a"] * 20, [0.1] * 20)), not node.running)[1], "its end")
+        assert node.exit_code() == 1
+        errors = node.stderr
+    probe.node.destroy_publisher(states)
+    assert errors.count("recorder: error:") == 1
+    assert "continuum_manipulator.bag_recovery" in errors
+    assert "Traceback" not in errors
+
+
+def test_publishers_stopped_with_the_recorder_are_recorded(domain, probe, tmp_path):
+    node = recorder(domain, tmp_path / "bag", topics="[]")
+    with ended_in_any_case(node):
+        states = probe.speaker(CableStates, "cable_states")
+        probe.wait_for_report("recorder")
+        probe.wait_until(
+            lambda: (states.publish(cables(0, 0, ["a"], [0.1])), probe.count("recorder", "received /cable_states"))[1],
+            "a first message",
+        )
+        states.wait_for_all_acked()
+        node.send(signal.SIGINT)
+        for _ in range(20):
+            states.publish(cables(0, 0, ["last"], [0.1]))
+            probe.listen_until_quiet(0.05)
+        assert node.exit_code() == 0
+    probe.node.destroy_publisher(states)
+    with Reader(tmp_path / "bag") as reader:
+        texts = [raw for connection, _, raw in reader.messages() if connection.topic == "/cable_states"]
+    assert sum(b"last" in raw for raw in texts) == 20
 
 
 def file_size(folder) -> int:

@@ -149,6 +149,8 @@ BAD_JOINTS = {
     "no names": (lambda: of_joints([]), "missing name"),
     "no stamp": (lambda: without_stamp(), "no stamp"),
     "too few positions": (lambda: of_length("position", 4), "wrong length"),
+    "NaN effort": (lambda: of_length("effort", len(NAMES), math.nan), "not finite"),
+    "too few efforts": (lambda: of_length("effort", 2), "wrong length"),
     "too many velocities": (lambda: of_length("velocity", 99), "wrong length"),
     "repeated name": (lambda: named_twice(), "repeated name"),
 }
@@ -218,6 +220,8 @@ def test_bad_commands_are_dropped(bench):
     bench.say_cables(cables(2, NUMBER, SECTION.cable_names, lengths[:2]))
     bench.say_cables(CableStates(section=NUMBER, name=list(SECTION.cable_names), position=lengths))
     bench.say_cables(cables(2, NUMBER, [], lengths))
+    bench.say_cables(cables(2, NUMBER, SECTION.cable_names, [0.0] * 4))
+    bench.say_cables(cables(2, NUMBER, SECTION.cable_names, [lengths[0] + 0.01, *lengths[1:]]))
     bench.say_cables(good)
     bench.probe.listen_until_quiet()
     assert [instant_of(message) for message in bench.joints] == [1]

@@ -6,10 +6,8 @@ import argparse
 import math
 from typing import Any
 
-from rich.console import Console
-from rich.table import Table
-
 from continuum.arm import load_arm
+from continuum.cli.tables import print_table
 
 
 def add_to(commands: Any) -> None:
@@ -22,28 +20,34 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print a table of the sections."""
     arm = load_arm(options.arm)
-    table = Table(title=f"{arm.n_sections} sections, {1e3 * arm.length:.1f} mm long, {len(arm.cable_names)} cables")
-    for heading in (
+    sections = "1 section" if arm.n_sections == 1 else f"{arm.n_sections} sections"
+    title = f"{sections}, {1e3 * arm.length:.1f} mm long, {len(arm.cable_names)} cables"
+    headings = (
         "section",
         "joints",
-        "length [mm]",
-        "b [mm]",
-        "a [mm]",
-        "twist [deg]",
-        "cables at [deg]",
-        "bend limit [deg]",
-    ):
-        table.add_column(heading, justify="left" if heading == "section" else "right")
-    for section in arm.sections:
-        table.add_row(
+        "length\n[mm]",
+        "b\n[mm]",
+        "a\n[mm]",
+        "twist\n[deg]",
+        "cables at\n[deg]",
+        "bend limit\n[deg]",
+    )
+    rows = [
+        (
             section.name,
             str(section.n_joints),
             f"{1e3 * section.length:.1f}",
             f"{1e3 * section.b:g}",
             f"{1e3 * section.a:g}",
-            f"{math.degrees(section.twist):g}",
-            " ".join(f"{math.degrees(azimuth):g}" for azimuth in section.cable_azimuths),
+            _degrees(section.twist),
+            " ".join(map(_degrees, section.cable_azimuths)),
             f"{math.degrees(section.bend_limit):.1f}",
         )
-    Console().print(table)
+        for section in arm.sections
+    ]
+    print_table(headings, rows, title)
     return 0
+
+
+def _degrees(angle: float) -> str:
+    return f"{round(math.degrees(angle), 2):g}"

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-from rich.table import Table
-
 from continuum.arm import load_arm
+from continuum.cli.tables import print_pairs
+from continuum.errors import FileError, InvalidValueError
 from continuum.recordings.arm_recording import read_arm_recording
 from continuum.recordings.bag import Bag
 from continuum.recordings.cable_figure import write_cable_figure
@@ -33,31 +33,46 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the summary, and write the table and the picture if a folder is given."""
+    if options.expected is not None and options.expected < 0:
+        raise InvalidValueError("--expected", options.expected, "a whole number >= 0")
     with Bag(options.recording) as bag:
         recording = read_arm_recording(bag, load_arm(options.arm))
     _show(report_on(recording, options.expected))
     if options.out is not None:
         folder = Path(options.out)
-        folder.mkdir(parents=True, exist_ok=True)
-        write_cable_table(recording, folder / "cable_states.csv")
-        write_cable_figure(recording, folder / "cables.png")
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            write_cable_table(recording, folder / "cable_states.csv")
+            write_cable_figure(recording, folder / "cables.png")
+        except OSError as error:
+            raise FileError(folder, f"cannot be written ({error.strerror or error})") from error
         print(f"written: {folder / 'cable_states.csv'}, {folder / 'cables.png'}")
     return 0
 
 
 def _show(report: KinematicReport) -> None:
-    worst, share, largest = report.rate_disagreement, report.rate_disagreement_ratio, report.largest_rate
-    speed = f"{report.n_targets} at {report.rate:.1f} Hz over {report.duration:.1f} s, {report.n_solved} reached"
-    error = f"median {1e3 * report.tip_error_median:.2g} mm, max {1e3 * report.tip_error_max:.2g} mm"
-    slope = f"{1e3 * worst:.2g} mm/s apart at worst, {100 * share:.2f} % of the largest rate ({1e3 * largest:.1f} mm/s)"
-    rows = [
-        ("poses", speed),
-        ("tip error, reached poses", error),
-        ("cable rate, Jacobian against central difference", slope),
+    pairs = [
+        ("poses", f"{report.n_targets} at {report.rate:.1f} Hz over {report.duration:.1f} s"),
+        ("poses reached", str(report.n_solved)),
+        ("tip error of the reached poses", _tip_error(report)),
+        ("cable rate against slope of length", _rate_disagreement(report)),
         ("messages lost", str(report.n_lost)),
     ]
-    rows += [(f"  lost on {name}", str(count)) for name, count in report.lost.items() if count]
-    table = Table(show_header=False)
-    for row in rows:
-        table.add_row(*row)
-    Console().print(table)
+    pairs += [(f"lost on {name}", str(count)) for name, count in report.lost.items() if count]
+    pairs += [(f"repeated on {name}", str(count)) for name, count in report.repeated.items() if count]
+    print_pairs(pairs)
+
+
+def _tip_error(report: KinematicReport) -> str:
+    if math.isnan(report.tip_error_max):
+        return "no pose was reached"
+    return f"median {1e3 * report.tip_error_median:.4f} mm, max {1e3 * report.tip_error_max:.4f} mm"
+
+
+def _rate_disagreement(report: KinematicReport) -> str:
+    if math.isnan(report.rate_disagreement):
+        return "no rates were recorded"
+    return (
+        f"{1e3 * report.rate_disagreement:.3f} mm/s at worst,\n{100 * report.rate_disagreement_ratio:.2f} % of the "
+        f"largest, {1e3 * report.largest_rate:.1f} mm/s"
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,10 +17,30 @@ from continuum.recordings.bag import Bag, stamp_ns
 
 Stamps = NDArray[np.int64]
 
+TOPICS = {
+    "/traj_pose": "geometry_msgs/msg/PoseStamped",
+    "/ik_status": "continuum_msgs/msg/IkStatus",
+    "/joint_states": "sensor_msgs/msg/JointState",
+    "/cable_states": "continuum_msgs/msg/CableStates",
+}
+"""Topics on which one message comes for every pose, and their types; they are read."""
+
+SECTION_TOPICS = {"/section_cable_states": "continuum_msgs/msg/CableStates"}
+"""Topics on which every section speaks once for every pose; their messages are counted."""
+
+OPTIONAL_TOPICS = {"/traj_twist": "geometry_msgs/msg/TwistStamped"}
+OPTIONAL_SECTION_TOPICS = {"/section_config_states": "continuum_msgs/msg/ConfigStates"}
+"""The same, counted where they were recorded."""
+
 
 @dataclass(frozen=True)
 class Stream:
-    """One topic: stamps (n,) [ns] in order of arrival and the values (n, ...) that belong to them."""
+    """One topic, by stamp.
+
+    Attributes:
+        stamps: each once (n,) [ns], rising, in whatever order and however often its messages came.
+        values: what belongs to them (n, ...), of the first message of each stamp.
+    """
 
     stamps: Stamps
     values: Array
@@ -42,8 +62,9 @@ class ArmRecording:
         status: answers of the inverse kinematics (n, 2): status number and distance [m].
         configurations: Allen coordinates from the joint states (n, n_sections, 2) [rad].
         lengths: total cable lengths (n, n_cables) [m], in the order of ``arm.cable_names``.
-        rates: rates of those (n, n_cables) [m/s].
-        section_counts: messages of ``/section_cable_states`` by section.
+        rates: rates of those (n, n_cables) [m/s]; NaN where a message has none.
+        arrivals: stamps (m,) [ns] of all messages in the order of their arrival, by topic; a topic on which all
+            sections speak is one entry for every section.
     """
 
     arm: Arm
@@ -52,42 +73,67 @@ class ArmRecording:
     configurations: Stream
     lengths: Stream
     rates: Stream
-    section_counts: tuple[int, ...]
+    arrivals: dict[str, Stamps]
 
 
 def read_arm_recording(bag: Bag, arm: Arm) -> ArmRecording:
     """Read the streams of ``arm`` from a recording.
 
     Raises:
-        InvalidValueError: a topic is missing.
-        FileError: a message names other joints or cables than the arm has.
+        FileError: a topic is missing, or a message has other joints or cables than the arm, or no finite value for one.
     """
-    sections = [int(message.section) for message in bag.messages("/section_cable_states")]
-    cables = list(bag.messages("/cable_states"))
-    unknown = np.full(len(arm.cable_names), np.nan)
+    messages = {topic: list(bag.messages(topic, message_type)) for topic, message_type in TOPICS.items()}
+    n_cables = len(arm.cable_names)
+
+    def stream(topic: str, shape: tuple[int, ...], value_of: Callable[[Any], ArrayLike]) -> Stream:
+        stamps, first = np.unique(_stamps(messages[topic]), return_index=True)
+        values = [value_of(messages[topic][i]) for i in first]
+        return Stream(stamps, np.array(values, dtype=float).reshape(len(stamps), *shape))
+
+    def lengths_of(message: Any) -> Array:
+        return _values(bag, message, message.position, arm.cable_names)
+
+    def rates_of(message: Any) -> Array:
+        if len(message.velocity) == 0:
+            return np.full(n_cables, np.nan)
+        return _values(bag, message, message.velocity, arm.cable_names)
+
     return ArmRecording(
         arm=arm,
-        targets=_stream(bag.messages("/traj_pose"), lambda m: _xyz(m.pose.position)),
-        status=_stream(bag.messages("/ik_status"), lambda m: [float(m.status), m.distance]),
-        configurations=_stream(bag.messages("/joint_states"), lambda m: _configuration(bag, m, arm)),
-        lengths=_stream(cables, lambda m: m.position[_indices(bag, m.name, arm.cable_names)]),
-        rates=_stream(
-            cables, lambda m: m.velocity[_indices(bag, m.name, arm.cable_names)] if len(m.velocity) else unknown
-        ),
-        section_counts=tuple(sections.count(i + 1) for i in range(arm.n_sections)),
+        targets=stream("/traj_pose", (3,), lambda m: _xyz(m.pose.position)),
+        status=stream("/ik_status", (2,), lambda m: [float(m.status), m.distance]),
+        configurations=stream("/joint_states", (arm.n_sections, 2), lambda m: _configuration(bag, m, arm)),
+        lengths=stream("/cable_states", (n_cables,), lengths_of),
+        rates=stream("/cable_states", (n_cables,), rates_of),
+        arrivals={topic: _stamps(messages[topic]) for topic in TOPICS} | _other_arrivals(bag, arm),
     )
 
 
-def _stream(messages: Iterable[Any], value_of: Callable[[Any], ArrayLike]) -> Stream:
-    messages = list(messages)
-    stamps = np.array([stamp_ns(message) for message in messages], dtype=np.int64)
-    return Stream(stamps, np.array([value_of(message) for message in messages], dtype=float))
+def _other_arrivals(bag: Bag, arm: Arm) -> dict[str, Stamps]:
+    """Stamps of the streams whose values are not needed."""
+    there = bag.topics
+    arrivals = {
+        topic: _stamps(list(bag.messages(topic, message_type)))
+        for topic, message_type in OPTIONAL_TOPICS.items()
+        if topic in there
+    }
+    optional = {topic: message_type for topic, message_type in OPTIONAL_SECTION_TOPICS.items() if topic in there}
+    for topic, message_type in (SECTION_TOPICS | optional).items():
+        messages = list(bag.messages(topic, message_type))
+        for number in range(1, arm.n_sections + 1):
+            own = [message for message in messages if message.section == number]
+            arrivals[f"{topic} of section {number}"] = _stamps(own)
+    return arrivals
+
+
+def _stamps(messages: list[Any]) -> Stamps:
+    return np.array([stamp_ns(message) for message in messages], dtype=np.int64)
 
 
 def _configuration(bag: Bag, message: Any, arm: Arm) -> Array:
     """Allen coordinates (n_sections, 2) of one joint state message; theta is the sum over a section's joints."""
     names = [name for section in arm.sections for name in (section.phi_joint, *section.theta_joints)]
-    angles = dict(zip(names, message.position[_indices(bag, message.name, names)], strict=True))
+    angles = dict(zip(names, _values(bag, message, message.position, names), strict=True))
     return np.array(
         [
             allen_from_jones(angles[section.phi_joint], sum(angles[name] for name in section.theta_joints))
@@ -96,11 +142,21 @@ def _configuration(bag: Bag, message: Any, arm: Arm) -> Array:
     )
 
 
-def _indices(bag: Bag, given: list[str], wanted: list[str] | tuple[str, ...]) -> list[int]:
-    missing = [name for name in wanted if name not in given]
-    if missing:
-        raise FileError(bag.path, f"holds no {missing[0]}; recorded with another arm? It has {list(given)}")
-    return [given.index(name) for name in wanted]
+def _values(bag: Bag, message: Any, given: Array, wanted: list[str] | tuple[str, ...]) -> Array:
+    """Of the values ``given`` for ``message.name`` those of the names ``wanted``, in their order.
+
+    Raises:
+        FileError: a name is not there, or there are more or fewer values than names, or one is not finite.
+    """
+    if len(given) != len(message.name):
+        raise FileError(bag.path, f"has a message with {len(given)} values for {len(message.name)} names")
+    by_name = dict(zip(message.name, given, strict=True))
+    for name in wanted:
+        if name not in by_name:
+            raise FileError(bag.path, f"holds no {name}; recorded with another arm? It has {list(message.name)}")
+        if not np.isfinite(by_name[name]):
+            raise FileError(bag.path, f"has a message with {by_name[name]} for {name}")
+    return np.array([by_name[name] for name in wanted], dtype=float)
 
 
 def _xyz(vector: Any) -> list[float]:

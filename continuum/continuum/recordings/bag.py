@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from rosbags.highlevel import AnyReader, AnyReaderError
 from rosbags.interfaces import Connection
 from rosbags.rosbag2 import ReaderError
+from rosbags.rosbag2.storage_sqlite3 import apsw  # type: ignore[attr-defined]
 from rosbags.typesys import Stores, get_typestore
 
-from continuum.errors import FileError, InvalidValueError
+from continuum.errors import FileError
+
+_DAMAGE = (
+    *(AnyReaderError, ReaderError, OSError),
+    # what rosbags lets through where bytes of a recording were changed or cut
+    *(apsw.Error, struct.error, ValueError, TypeError, AttributeError, LookupError, ArithmeticError, MemoryError),
+    *(AssertionError, EOFError, RecursionError),
+)
 
 
 class Bag:
@@ -21,16 +31,14 @@ class Bag:
         path: folder of the recording (with ``metadata.yaml``).
 
     Raises:
-        FileError: no recording there, or a damaged one.
+        FileError: no recording there, or a damaged one, here or in the methods.
     """
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
-        try:
+        with self._readable():
             self._reader = AnyReader([self.path], default_typestore=get_typestore(Stores.ROS2_JAZZY))
             self._reader.open()
-        except (AnyReaderError, ReaderError, OSError) as error:
-            raise FileError(self.path, f"is not a readable rosbag2 recording ({error})") from error
 
     def __enter__(self) -> Bag:
         return self
@@ -41,21 +49,35 @@ class Bag:
     @property
     def topics(self) -> dict[str, int]:
         """Number of messages by topic."""
-        return {topic: info.msgcount for topic, info in self._reader.topics.items()}
+        with self._readable():
+            return {topic: info.msgcount for topic, info in self._reader.topics.items()}
 
-    def messages(self, topic: str) -> Iterator[Any]:
-        """The messages of one topic in the order of their arrival.
+    def messages(self, topic: str, message_type: str) -> Iterator[Any]:
+        """The messages of one topic, e.g. of type ``sensor_msgs/msg/JointState``, in the order of their arrival.
 
         Raises:
-            InvalidValueError: the recording has no such topic.
+            FileError: the recording has no such topic, or messages of another type on it.
         """
         if not self._connections(topic):
-            raise InvalidValueError("topic", topic, f"one of {sorted(self._reader.topics)}, recorded in {self.path}")
-        for connection, _, raw in self._reader.messages(self._connections(topic)):
-            yield self._reader.deserialize(raw, connection.msgtype)
+            raise FileError(self.path, f"has no topic {topic}; it has {', '.join(sorted(self.topics)) or 'none'}")
+        for connection in self._connections(topic):
+            if connection.msgtype != message_type:
+                raise FileError(self.path, f"has {connection.msgtype} on {topic}, not {message_type}")
+        with self._readable():
+            for connection, _, raw in self._reader.messages(self._connections(topic)):
+                yield self._reader.deserialize(raw, connection.msgtype)
 
     def _connections(self, topic: str) -> list[Connection]:
         return [connection for connection in self._reader.connections if connection.topic == topic]
+
+    @contextmanager
+    def _readable(self) -> Iterator[None]:
+        """Turn what goes wrong within into one line about the recording."""
+        try:
+            yield
+        except _DAMAGE as error:
+            reason = " ".join(str(error).split()) or type(error).__name__
+            raise FileError(self.path, f"is not a readable rosbag2 recording ({reason})") from error
 
 
 def stamp_ns(message: Any) -> int:

@@ -9,7 +9,13 @@ from continuum.recordings.arm_recording import ArmRecording
 
 
 def write_cable_table(recording: ArmRecording, path: str | Path) -> None:
-    """Write ``t_s``, then ``<cable>_m`` and ``<cable>_m_s`` of every cable, one row for every message."""
+    """Write ``t_s``, then ``<cable>_m`` and ``<cable>_m_s`` of every cable, one row for every stamp.
+
+    Times count from the first stamp; a rate that is not known is ``nan``.
+
+    Raises:
+        FileError: the file cannot be written.
+    """
     names = recording.arm.cable_names
     times = (recording.lengths.stamps - recording.lengths.stamps[0]) * 1e-9
     with Path(path).open("w", newline="", encoding="utf-8") as file:

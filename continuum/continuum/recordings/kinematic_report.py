@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,22 +20,23 @@ class KinematicReport:
 
     Attributes:
         n_targets: poses recorded.
-        n_expected: poses that were published, as far as that is known; otherwise ``n_targets``.
         n_solved: poses that the inverse kinematics reached within its tolerance.
         rate: targets per second of the stamps' own time [Hz].
         duration: from the first stamp to the last [s].
         lost: messages that a stream misses, by stream.
-        tip_error_median, tip_error_max: distance from tip to target over the reached poses [m].
-        largest_rate: largest rate of any cable [m/s].
-        rate_disagreement: largest difference of a cable's rate to the central difference of its length [m/s].
+        repeated: messages of a stream whose stamp had come before, by stream.
+        tip_error_median, tip_error_max: distance from tip to target over the reached poses [m]; NaN if there is none.
+        largest_rate: largest rate of any cable [m/s]; NaN if none was recorded.
+        rate_disagreement: largest difference of a cable's rate to the central difference of its length [m/s]; NaN as
+            before.
     """
 
     n_targets: int
-    n_expected: int
     n_solved: int
     rate: float
     duration: float
     lost: dict[str, int]
+    repeated: dict[str, int]
     tip_error_median: float
     tip_error_max: float
     largest_rate: float
@@ -47,8 +49,8 @@ class KinematicReport:
 
     @property
     def rate_disagreement_ratio(self) -> float:
-        """``rate_disagreement`` over ``largest_rate``."""
-        return self.rate_disagreement / self.largest_rate
+        """``rate_disagreement`` over ``largest_rate``; NaN for an arm at rest."""
+        return self.rate_disagreement / self.largest_rate if self.largest_rate else math.nan
 
 
 def report_on(recording: ArmRecording, n_expected: int | None = None) -> KinematicReport:
@@ -59,28 +61,28 @@ def report_on(recording: ArmRecording, n_expected: int | None = None) -> Kinemat
         n_expected: how many poses the trajectory's publisher sent, if that is known.
 
     Raises:
-        InvalidValueError: fewer than three poses or cable states, or none that was reached.
+        InvalidValueError: fewer than three poses or cable states.
     """
     stamps = recording.targets.stamps
-    _at_least("poses in the recording", len(stamps), 3)
-    _at_least("cable states in the recording", len(recording.lengths.stamps), 3)
+    _at_least("number of poses in the recording", len(stamps), 3)
+    _at_least("number of cable states in the recording", len(recording.lengths.stamps), 3)
     solved = recording.status.at(stamps)[:, 0] == IkStatus.SOLVED
-    _at_least("reached poses in the recording", int(np.count_nonzero(solved)), 1)
     tips = arm_pose(recording.configurations.at(stamps), recording.arm)[:, :3, 3]
     errors = np.linalg.norm(tips - recording.targets.values, axis=-1)[solved]
-    duration = (stamps[-1] - stamps[0]) * 1e-9
+    errors = errors[np.isfinite(errors)]  # without the poses whose joint states are lost
+    duration = float(stamps[-1] - stamps[0]) * 1e-9
     inner, slopes = central_differences(recording.lengths.stamps, recording.lengths.values)
     return KinematicReport(
         n_targets=len(stamps),
-        n_expected=len(stamps) if n_expected is None else n_expected,
         n_solved=int(np.count_nonzero(solved)),
         rate=(len(stamps) - 1) / duration,
         duration=duration,
-        lost=_lost(recording, len(stamps) if n_expected is None else n_expected),
-        tip_error_median=float(np.median(errors)),
-        tip_error_max=float(np.max(errors)),
-        largest_rate=float(np.nanmax(np.abs(recording.rates.values))),
-        rate_disagreement=float(np.nanmax(np.abs(recording.rates.values[inner] - slopes))),
+        lost=_lost(recording, n_expected or 0),
+        repeated={name: len(stamps) - len(np.unique(stamps)) for name, stamps in recording.arrivals.items()},
+        tip_error_median=float(np.median(errors)) if len(errors) else math.nan,
+        tip_error_max=_largest(errors),
+        largest_rate=_largest(recording.rates.values),
+        rate_disagreement=_largest(recording.rates.values[inner] - slopes),
     )
 
 
@@ -89,20 +91,26 @@ def _at_least(name: str, count: int, least: int) -> None:
         raise InvalidValueError(name, count, f"{least} or more")
 
 
+def _largest(values: Array) -> float:
+    """Largest magnitude; NaN if there is none but NaN."""
+    known = np.abs(values[~np.isnan(values)])
+    return float(np.max(known)) if len(known) else math.nan
+
+
 def central_differences(stamps: Stamps, lengths: Array) -> tuple[Stamps, Array]:
-    """Rows with a neighbour on both sides, and (f(t+) - f(t-)) / (t+ - t-) of ``lengths`` (n, m) there [m/s]."""
-    elapsed = (stamps[2:] - stamps[:-2]) * 1e-9
-    return np.arange(1, len(stamps) - 1), (lengths[2:] - lengths[:-2]) / elapsed[:, None]
+    """Rows with a neighbour on both sides, and the slopes of ``lengths`` (n, m) there [m/s].
+
+    The slope is that of the parabola through the three values: where the stamps [ns] are even the central difference
+    (f(t+h) - f(t-h)) / 2h, and of second order also beside a lost message.
+    """
+    steps = np.diff(stamps)[:, None] * 1e-9
+    slopes = np.diff(lengths, axis=0) / steps
+    before, after = steps[:-1], steps[1:]
+    return np.arange(1, len(stamps) - 1), (after * slopes[:-1] + before * slopes[1:]) / (before + after)
 
 
 def _lost(recording: ArmRecording, n_expected: int) -> dict[str, int]:
-    """Messages that each stream has less than poses were published."""
-    counts = {
-        "/traj_pose": len(recording.targets.stamps),
-        "/joint_states": len(recording.configurations.stamps),
-        "/ik_status": len(recording.status.stamps),
-        "/cable_states": len(recording.lengths.stamps),
-    }
-    for i, count in enumerate(recording.section_counts):
-        counts[f"/section_cable_states of section {i + 1}"] = count
-    return {name: max(0, n_expected - count) for name, count in counts.items()}
+    """Stamps that each stream misses, of those that any stream has, or of ``n_expected`` if those are more."""
+    stamps = {name: np.unique(arrivals) for name, arrivals in recording.arrivals.items()}
+    n_known = len(np.unique(np.concatenate(list(stamps.values()))))
+    return {name: max(n_known, n_expected) - len(own) for name, own in stamps.items()}

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import time
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from typing import Any, ClassVar
 
 import numpy as np
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.duration import Duration
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
+from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.subscription import Subscription
 
 from continuum.arm import Arm
@@ -26,6 +32,10 @@ from continuum_manipulator.nodekit.parameters import (
     refuse_unknown,
 )
 from continuum_manipulator.nodekit.qos import STREAM
+from continuum_manipulator.nodekit.qos_overrides import check_overrides, refuse_unknown_overrides
+
+FAREWELL = 1.0
+"""Longest time that a node which ends waits for what it published to be received [s]."""
 
 
 class CountedPublisher:
@@ -73,6 +83,7 @@ class CheckedNode(Node):
 
     def __init__(self) -> None:
         super().__init__(self.NAME, automatically_declare_parameters_from_overrides=True)
+        self._qos_parameters: set[str] = set()
         given = given_parameters(self)
         specs = self.parameter_specs(given)
         refuse_unknown(given, specs, self.HAS_ARM)
@@ -81,6 +92,13 @@ class CheckedNode(Node):
         self.values: dict[str, Value] = declare_parameters(self, specs, given)
         self.finished = False
         self.diagnostics = Diagnostics(self)
+
+    def declare_parameters(
+        self, namespace: str, parameters: Sequence[tuple[str, Any, ParameterDescriptor]], ignore_override: bool = False
+    ) -> list[Parameter]:
+        """As rclpy's, which calls it with all that is given; an empty list has no type there: it is as if not given."""
+        typed = [entry for entry in parameters if entry[1] is not None]
+        return super().declare_parameters(namespace, typed, ignore_override)
 
     @classmethod
     def parameter_specs(cls, given: Mapping[str, object]) -> tuple[ParameterSpec, ...]:  # noqa: ARG003
@@ -96,11 +114,32 @@ class CheckedNode(Node):
         self, message_type: type, topic: str, handle: Callable[[Any], None], qos: QoSProfile = STREAM
     ) -> Subscription:
         """Subscribe; what ``handle`` raises as a fault of the message is counted and told, and the node goes on."""
-        received, faults = self.diagnostics.received, self.diagnostics.faults
+        received = self.diagnostics.received
         received[topic] = 0
+        checked = self.checked(topic, handle)
 
         def on_message(message: object) -> None:
             received[topic] += 1
+            checked(message)
+
+        def on_loss(event: Any) -> None:
+            cause, now = "messages lost on the way", event.total_count_change
+            self.diagnostics.warnings.note(cause, f"{topic}: {now}, in all {event.total_count}", now)
+
+        return self.create_subscription(
+            message_type,
+            topic,
+            on_message,
+            self._overridden(qos, topic, "subscription"),
+            event_callbacks=SubscriptionEventCallbacks(message_lost=on_loss),
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        )
+
+    def checked(self, topic: str, handle: Callable[[Any], None]) -> Callable[[Any], None]:
+        """``handle`` that counts and tells what it raises as a fault of a message of ``topic``."""
+        faults = self.diagnostics.faults
+
+        def handle_checked(message: object) -> None:
             try:
                 with np.errstate(over="raise"):
                     handle(message)
@@ -111,15 +150,41 @@ class CheckedNode(Node):
             except FloatingPointError:
                 faults.note(messages.REFUSED, f"{topic}: numbers too large to compute with")
 
-        return self.create_subscription(message_type, topic, on_message, qos)
+        return handle_checked
 
     def offer(self, message_type: type, topic: str, qos: QoSProfile = STREAM) -> CountedPublisher:
         """Advertise a topic."""
-        return CountedPublisher(self.create_publisher(message_type, topic, qos), topic, self.diagnostics.published)
+        publisher = self.create_publisher(
+            message_type,
+            topic,
+            self._overridden(qos, topic, "publisher"),
+            qos_overriding_options=QoSOverridingOptions.with_default_policies(),
+        )
+        return CountedPublisher(publisher, topic, self.diagnostics.published)
+
+    def _overridden(self, qos: QoSProfile, topic: str, end: str) -> QoSProfile:
+        """A copy for rclpy to change, once the node's parameters ``qos_overrides`` for it are checked."""
+        self._qos_parameters |= check_overrides(self, self.resolve_topic_name(topic), end)
+        return copy(qos)
+
+    def refuse_unknown_overrides(self) -> None:
+        """To be called when all topics are there: none of the given ``qos_overrides`` is for another.
+
+        Raises:
+            UnknownParameterError: one is.
+        """
+        refuse_unknown_overrides(self, self._qos_parameters)
 
     def draining(self) -> bool:
         """Asked after a request to stop: whether the node still has to be served before it is closed."""
         return False
 
     def close(self) -> None:
-        """Called once before the process ends, also after a signal."""
+        """Called once before the process ends, also after a signal: what was published gets where it is heard."""
+        deadline = time.monotonic() + FAREWELL
+        for publisher in self.publishers:
+            publisher.wait_for_all_acked(Duration(seconds=max(0.0, deadline - time.monotonic())))
+
+    def give_up(self, problem: str) -> str:
+        """Called once in the place of :meth:`close` when the node cannot go on; the line that is told of it."""
+        return problem

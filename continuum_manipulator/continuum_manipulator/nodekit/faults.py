@@ -65,19 +65,19 @@ class BurstLog:
         """Events of all causes."""
         return self.counts.total()
 
-    def note(self, cause: str, detail: str) -> None:
-        """Count one event."""
+    def note(self, cause: str, detail: str, events: int = 1) -> None:
+        """Count an event, or several at once."""
         now = self._now()
         self.tick()
-        self.counts[cause] += 1
+        self.counts[cause] += events
         burst = self._bursts.get(cause)
         if burst is None:
-            self._bursts[cause] = _Burst(now, now, now, detail=detail)
+            self._bursts[cause] = _Burst(now, now, now, total=events, detail=detail)
             self._log(f"{self._prefix}{cause}: {detail}")
             return
         burst.last, burst.detail = now, detail
-        burst.unsaid += 1
-        burst.total += 1
+        burst.unsaid += events
+        burst.total += events
 
     def tick(self) -> None:
         """Say what is due; to be called about once a second."""

@@ -16,6 +16,9 @@ from continuum.parameter_spec import ParameterSpec, Value
 SIM_TIME = ParameterSpec("use_sim_time", bool, "take the time from /clock", default=False)
 OF_EVERY_NODE = (SIM_TIME.name, "start_type_description_service")
 OF_EVERY_NODE_PREFIX = "qos_overrides."
+INTEGERS = range(-(2**63), 2**63)
+"""Whole numbers that a ROS parameter can hold."""
+
 ARM_PREFIX = "arm."
 ARM_SECTIONS = ParameterSpec("sections", str, "names of the arm's sections from the base", is_list=True)
 
@@ -102,12 +105,14 @@ def describe(spec: ParameterSpec) -> ParameterDescriptor:
         lower, upper = max(spec.lower, -sys.float_info.max), min(spec.upper, sys.float_info.max)
         descriptor.floating_point_range = [FloatingPointRange(from_value=lower, to_value=upper)]
     if spec.kind is int and bounded:
-        lower, upper = max(spec.lower, -(2**63)), min(spec.upper, 2**63 - 1)
+        lower, upper = max(spec.lower, INTEGERS[0]), min(spec.upper, INTEGERS[-1])
         descriptor.integer_range = [IntegerRange(from_value=int(lower), to_value=int(upper))]
     return descriptor
 
 
 def _declare(node: Node, spec: ParameterSpec, name: str, value: Value) -> None:
+    if spec.kind is int and not spec.is_list and value not in INTEGERS:
+        raise InvalidValueError(name, value, f"{spec.allowed}, of 64 bits")
     if node.has_parameter(name):
         node.undeclare_parameter(name)
     if value == []:

@@ -8,9 +8,11 @@ STREAM = QoSProfile(
     reliability=QoSReliabilityPolicy.RELIABLE,
     durability=QoSDurabilityPolicy.VOLATILE,
     history=QoSHistoryPolicy.KEEP_LAST,
-    depth=200,
+    depth=4000,
 )
-"""Every stream of states and commands: a slow reader catches up, nothing in between is dropped."""
+"""Every stream of states and commands: a slow reader catches up, nothing in between is dropped.
+
+The depth bridges a stall of some ten seconds of a reader that hears three writers of 120 Hz."""
 
 REPORT = QoSProfile(
     reliability=QoSReliabilityPolicy.RELIABLE,

@@ -87,6 +87,7 @@ def _run(node_class: type[CheckedNode], stop: StopRequest) -> int:
             return _fail(node_class, f"unknown argument {extra[0]!r}; parameters go after --ros-args as -p name:=value")
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
         node = node_class()
+        node.refuse_unknown_overrides()
     except START_ERRORS as error:
         rclpy.try_shutdown()
         return _fail(node_class, one_line(error))
@@ -95,7 +96,7 @@ def _run(node_class: type[CheckedNode], stop: StopRequest) -> int:
         node.close()
         return 0
     except ContinuumError as error:
-        return _fail(node_class, one_line(error), FAILED)
+        return _fail(node_class, node.give_up(one_line(error)), FAILED)
     finally:
         node.destroy_node()
         rclpy.try_shutdown()

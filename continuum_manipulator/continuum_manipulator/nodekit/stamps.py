@@ -39,19 +39,20 @@ class StampJoiner[Key: Hashable, Message]:
 
     Stamps must be equal to the nanosecond: two instants are never mixed. Every source sends its stamps in rising order,
     so when a set is complete, the older ones that still miss a part can no longer be completed: they are given up.
-    A set that is complete far behind the last one given out says that all sources went back in time (a recording
-    played again, a simulation reset); the order starts anew there.
+    A source whose stamp goes back has started a new run (a recording played again, a simulation reset): all open sets
+    are given up and the order starts anew. The other sources' messages are then of the old run until they go back too,
+    or until they are ``restart_gap`` past all that the old run had said; a source not heard before belongs to any run.
 
     Args:
         keys: the sources of a complete set.
         capacity: stamps kept open at once; beyond it the set that was opened first is given up.
-        restart_gap: how far behind the last set a complete set must be to count as a restart [ns].
+        restart_gap: how far past the old run a message must be to belong to the new one all the same [ns].
         told: called for every loss with its stamp [ns] and keys: of an incomplete set those that are missing, else
             those whose messages are not used.
 
     Attributes:
         incomplete: sets given up.
-        late: messages whose set came too late to be given out in order.
+        late: messages whose set was given out already, or that are of a run that is over.
         repeated: messages that a source sent twice for one stamp; the first is used.
     """
 
@@ -68,6 +69,9 @@ class StampJoiner[Key: Hashable, Message]:
         self._told = told
         self._open: dict[int, dict[Key, Message]] = {}
         self._last: int | None = None
+        self._latest: dict[Key, int] = {}
+        self._in_run = set(self._keys)
+        self._old_run_end = 0
         self.incomplete = 0
         self.late = 0
         self.repeated = 0
@@ -85,7 +89,8 @@ class StampJoiner[Key: Hashable, Message]:
         """
         if key not in self._keys:
             raise KeyError(key)
-        if stamp == self._last:
+        self._follow_run(key, stamp)
+        if stamp == self._last or key not in self._in_run:
             self.late += 1
             self._told(Loss.LATE, stamp, frozenset([key]))
             return None
@@ -99,13 +104,34 @@ class StampJoiner[Key: Hashable, Message]:
             self._bound()
             return None
         del self._open[stamp]
-        if self._last is not None and self._last - self._restart_gap <= stamp < self._last:
-            self.late += len(parts)
-            self._told(Loss.LATE, stamp, self._keys)
-            return None
+        self._close_until(stamp)
+        return parts
+
+    def withdraw(self, key: Key, stamp: int, message: Message) -> bool:
+        """Take a message that still waits out, as if its set had been given out; False if it does not wait."""
+        if self._open.get(stamp, {}).get(key) is not message:
+            return False
+        del self._open[stamp]
+        self._close_until(stamp)
+        return True
+
+    def _follow_run(self, key: Key, stamp: int) -> None:
+        """Note which sources are in the newest run, and begin one where a source that was in it goes back."""
+        before = self._latest.get(key)
+        if before is not None and stamp < before:
+            if key in self._in_run:
+                self._old_run_end = max(self._latest.values())
+                self._in_run = set(self._keys - self._latest.keys())
+                self._last = None
+                self._give_up(list(self._open))
+            self._in_run.add(key)
+        elif stamp > self._old_run_end + self._restart_gap:
+            self._in_run.add(key)
+        self._latest[key] = stamp
+
+    def _close_until(self, stamp: int) -> None:
         self._last = stamp
         self._give_up([other for other in self._open if other < stamp])
-        return parts
 
     def _bound(self) -> None:
         surplus = len(self._open) - self._capacity

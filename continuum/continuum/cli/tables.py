@@ -1,0 +1,35 @@
+"""Tables for a terminal of 80 columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+
+def print_table(headings: Sequence[str], rows: Iterable[Sequence[str]], title: str | None = None) -> None:
+    """Print rows under headings, the first column to the left and figures to the right.
+
+    All words are shown as they are: brackets, as around units, are nothing special.
+    """
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    for i, heading in enumerate(headings):
+        table.add_column(Text(heading), justify="right" if i else "left", vertical="top")
+    for row in rows:
+        table.add_row(*map(Text, row))
+    if title is not None:
+        print(f"{title}\n")
+    Console().print(table)
+
+
+def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
+    """Print what is known, one thing a line, its name first."""
+    table = Table(box=None, show_header=False, padding=(0, 3, 0, 0), pad_edge=False)
+    table.add_column(no_wrap=True)
+    table.add_column()
+    for name, value in pairs:
+        table.add_row(Text(name, style="bold"), Text(value))
+    Console().print(table)

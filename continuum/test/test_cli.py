@@ -1,0 +1,264 @@
+"""The command `continuum`: what it prints, its exit codes, and its mistakes told in one line."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from recorded_runs import ARM, arm_file, run, tips, write
+
+from continuum.arm import load_arm
+from continuum.cli import main
+from continuum.cli.tables import print_pairs
+from continuum.kinematics.chain import arm_pose
+from continuum.kinematics.configuration import allen_from_jones
+from continuum.kinematics.routing import tangle
+
+CONFIG = Path(__file__).parents[2] / "continuum_description" / "config"
+ARM_FILES = sorted(CONFIG.glob("*.yaml"))
+THREE = str(CONFIG / "three_sections.yaml")
+
+Captured = pytest.CaptureFixture[str]
+
+
+@pytest.fixture(autouse=True)
+def _eighty_columns(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return str(arm_file(tmp_path_factory.mktemp("arm") / "arm.yaml"))
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> str:
+    topics = run()
+    del topics["/section_config_states"][30:32], topics["/cable_states"][5]
+    return str(write(tmp_path_factory.mktemp("run") / "recording", topics))
+
+
+def code(*words: object) -> int:
+    """The exit code, whether returned or raised by the parser."""
+    try:
+        return main([str(word) for word in words])
+    except SystemExit as end:
+        return int(end.code or 0)
+
+
+def rows_of(output: str, arm_names: list[str]) -> list[list[str]]:
+    """The words of the lines that begin with a section's name."""
+    return [line.split() for line in output.splitlines() if line.split(" ")[0] in arm_names]
+
+
+def refused(capsys: Captured, *words: object) -> str:
+    """The one line by which a command is refused, with exit code 2 and nothing on stdout."""
+    assert code(*words) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.count("\n") == 1
+    assert captured.err.startswith("continuum: ")
+    return captured.err.removeprefix("continuum: ")
+
+
+def test_help_says_what_can_be_done_next(capsys: Captured) -> None:
+    assert code("--help") == 0
+    text = capsys.readouterr().out
+    commands = re.findall(r"^  (continuum|ros2) (\w+)", text, re.MULTILINE)
+    assert {("continuum", name) for name in ("info", "solve", "report")} <= set(commands)
+    assert {("ros2", "launch"), ("ros2", "bag")} <= set(commands)
+    assert (CONFIG.parents[1] / re.search(r"like (\S+\.yaml)", text)[1]).is_file()
+    for package, file in re.findall(r"ros2 launch (\w+) (\S+)", text):
+        assert (CONFIG.parents[1] / package / "launch" / file).is_file()
+
+
+@pytest.mark.parametrize("command", ["info", "solve", "report"])
+def test_help_of_a_command(capsys: Captured, command: str) -> None:
+    assert code(command, "--help") == 0
+    assert f"usage: continuum {command}" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "words", [(), ("nonsense",), ("info",), ("solve", THREE, "1", "x", "0"), ("solve", THREE, "1")]
+)
+def test_wrong_usage(capsys: Captured, words: tuple[str, ...]) -> None:
+    assert code(*words) == 2
+    errors = capsys.readouterr().err
+    assert errors.startswith("usage: continuum")
+    assert "Traceback" not in errors
+
+
+def test_the_installed_command() -> None:
+    command = shutil.which("continuum")
+    assert command is not None
+    done = subprocess.run([command, "info", "nowhere.yaml"], capture_output=True, text=True, env=os.environ)
+    assert done.returncode == 2
+    assert done.stderr.startswith("continuum: nowhere.yaml: cannot be read")
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("file", ARM_FILES, ids=lambda path: path.stem)
+def test_info_tells_what_the_file_says_in_80_columns(capsys: Captured, file: Path) -> None:
+    assert code("info", file) == 0
+    output = capsys.readouterr().out
+    arm = load_arm(file)
+    assert max(map(len, output.splitlines())) <= 80
+    assert output.startswith(f"{arm.n_sections} section{'' if arm.n_sections == 1 else 's'}, ")
+    assert f"{1e3 * arm.length:.1f} mm long, {len(arm.cable_names)} cables" in output
+    rows = rows_of(output, [section.name for section in arm.sections])
+    assert len(rows) == arm.n_sections
+    for section, (name, *figures) in zip(arm.sections, rows, strict=True):
+        azimuths, limit = np.degrees(section.cable_azimuths), np.degrees(section.bend_limit)
+        millimetres = 1e3 * np.array([section.length, section.b, section.a])
+        expected = [section.n_joints, *millimetres, np.degrees(section.twist), *azimuths, limit]
+        assert name == section.name
+        np.testing.assert_allclose(np.array(figures, dtype=float), expected, atol=0.05)
+    assert output.count("[mm]") == 3
+    assert output.count("[deg]") == 3
+
+
+def test_solve_tells_a_posture_that_reaches_the_point(capsys: Captured) -> None:
+    target = [0.15, 0.05, 0.20]
+    assert code("solve", THREE, *target) == 0
+    output = capsys.readouterr().out
+    arm = load_arm(THREE)
+    assert output.startswith("reached; the tip is ")
+    assert max(map(len, output.splitlines())) <= 80
+    figures = np.array([row[1:] for row in rows_of(output, [s.name for s in arm.sections])], dtype=float)
+    w = allen_from_jones(np.radians(figures[:, 1]), np.radians(figures[:, 0]))
+    np.testing.assert_allclose(arm_pose(w, arm)[:3, 3], target, atol=2e-4)
+    np.testing.assert_allclose(figures[:, 2:].ravel(), 1e3 * tangle(w, arm), atol=0.05)
+    assert all(unit in output for unit in ("[deg]", "[mm]"))
+
+
+def test_solve_turns_the_tip(capsys: Captured) -> None:
+    assert code("solve", THREE, 0.1, 0.0, 0.4, "--direction", 1, 0, 1) == 0
+    output = capsys.readouterr().out
+    assert "degrees off its direction" in output
+    arm = load_arm(THREE)
+    figures = np.array([row[1:3] for row in rows_of(output, [s.name for s in arm.sections])], dtype=float)
+    tip = arm_pose(allen_from_jones(np.radians(figures[:, 1]), np.radians(figures[:, 0])), arm)
+    np.testing.assert_allclose(tip[:3, 2], np.array([1, 0, 1]) / np.sqrt(2), atol=2e-3)
+
+
+def test_a_target_out_of_reach_is_no(capsys: Captured) -> None:
+    assert code("solve", THREE, 0, 0, 2) == 1
+    output = capsys.readouterr().out
+    assert "not reached: out of reach" in output
+    distance = float(re.search(r"the tip is (\S+) mm", output)[1])
+    assert distance == pytest.approx(2000 - 1e3 * load_arm(THREE).length, rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("words", "problem"),
+    [
+        (("nan", 0, 0), "position is [nan, 0.0, 0.0]; allowed: three finite numbers"),
+        ((0, "inf", 0), "position is [0.0, inf, 0.0]"),
+        ((0, 0, 0.3, "--direction", 0, 0, 0), "direction is [0.0, 0.0, 0.0]"),
+        ((0, 0, 0.3, "--tolerance", 0), "--tolerance is 0.0; allowed: a number > 0"),
+        ((0, 0, 0.3, "--tolerance", "nan"), "--tolerance is nan"),
+    ],
+)
+def test_solve_refuses_values(capsys: Captured, words: tuple[object, ...], problem: str) -> None:
+    assert refused(capsys, "solve", THREE, *words).startswith(problem)
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("", "holds no parameters, but None"),
+        ("a: [1", "is not valid YAML"),
+        ("sections: []", "arm.sections"),
+        ("sections: [s]\ns: {n_joints: 2, b: -0.1, a: 0.02}", "arm.s.b is -0.1; allowed: "),
+        ("sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02, c: 1}", "arm.s.c is 1"),
+        ("sections: [s]\ns: {n_joints: 2, b: 0.01}", "arm.s.a is None"),
+        ("\x00", "is not valid YAML"),
+    ],
+)
+def test_every_command_refuses_a_bad_arm_file(
+    capsys: Captured, tmp_path: Path, recording: str, text: str, problem: str
+) -> None:
+    file = tmp_path / "arm.yaml"
+    file.write_text(text, encoding="utf-8")
+    for words in (("info", file), ("solve", file, 0, 0, 0.1), ("report", recording, "--arm", file)):
+        assert problem in refused(capsys, *words)
+
+
+def test_every_command_refuses_a_missing_file(capsys: Captured, tmp_path: Path, recording: str) -> None:
+    for path in (tmp_path, tmp_path / "nowhere"):
+        for words in (("info", path), ("solve", path, 0, 0, 0.1), ("report", recording, "--arm", path)):
+            assert refused(capsys, *words).startswith(f"{path}: cannot be read")
+        assert "is not a readable rosbag2 recording" in refused(capsys, "report", path, "--arm", THREE)
+
+
+@given(text=st.text() | st.binary().map(lambda raw: raw.decode("latin-1")))
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_any_file_is_an_arm_or_refused(capsys: Captured, tmp_path: Path, text: str) -> None:
+    file = tmp_path / "arm.yaml"
+    file.write_bytes(text.encode("utf-8", "replace"))
+    refused(capsys, "info", file)
+
+
+def test_report_tells_figures_and_losses(capsys: Captured, recording: str, arm: str, tmp_path: Path) -> None:
+    assert code("report", recording, "--arm", arm, "--out", tmp_path / "new" / "out") == 0
+    output = capsys.readouterr().out
+    assert max(map(len, output.splitlines()[:-1])) <= 80
+    n = len(tips())
+    told = dict(re.findall(r"^(\S.*?\S) {2,}(\S.*?) *$", output, re.MULTILINE))
+    assert told["poses"] == f"{n} at 100.0 Hz over {(n - 1) / 100:.1f} s"
+    assert told["poses reached"] == str(n)
+    assert told["tip error of the reached poses"] == "median 0.0000 mm, max 0.0000 mm"
+    assert told["cable rate against slope of length"].endswith(" mm/s at worst,")
+    assert told["messages lost"] == "3"
+    assert {name: count for name, count in told.items() if name.startswith("lost on")} == {
+        "lost on /cable_states": "1",
+        "lost on /section_config_states of section 1": "1",
+        "lost on /section_config_states of section 2": "1",
+    }
+    files = {path.name: path.stat().st_size for path in (tmp_path / "new" / "out").iterdir()}
+    assert files.keys() == {"cable_states.csv", "cables.png"}
+    assert min(files.values()) > 5_000
+
+
+def test_names_of_figures_stay_on_one_line(capsys: Captured) -> None:
+    pairs = [
+        ("lost on /section_cable_states of section 1", "7"),
+        ("rates", "0.04 % of the largest, at some place or other"),
+    ]
+    print_pairs(pairs)
+    assert [line.split("  ")[0] for line in capsys.readouterr().out.splitlines()][:2] == [name for name, _ in pairs]
+
+
+def test_report_counts_what_was_expected(capsys: Captured, recording: str, arm: str) -> None:
+    assert code("report", recording, "--arm", arm, "--expected", len(tips()) + 2) == 0
+    assert re.search(r"^messages lost +21 *$", capsys.readouterr().out, re.MULTILINE)  # 2 in 9 streams, and the 3
+
+
+def test_report_of_unreached_poses_without_rates(capsys: Captured, tmp_path: Path, arm: str) -> None:
+    topics = run()
+    for status, state in zip(topics["/ik_status"], topics["/cable_states"], strict=True):
+        status.status, state.velocity = 2, np.zeros(0)
+    assert code("report", write(tmp_path / "recording", topics), "--arm", arm) == 0
+    output = capsys.readouterr().out
+    assert "no pose was reached" in output
+    assert "no rates were recorded" in output
+
+
+def test_report_refuses(capsys: Captured, recording: str, arm: str, tmp_path: Path) -> None:
+    in_the_way = tmp_path / "file"
+    in_the_way.touch()
+    assert "--expected is -1; allowed: a whole number >= 0" in refused(
+        capsys, "report", recording, "--arm", arm, "--expected", -1
+    )
+    assert "holds no section_3_phi; recorded with another arm?" in refused(capsys, "report", recording, "--arm", THREE)
+    assert code("report", recording, "--arm", arm, "--out", in_the_way) == 2
+    assert capsys.readouterr().err == f"continuum: {in_the_way}: cannot be written (File exists)\n"
+
+
+def test_the_arm_of_the_recordings_is_read_back(arm: str) -> None:
+    assert load_arm(arm) == ARM

@@ -1,0 +1,45 @@
+"""What every node does with its topics: quality of service from parameters, lost messages counted."""
+
+from types import SimpleNamespace
+
+import pytest
+import rclpy
+from rclpy.event_handler import QoSSubscriptionEventType
+from rclpy.qos import QoSReliabilityPolicy
+from std_msgs.msg import String
+
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.qos import STREAM
+
+pytestmark = pytest.mark.ros
+
+OVERRIDES = ("heard.subscription.reliability:=best_effort", "heard.subscription.depth:=3", "said.publisher.depth:=5")
+
+
+class Plain(CheckedNode):
+    NAME = "plain"
+
+
+@pytest.fixture
+def node(domain):
+    arguments = ["--ros-args"]
+    for override in OVERRIDES:
+        arguments += ["-p", f"qos_overrides./{override}"]
+    rclpy.init(args=arguments, domain_id=domain)
+    node = Plain()
+    yield node
+    node.destroy_node()
+    rclpy.shutdown()
+
+
+def test_quality_of_service_from_parameters_and_lost_messages(node):
+    heard = node.listen(String, "heard", lambda _: None)
+    node.offer(String, "said")
+    node.refuse_unknown_overrides()
+    assert (heard.qos_profile.depth, heard.qos_profile.reliability) == (3, QoSReliabilityPolicy.BEST_EFFORT)
+    assert node.get_parameter("qos_overrides./said.publisher.depth").value == 5
+    assert (STREAM.depth, STREAM.reliability) == (4000, QoSReliabilityPolicy.RELIABLE)
+    lost = QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST
+    (handler,) = (handler for handler in heard.event_handlers if handler.event_type == lost)
+    handler.callback(SimpleNamespace(total_count=5, total_count_change=3))
+    assert node.diagnostics.warnings.counts == {"messages lost on the way": 3}

@@ -1,0 +1,70 @@
+"""The demo as a process of its own, and what is left of it."""
+
+import os
+import signal
+import subprocess
+import sys
+import uuid
+from pathlib import Path
+
+from harness.waiting import LONG, wait_until
+
+MARK = "CONTINUUM_TEST_MARK"
+ROOT = Path(__file__).resolve().parents[1]
+
+
+class DemoProcess:
+    """A demo that runs, with its results in ``folder``. As a context it is ended with all its nodes.
+
+    Args:
+        folder: for results.
+        domain: ROS domain.
+        options: of its command line.
+    """
+
+    def __init__(self, folder: Path, domain: int | str, **options: Path) -> None:
+        words = [word for name, value in {"out": folder, **options}.items() for word in (f"--{name}", str(value))]
+        self.folder = folder
+        self._mark = uuid.uuid4().hex
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "tools.demo", *words],
+            cwd=ROOT,
+            env=os.environ | {"ROS_DOMAIN_ID": str(domain), MARK: self._mark, "COLUMNS": "80"},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def __enter__(self) -> "DemoProcess":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for pid in self.processes():
+            os.kill(pid, signal.SIGKILL)
+        self._process.communicate()
+
+    def processes(self, name: str = "") -> list[int]:
+        """Numbers of its processes whose program is called so, its own among them; it gave them all its mark."""
+        found = []
+        for folder in Path("/proc").glob("[0-9]*"):
+            try:
+                marked = f"{MARK}={self._mark}".encode() in (folder / "environ").read_bytes()
+                words = (folder / "cmdline").read_bytes().decode(errors="replace").split("\0")
+            except OSError:  # ended meanwhile, or another's
+                continue
+            if marked and any(word.endswith(name) for word in words):
+                found.append(int(folder.name))
+        return found
+
+    def wait_for_node_line(self, text: str) -> None:
+        """Wait until a node has said ``text``."""
+        log = self.folder / "nodes.log"
+        wait_until(lambda: text in (log.read_text() if log.exists() else ""), text, 2 * LONG)
+
+    def send(self, number: signal.Signals) -> None:
+        self._process.send_signal(number)
+
+    def end(self) -> tuple[int, str, str]:
+        """Wait for the end: exit code, stdout and stderr."""
+        out, err = self._process.communicate(timeout=4 * LONG)
+        return self._process.returncode, out, err

@@ -1,0 +1,277 @@
+"""The demo's chain with real nodes on short trajectories, how it fails, and that it leaves nothing behind."""
+
+import json
+import os
+import re
+import signal
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import yaml
+from ament_index_python.packages import get_package_share_directory
+from demo_process import DemoProcess
+from domain_coordinator import domain_id
+from geometry_msgs.msg import PoseStamped
+from harness import Probe
+from rosbags.interfaces import QosDurability, QosReliability
+from rosbags.rosbag2 import Reader
+from sensor_msgs.msg import JointState
+
+from continuum.arm import load_arm
+from continuum.parameter_file import flattened
+from continuum.recordings.arm_recording import read_arm_recording
+from continuum.recordings.bag import Bag
+from continuum.recordings.kinematic_report import report_on
+from continuum_manipulator.nodekit.qos import STREAM
+from tools.demo import domain as demo_domain
+from tools.demo.errors import DemoError
+from tools.demo.folder import claimed
+from trajectory_generator.from_parameters import trajectory_from_mapping
+
+pytestmark = pytest.mark.ros
+
+ARMS = Path(get_package_share_directory("continuum_description")) / "config"
+
+COMMON = {"max_speed": 0.1, "max_acceleration": 0.1, "lead_time": 0.2, "rest_time": 0.2}
+
+QUARTER_TURN = COMMON | {
+    "path": "helix",
+    "helix": {"radius": 0.15, "pitch": 0.08, "z_start": 0.25, "z_end": 0.27, "n_points": 21},
+    "corner_radius": 0.14,
+    "rate": 120.0,
+}
+"""A quarter turn of the thesis's helix."""
+
+ARC = COMMON | {
+    "path": "circle",
+    "circle": {"start": [0.08, 0.0, 0.28], "center": [0.0, 0.0, 0.28], "toward": [0.0, 0.08, 0.28], "angle": 0.6},
+    "rate": 60.0,
+}
+"""What the shorter arm reaches."""
+
+
+def trajectory_file(folder: Path, parameters: dict[str, object]) -> Path:
+    path = folder / "trajectory.yaml"
+    path.write_text(yaml.safe_dump({"/**": {"ros__parameters": parameters}}), encoding="utf-8")
+    return path
+
+
+def targets(parameters: dict[str, object]) -> np.ndarray:
+    """Positions (n, 3) [m] of the poses that are to be published."""
+    flat = flattened(parameters)
+    trajectory = trajectory_from_mapping(flat)
+    return trajectory.sample(trajectory.times(flat["rate"])).position
+
+
+@pytest.fixture(
+    scope="module", params=[("three_sections", QUARTER_TURN), ("published_sections", ARC)], ids=lambda p: p[0]
+)
+def done(request: pytest.FixtureRequest, domain: int, tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
+    """A demo that has run: what it said, the folder of its results, and the arm and poses that it was to follow."""
+    name, parameters = request.param
+    folder = tmp_path_factory.mktemp("a demo")
+    arm = ARMS / f"{name}.yaml"
+    options = {"arm": arm, "trajectory": trajectory_file(folder, parameters)}
+    with DemoProcess(folder / "out", domain, **options) as demo:
+        code, out, err = demo.end()
+        left = demo.processes()
+    return SimpleNamespace(
+        code=code, out=out, err=err, left=left, folder=folder / "out", arm=load_arm(arm), targets=targets(parameters)
+    )
+
+
+def test_the_demo_ends_well(done: SimpleNamespace) -> None:
+    assert (done.code, done.err) == (0, "")
+    assert re.search(r"^messages lost +0 *$", done.out, re.MULTILINE)
+    assert f"{len(done.targets)}/{len(done.targets)} poses" in done.out
+    assert {path.name for path in done.folder.iterdir()} == {"recording", "nodes.log", "cable_states.csv", "cables.png"}
+    said = (done.folder / "nodes.log").read_text()
+    assert "Traceback" not in said
+    assert "process has died" not in said
+
+
+def test_no_process_is_left(done: SimpleNamespace) -> None:
+    assert done.left == []
+
+
+def test_the_tip_follows_and_nothing_is_lost(done: SimpleNamespace) -> None:
+    with Bag(done.folder / "recording") as bag:
+        recording = read_arm_recording(bag, done.arm)
+    np.testing.assert_allclose(recording.targets.values, done.targets, atol=1e-12)
+    report = report_on(recording, len(done.targets))
+    assert len(report.lost) == 5 + 2 * done.arm.n_sections
+    assert sum(report.lost.values()) + sum(report.repeated.values()) == 0
+    assert report.n_solved == len(done.targets)
+    assert report.tip_error_median <= 0.5e-3
+    assert report.tip_error_max <= 2e-3
+    assert 0 < report.rate_disagreement_ratio <= 0.01
+    assert report.largest_rate > 0.01
+
+
+def test_the_table_has_a_row_for_every_pose(done: SimpleNamespace) -> None:
+    lines = (done.folder / "cable_states.csv").read_text().splitlines()
+    assert len(lines) == 1 + len(done.targets)
+    assert len(lines[0].split(",")) == 1 + 2 * len(done.arm.cable_names)
+
+
+def test_the_recording_is_one_of_rosbag2(done: SimpleNamespace) -> None:
+    folder = done.folder / "recording"
+    information = yaml.safe_load((folder / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
+    topics = {entry["topic_metadata"]["name"]: entry for entry in information["topics_with_message_count"]}
+    assert (information["version"], information["storage_identifier"]) == (9, "mcap")
+    assert all((folder / name).is_file() for name in information["relative_file_paths"])
+    assert information["message_count"] == sum(entry["message_count"] for entry in topics.values())
+    for entry in topics.values():
+        metadata = entry["topic_metadata"]
+        assert metadata["serialization_format"] == "cdr"
+        assert metadata["type_description_hash"] == type_hash(metadata["type"])
+    n = len(done.targets)
+    counts = {name: entry["message_count"] for name, entry in topics.items()}
+    for name in ("/traj_pose", "/traj_twist", "/joint_states", "/ik_status", "/cable_states"):
+        assert counts[name] == n
+    for name in ("/section_cable_states", "/section_config_states"):
+        assert counts[name] == n * done.arm.n_sections
+    with Reader(folder) as reader:
+        assert {connection.topic: connection.msgcount for connection in reader.connections} == counts
+        offers = {connection.topic: connection.ext.offered_qos_profiles for connection in reader.connections}
+        assert reader.duration >= (n - 1) / 120.0 * 1e9
+    (pose,), sections = offers["/traj_pose"], offers["/section_cable_states"]
+    assert len(sections) == done.arm.n_sections
+    for profile in (pose, *sections):
+        assert (profile.reliability, profile.durability) == (QosReliability.RELIABLE, QosDurability.VOLATILE)
+
+
+def type_hash(message_type: str) -> str:
+    """What rosidl made for an installed type."""
+    package, folder, name = message_type.split("/")
+    file = Path(get_package_share_directory(package)) / folder / f"{name}.json"
+    (found,) = (e["hash_string"] for e in json.loads(file.read_text())["type_hashes"] if e["type_name"] == message_type)
+    return found
+
+
+@pytest.fixture
+def trajectory(tmp_path: Path) -> Path:
+    return trajectory_file(tmp_path, QUARTER_TURN)
+
+
+def test_a_node_that_dies_at_start_is_told(domain: int, tmp_path: Path, trajectory: Path) -> None:
+    with DemoProcess(tmp_path / "out", domain, arm=ARMS / "prototype.yaml", trajectory=trajectory) as demo:
+        code, _, err = demo.end()
+        assert demo.processes() == []
+    assert code == 1
+    assert re.fullmatch(
+        r"demo: section-[23] died: .*section is [23]; allowed: .* \(exit code 2\); see .*nodes.log\n", err
+    )
+
+
+def test_a_node_that_is_killed_is_told(domain: int, tmp_path: Path, trajectory: Path) -> None:
+    with DemoProcess(tmp_path / "out", domain, trajectory=trajectory) as demo:
+        demo.wait_for_node_line(" begins")
+        (robot,) = demo.processes("lib/continuum_manipulator/robot")
+        os.kill(robot, signal.SIGKILL)
+        code, _, err = demo.end()
+        assert demo.processes() == []
+    assert code == 1
+    assert re.fullmatch(r"demo: robot-4 died: .*\(exit code -9\); see .*nodes.log\n", err)
+
+
+def test_an_interrupt_leaves_no_process_and_a_whole_recording(domain: int, tmp_path: Path, trajectory: Path) -> None:
+    with DemoProcess(tmp_path / "out", domain, trajectory=trajectory) as demo:
+        demo.wait_for_node_line(" begins")
+        demo.send(signal.SIGINT)
+        code, _, err = demo.end()
+        assert demo.processes() == []
+    assert code == 130
+    assert err == f"demo: interrupted; what was recorded until then is in {tmp_path}/out/recording\n"
+    with Reader(tmp_path / "out" / "recording") as reader:
+        assert "/traj_pose" in reader.topics
+
+
+def test_an_end_while_the_nodes_start_leaves_no_process(domain: int, tmp_path: Path, trajectory: Path) -> None:
+    with DemoProcess(tmp_path / "out", domain, trajectory=trajectory) as demo:
+        demo.wait_for_node_line("[trajectory_publisher-8]: process started")
+        demo.send(signal.SIGTERM)
+        code, _, err = demo.end()
+        assert demo.processes() == []
+    assert code == 130
+    assert err.startswith("demo: interrupted")
+    assert err.count("\n") == 1
+
+
+def test_another_graph_in_the_domain_is_left_alone(tmp_path: Path, trajectory: Path) -> None:
+    with domain_id() as number, Probe(number, "bench") as probe:
+        heard = probe.hear(PoseStamped, "traj_pose")
+        probe.node.create_publisher(JointState, "joint_states", STREAM)
+        with DemoProcess(tmp_path / "out", number, trajectory=trajectory) as demo:
+            code, _, err = demo.end()
+        probe.listen_until_quiet()
+    assert code == 1
+    assert err == f"demo: ROS domain {number} is in use by /bench; end them, or set ROS_DOMAIN_ID to another\n"
+    assert heard == []
+    assert not (tmp_path / "out" / "nodes.log").exists()
+
+
+def test_who_only_listens_is_welcome(domain: int) -> None:
+    with Probe(domain, "watcher") as probe:
+        probe.hear(JointState, "joint_states")
+        assert demo_domain.speakers(domain) == []
+
+
+def test_without_a_domain_of_ones_own_a_free_one_is_taken(
+    domain: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+    seen: list[int] = []
+    monkeypatch.setattr(demo_domain, "speakers", lambda number: seen.append(number) or ["/bench"] * (len(seen) < 3))
+    with demo_domain.domain_for_demo() as chosen:
+        assert seen == [0, seen[1], chosen]
+        assert len({0, seen[1], chosen, domain}) == 4
+    said = capsys.readouterr().out
+    assert said.startswith("ROS domain 0 is in use by /bench; ")
+    assert said.endswith(f"export ROS_DOMAIN_ID={chosen}\n")
+
+
+def test_two_demos_share_no_domain(domain: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    monkeypatch.setattr(demo_domain, "speakers", lambda number: [])
+    with demo_domain.domain_for_demo() as first:
+        assert first == domain
+        with pytest.raises(DemoError, match="in use by another demo"), demo_domain.domain_for_demo():
+            pass
+    with demo_domain.domain_for_demo() as again:
+        assert again == domain
+
+
+def test_two_demos_share_no_folder(tmp_path: Path) -> None:
+    (tmp_path / "out" / "recording").mkdir(parents=True)
+    for name in ("recording/metadata.yaml", "nodes.log", "mine.txt"):
+        (tmp_path / "out" / name).touch()
+    with claimed(tmp_path / "out"):
+        assert [path.name for path in (tmp_path / "out").iterdir()] == ["mine.txt"]
+        (tmp_path / "out" / "nodes.log").touch()
+        with pytest.raises(DemoError, match="another demo is writing"), claimed(tmp_path / "out"):
+            pass
+        assert (tmp_path / "out" / "nodes.log").exists()
+    with claimed(tmp_path / "out"):
+        pass
+
+
+@pytest.mark.parametrize(
+    ("number", "options", "problem"),
+    [
+        ("0x1", {}, "ROS_DOMAIN_ID is '0x1'; allowed: a whole number from 0 to 232"),
+        ("1", {"trajectory": Path("nowhere.yaml")}, "nowhere.yaml: cannot be read"),
+        ("1", {"arm": Path("nowhere.yaml")}, "nowhere.yaml: cannot be read"),
+        ("1", {"out": Path("/dev/null/out")}, "/dev/null/out cannot be made"),
+    ],
+)
+def test_what_cannot_begin_is_told_in_one_line(
+    tmp_path: Path, trajectory: Path, number: str, options: dict[str, Path], problem: str
+) -> None:
+    with DemoProcess(tmp_path / "out", number, **{"trajectory": trajectory} | options) as demo:
+        code, _, err = demo.end()
+    assert code == 1
+    assert err.startswith(f"demo: {problem}")
+    assert err.count("\n") == 1

@@ -1,0 +1,72 @@
+"""The command line of the demo, and its course from the trajectory to the report."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from ament_index_python.packages import get_package_share_directory
+
+import tools.demo
+from continuum.arm import load_arm
+from continuum.cli import main as continuum
+from continuum.errors import ContinuumError
+from continuum.parameter_file import flattened, read_parameter_file
+from tools.demo.domain import domain_for_demo
+from tools.demo.folder import claimed
+from tools.demo.nodes import run_nodes
+from trajectory_generator.from_parameters import trajectory_from_mapping
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the demo; returns 0 if all of it was done, 1 if not."""
+    arm, trajectory = (
+        Path(get_package_share_directory(package)) / "config" / name
+        for package, name in (("continuum_description", "three_sections.yaml"), ("trajectory_generator", "helix.yaml"))
+    )
+    parser = argparse.ArgumentParser(prog="make demo ARGS=...", description=tools.demo.__doc__)
+    parser.add_argument("--trajectory", type=Path, default=trajectory, metavar="FILE.yaml", help="default: %(default)s")
+    parser.add_argument(
+        "--arm", type=Path, default=arm, metavar="ARM.yaml", help="three sections; default: %(default)s"
+    )
+    parser.add_argument("--out", type=Path, default=Path("out/demo"), metavar="FOLDER", help="default: %(default)s")
+    options = parser.parse_args(arguments)
+    try:
+        if (options.arm, options.trajectory) == (arm, trajectory):
+            print("The helix of thesis 4.1, and an arm of three sections of Table 1's modules: all of it within reach.")
+        return run_demo(options.trajectory, options.arm, options.out)
+    except ContinuumError as error:
+        print(f"demo: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        recording = options.out / "recording"
+        kept = f"; what was recorded until then is in {recording}" if recording.exists() else ""
+        print(f"demo: interrupted{kept}", file=sys.stderr)
+        raise
+
+
+def run_demo(trajectory_file: Path, arm_file: Path, out: Path) -> int:
+    """Let the arm follow the trajectory, and leave recording, table and picture in ``out``.
+
+    Returns:
+        Exit code: 0, or 1 if not every pose became a cable state.
+
+    Raises:
+        ContinuumError: a file is not right, a node died, or the demo cannot begin.
+        KeyboardInterrupt: as it came, with every node ended.
+    """
+    parameters = flattened(read_parameter_file(trajectory_file))
+    times = trajectory_from_mapping(parameters).times(parameters["rate"])
+    arm = load_arm(arm_file)
+    print(
+        f"{times[-1]:.1f} s at {parameters['rate']:g} Hz; {arm.n_sections} sections, {1e3 * arm.length:.1f} mm long; "
+        f"results go to {out}/."
+    )
+    with claimed(out), domain_for_demo() as domain:
+        finished = run_nodes(trajectory_file, arm_file, out, domain, len(times))
+        if not finished:
+            print(f"demo: not every pose became a cable state; see {out}/nodes.log", file=sys.stderr)
+        words = ["report", out / "recording", "--arm", arm_file, "--out", out, "--expected", len(times)]
+        status = continuum([str(word) for word in words])
+    return 0 if finished and status == 0 else 1

@@ -1,0 +1,83 @@
+"""The nodes of the demo: launched together, followed to the last pose, and ended in any case."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from tools.demo.errors import DemoError
+from tools.demo.progress import follow
+
+END_TIMEOUT = 20.0
+"""Time given to the nodes to end by themselves [s]."""
+
+_DEATH = re.compile(r"^\[ERROR\] \[(?P<label>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)", re.M)
+
+
+def run_nodes(trajectory_file: Path, arm_file: Path, out: Path, domain: int, n_poses: int) -> bool:
+    """Run `helix.launch.xml` with its recorder until all poses have become cable states; True if they did.
+
+    Raises:
+        DemoError: a node died, or the launch ended.
+    """
+    command = ["ros2", "launch", "trajectory_generator", "helix.launch.xml"]
+    files = {"arm": arm_file.resolve(), "trajectory": trajectory_file.resolve(), "record": out / "recording"}
+    command += [f"{name}:={path}" for name, path in files.items()]
+    log_file = out / "nodes.log"
+    with log_file.open("w", encoding="utf-8") as log, launched(command, domain, log.fileno()) as launch:
+
+        def check() -> None:
+            text = log_file.read_text(encoding="utf-8", errors="replace")
+            death = _DEATH.search(text)
+            if death:
+                raise DemoError(f"{death['label']} died: {_last_words(text, death)}; see {log_file}")
+            if launch.poll() is not None:
+                raise DemoError(f"the launch ended: {(text.strip() or 'silently').splitlines()[-1]}; see {log_file}")
+
+        return follow(domain, n_poses, check)
+
+
+def _last_words(text: str, death: re.Match[str]) -> str:
+    """What a dead node said last, or its exit code if it said nothing."""
+    said = re.findall(rf"^\[{re.escape(death['label'])}\] (.*\S)", text[: death.start()], re.M)
+    return f"{said[-1] if said else 'without a word'} (exit code {death['code']})"
+
+
+@contextmanager
+def launched(command: list[str], domain: int, log: int) -> Iterator[subprocess.Popen[bytes]]:
+    """A launch that is interrupted at the end of the block, as by Ctrl-C, and waited for."""
+    environment = os.environ | {"ROS_DOMAIN_ID": str(domain)}
+    launch = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, env=environment, start_new_session=True)
+    try:
+        yield launch
+    finally:
+        with _undisturbed():
+            stop(launch)
+
+
+def stop(launch: subprocess.Popen[bytes]) -> None:
+    """Interrupt the launch and wait until every node has ended."""
+    if launch.poll() is None:
+        os.killpg(launch.pid, signal.SIGINT)
+    try:
+        launch.wait(timeout=END_TIMEOUT)
+    except subprocess.TimeoutExpired:
+        os.killpg(launch.pid, signal.SIGKILL)
+        launch.wait()
+
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Let no further signal keep the nodes from being ended."""
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = [signal.signal(number, signal.SIG_IGN) for number in numbers]
+    try:
+        yield
+    finally:
+        for number, handler in zip(numbers, before, strict=True):
+            signal.signal(number, handler)
