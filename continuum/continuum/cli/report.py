@@ -5,16 +5,14 @@ from __future__ import annotations
 import argparse
 import math
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from continuum.arm import load_arm
 from continuum.cli.tables import print_pairs
 from continuum.errors import FileError, InvalidValueError
-from continuum.recordings.arm_recording import read_arm_recording
-from continuum.recordings.bag import Bag
-from continuum.recordings.cable_figure import write_cable_figure
-from continuum.recordings.cable_table import write_cable_table
-from continuum.recordings.kinematic_report import KinematicReport, report_on
+
+if TYPE_CHECKING:
+    from continuum.recordings.kinematic_report import KinematicReport
 
 
 def add_to(commands: Any) -> None:
@@ -33,6 +31,13 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the summary, and write the table and the picture if a folder is given."""
+    # Here, so that the other commands need neither rosbags nor the time to load it and Matplotlib.
+    from continuum.recordings.arm_recording import read_arm_recording
+    from continuum.recordings.bag import Bag
+    from continuum.recordings.cable_figure import write_cable_figure
+    from continuum.recordings.cable_table import write_cable_table
+    from continuum.recordings.kinematic_report import report_on
+
     if options.expected is not None and options.expected < 0:
         raise InvalidValueError("--expected", options.expected, "a whole number >= 0")
     with Bag(options.recording) as bag:

@@ -13,7 +13,6 @@ from continuum.cli.tables import print_table
 from continuum.errors import InvalidValueError
 from continuum.kinematics.configuration import jones_from_allen
 from continuum.kinematics.ik_result import IkResult
-from continuum.kinematics.inverse_kinematics import solve
 from continuum.kinematics.routing import tangle
 
 _WORDS = {
@@ -39,6 +38,8 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Solve and print; 1 where the target is not reached."""
+    from continuum.kinematics.inverse_kinematics import solve  # here: numba takes its time to load
+
     if not options.tolerance > 0:
         raise InvalidValueError("--tolerance", options.tolerance, "a number > 0 [m] and [rad]")
     arm = load_arm(options.arm)

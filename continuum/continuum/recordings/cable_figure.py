@@ -17,7 +17,7 @@ _DOTS = 60  # finite differences shown per cable; all of them would hide the lin
 
 def write_cable_figure(recording: ArmRecording, path: str | Path) -> None:
     """Draw the picture and write it to ``path`` (PNG or any format that Matplotlib knows by its suffix)."""
-    figure = Figure(figsize=(13, 5.4), layout="constrained")
+    figure = Figure(figsize=(13, 5.4))
     length_axes, rate_axes = figure.subplots(1, 2)
     stamps = recording.lengths.stamps
     times = (stamps - stamps[0]) * 1e-9
@@ -45,5 +45,6 @@ def write_cable_figure(recording: ArmRecording, path: str | Path) -> None:
         axes.grid(alpha=0.3)
         axes.margins(x=0.01)
     handles, labels = length_axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=recording.arm.n_sections * 2, fontsize=8)
-    figure.savefig(path, dpi=120)
+    figure.legend(handles, labels, loc="lower center", ncols=recording.arm.n_sections * 2, fontsize=8)
+    figure.subplots_adjust(left=0.05, right=0.985, top=0.94, bottom=0.23, wspace=0.13)
+    figure.savefig(path, dpi=90)
