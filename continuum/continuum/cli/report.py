@@ -71,7 +71,7 @@ def _show(report: KinematicReport) -> None:
 def _tip_error(report: KinematicReport) -> str:
     if math.isnan(report.tip_error_max):
         return "no pose was reached"
-    return f"median {1e3 * report.tip_error_median:.4f} mm, max {1e3 * report.tip_error_max:.4f} mm"
+    return f"median {1e3 * report.tip_error_median:.2g} mm, max {1e3 * report.tip_error_max:.2g} mm"
 
 
 def _rate_disagreement(report: KinematicReport) -> str:
