@@ -112,7 +112,7 @@ def finite(name: str, value: object, shape: tuple[int, ...]) -> Array:
         InvalidValueError: it is none.
     """
     words = " x ".join("n" if count < 0 else str(count) for count in shape)
-    allowed = f"finite numbers, {words}"
+    allowed = "three finite numbers" if shape == (3,) else f"finite numbers, {words}"
     try:
         array = np.array(value, dtype=float, order="C")
     except (TypeError, ValueError, OverflowError):
