@@ -37,7 +37,11 @@ def read_parameter_file(path: str | Path) -> Mapping[str, object]:
             block = block[key]
     if not isinstance(block, Mapping):
         raise FileError(path, f"holds no parameters, but {block!r}")
-    for name, value in flattened(block).items():
+    try:
+        flat = flattened(block)
+    except RecursionError as error:
+        raise FileError(path, "is a mapping that holds itself") from error
+    for name, value in flat.items():
         if isinstance(value, list) and {int, float} <= {type(item) for item in value}:
             raise FileError(path, f"{name} is {value}: ROS takes no whole numbers among decimals; write 0.0, not 0")
     return block

@@ -146,6 +146,13 @@ def test_solve_turns_the_tip(capsys: Captured) -> None:
     np.testing.assert_allclose(tip[:3, 2], np.array([1, 0, 1]) / np.sqrt(2), atol=2e-3)
 
 
+def test_negative_numbers_may_have_exponents(capsys: Captured) -> None:
+    assert code("solve", THREE, "-1.25e-1", "-5E-2", "0.3", "--direction", "-1e-1", "0", "1") == 0
+    with_exponents = capsys.readouterr().out
+    assert code("solve", THREE, "-0.125", "-0.05", "0.3", "--direction", "-0.1", "0", "1") == 0
+    assert capsys.readouterr().out == with_exponents
+
+
 def test_a_target_out_of_reach_is_no(capsys: Captured) -> None:
     assert code("solve", THREE, 0, 0, 2) == 1
     output = capsys.readouterr().out

@@ -40,15 +40,18 @@ def build(names: list[str]) -> None:
     _free_scripts()
 
 
+WARM_UPS = ("continuum.kinematics.compiled.warm_up", "continuum.dynamics.warm_up")
+
+
 def compile_solver() -> None:
     """Fill numba's cache, so that no node compiles while it runs.
 
     Raises:
-        SetupError: the solver does not compile.
+        SetupError: the inverse kinematics' solver or the dynamics' integrator does not compile.
     """
-    with Step("inverse kinematics, compiled", "does not compile; the lines above say why.") as step:
+    with Step("solver and integrator, compiled", "does not compile; the lines above say why.") as step:
         step.run(
-            ["bash", "-c", "source install/setup.bash && python3 -m continuum.kinematics.compiled.warm_up"],
+            ["bash", "-c", f"source install/setup.bash && {' && '.join(f'python3 -m {name}' for name in WARM_UPS)}"],
             venv_environment(),
         )
 

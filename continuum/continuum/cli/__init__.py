@@ -6,6 +6,7 @@ import argparse
 import sys
 
 from continuum.cli import info, report, solve
+from continuum.cli.negative_numbers import written_out
 from continuum.errors import ContinuumError
 
 _NEXT_STEPS = """\
@@ -34,7 +35,7 @@ def main(arguments: list[str] | None = None) -> int:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in (info, solve, report):
         command.add_to(commands)
-    options = parser.parse_args(arguments)
+    options = parser.parse_args(written_out(sys.argv[1:] if arguments is None else arguments))
     try:
         return int(options.run(options))
     except ContinuumError as error:

@@ -1,0 +1,55 @@
+"""The equations of a whole model: Eq. 12 with its effects, and the effects' own states, one sum that must be zero."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.planar.eq12_balance import torque_balance
+from continuum.dynamics.planar.instant import Instant
+from continuum.dynamics.planar.motion import Motion
+
+
+def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | None = None) -> Numbers:
+    """What is left of the equations, (n + n_states,) [N m, and each effect's own units].
+
+    Args:
+        model: the model, its values floats or symbols.
+        x: state, joint angles, joint rates, effects' states, (2 n + n_states,) [rad, rad/s, ...].
+        v: joint accelerations and rates of the effects' states, (n + n_states,) [rad/s2, ...].
+        u: commanded tension of each cable, (n_cables,) [N].
+        motion: of the joints, where it is known already; made from ``x`` and ``v`` without.
+    """
+    now, parts = _instant(model, x, v, u, motion or joint_motion(model, x, v)), list(_parts(model, x, v))
+    torque = torque_balance(now)
+    for active, state, _ in parts:
+        torque = torque + active.effect.torque(now, active.values, state)
+    own = [active.effect.state_balance(now, active.values, state, rate) for active, state, rate in parts]
+    return np.concatenate([torque, *own])
+
+
+def joint_motion(model: Model, x: Numbers, v: Numbers) -> Motion:
+    """Motion of the joints in a state, on a base at rest."""
+    n, still = model.n_joints, np.zeros(1)
+    return Motion(x[:n], x[n : 2 * n], v[:n], still, still, still)
+
+
+def _instant(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion) -> Instant:
+    p = model.parameters
+    for active, state, rate in _parts(model, x, v):
+        p = active.effect.change_parameters(p, active.values)
+        motion = active.effect.move_base(motion, active.values, state, rate)
+        u = active.effect.pull(u, active.values, state)
+    return Instant(motion, u, p)
+
+
+def _parts(model: Model, x: Numbers, v: Numbers) -> Iterator[tuple[ActiveEffect, Numbers, Numbers]]:
+    """Each effect with its states and their rates."""
+    at = model.n_joints
+    for active in model.effects:
+        end = at + active.effect.n_states(model.n_joints)
+        yield active, x[model.n_joints + at : model.n_joints + end], v[at:end]
+        at = end

@@ -1,0 +1,1 @@
+"""Machine code of a model's equations and of their exact derivatives."""

@@ -1,0 +1,74 @@
+"""A model's equations as compiled functions of NumPy arrays: balance, rates (Eq. 18) and their exact Jacobian."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from continuum.arrays import Array
+from continuum.dynamics.compiled.machine_code import compile_function
+from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance
+from continuum.dynamics.model import Model
+from continuum.dynamics.planar.cables import SIDES
+from continuum.dynamics.values import parameter_vector
+
+
+class CompiledEquations:
+    """Compiled equations of a model's structure; parameter values are arguments.
+
+    Args:
+        model: its effects and its number of joints are compiled in, its values are the defaults.
+    """
+
+    def __init__(self, model: Model) -> None:
+        self.n_joints = model.n_joints
+        self.n_rates = model.n_joints + model.n_states
+        self.n_x = self.n_rates + model.n_joints
+        self.values = parameter_vector(model)
+        self._symbols = SymbolicBalance(model)
+
+    @cached_property
+    def newton(self) -> Any:
+        """Machine code of `SymbolicBalance.newton`."""
+        return compile_function(self._symbols.newton)
+
+    @cached_property
+    def slopes(self) -> Any:
+        """Machine code of `SymbolicBalance.slopes`, made when first asked for."""
+        return compile_function(self._symbols.slopes)
+
+    def balance(self, x: Array, v: Array, u: Array, p: Array | None = None) -> tuple[Array, Array, Array]:
+        """r (n_v,), dr/dv (n_v, n_v), dr/dx (n_v, n_x) at state x, rates v, tensions u, parameter values p."""
+        m = self.n_rates
+        out = self._call(self.newton, m * (1 + m + self.n_x), x, v, u, p)
+        return out[:m], out[m : m + m * m].reshape(m, m).T, out[m + m * m :].reshape(self.n_x, m).T
+
+    def parameter_slopes(self, x: Array, v: Array, u: Array, p: Array | None = None) -> Array:
+        """dr/dp, (n_v, n_p)."""
+        m, n_p = self.n_rates, self.values.size
+        out = self._call(self.slopes, m * (1 + m + self.n_x + n_p), x, v, u, p)
+        return out[m * (1 + m + self.n_x) :].reshape(n_p, m).T
+
+    def rates(self, x: Array, u: Array, p: Array | None = None) -> Array:
+        """Eq. 18: (theta', theta'', z'), (n_x,)."""
+        r, by_v, _ = self.balance(x, np.zeros(self.n_rates), u, p)
+        return np.concatenate([x[self.n_joints : 2 * self.n_joints], -lu_solve(lu_factor(by_v), r)])
+
+    def jacobian(self, x: Array, u: Array, p: Array | None = None) -> Array:
+        """Derivative of the rates by the state, (n_x, n_x): exact, as r = 0 gives dv/dx = -(dr/dv)^-1 dr/dx."""
+        n = self.n_joints
+        _, by_v, by_x = self.balance(x, self.rates(x, u, p)[n:], u, p)
+        kinematic = np.zeros((n, self.n_x))
+        kinematic[:, n : 2 * n] = np.eye(n)
+        return np.concatenate([kinematic, -lu_solve(lu_factor(by_v), by_x)])
+
+    def _call(self, function: Any, size: int, x: Array, v: Array, u: Array, p: Array | None) -> Array:
+        packed = np.concatenate([x, v, u, self.values if p is None else p])
+        if packed.size != self.n_x + self.n_rates + len(SIDES) + self.values.size:  # the machine code reads unchecked
+            raise ValueError(f"{packed.size} numbers of state, rates, tensions and parameters")
+        out = np.empty(size)
+        function(packed.ctypes.data, out.ctypes.data)
+        return out

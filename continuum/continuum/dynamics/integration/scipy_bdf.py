@@ -1,0 +1,57 @@
+"""The reference integrator: SciPy's BDF of order 1 to 5, as the thesis's ode15s (Shampine and Reichelt 1997)."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from continuum.arrays import Array
+from continuum.dynamics.compiled.equations import CompiledEquations
+from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.model import Model
+from continuum.dynamics.planar.eq18_state_space import numpy_state_space
+from continuum.dynamics.simulation_input import initial_state, output_times
+from continuum.dynamics.tensions import Tensions, slack
+from continuum.dynamics.trajectory import SimulationStatus, Trajectory
+
+
+def simulate_bdf(
+    model: Model,
+    initial: Array,
+    times: Array,
+    tensions: Tensions | None = None,
+    tolerances: Tolerances | None = None,
+    equations: CompiledEquations | None = None,
+) -> Trajectory:
+    """Simulate with SciPy's BDF.
+
+    Args:
+        model: what to simulate.
+        initial: whole state, or joint angles alone [rad].
+        times: output times, (n_times,) [s].
+        tensions: of the cables; slack without.
+        tolerances: the thesis's without.
+        equations: compiled rates and their exact Jacobian; without, the rates in NumPy, differences for the Jacobian.
+
+    Raises:
+        InvalidValueError: a state or times that are not allowed.
+    """
+    x0, times = initial_state(model, initial), output_times(times)
+    pull, limits = tensions or slack(), tolerances or Tolerances()
+    rates = numpy_state_space(model) if equations is None else equations.rates
+    jacobian = None if equations is None else (lambda t, x: equations.jacobian(x, pull.at(t)))
+    done = solve_ivp(
+        lambda t, x: rates(x, pull.at(t)),
+        (times[0], times[-1]),
+        x0,
+        method="BDF",
+        t_eval=times,
+        jac=jacobian,
+        rtol=limits.relative,
+        atol=limits.absolute,
+        max_step=limits.max_step,
+    )
+    status = SimulationStatus.COMPLETE if done.success else SimulationStatus.STEP_TOO_SMALL
+    states = np.full((times.size, x0.size), np.nan)
+    states[: done.y.shape[1]] = done.y.T
+    return Trajectory(status, times, states, model.n_joints, done.nfev, 0, np.zeros((times.size, x0.size, 0)))

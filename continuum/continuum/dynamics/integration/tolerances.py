@@ -1,0 +1,28 @@
+"""How exact an integration shall be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.errors import InvalidValueError
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """By default the thesis's (chapter 3.2).
+
+    Attributes:
+        relative, absolute: local error allowed, the latter in the state's units [rad, rad/s].
+        max_step: longest step [s].
+    """
+
+    relative: float = 1e-4
+    absolute: float = 1e-5
+    max_step: float = 0.01
+
+    def __post_init__(self) -> None:
+        for name in ("relative", "absolute", "max_step"):
+            if not 0 < getattr(self, name) < np.inf:
+                raise InvalidValueError(name, getattr(self, name), "a finite number > 0")

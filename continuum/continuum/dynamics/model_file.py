@@ -1,0 +1,109 @@
+"""Model files: YAML with every parameter's value, unit and source, and the effects that extend Eq. 12.
+
+n_joints: 5 parameters: stiffness: {value: 1.2379, unit: N m/rad, source: thesis Table 3} effects: tip_payload: mass:
+{value: 0.05, unit: kg, source: diagnosis of run_3.csv}
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+import yaml
+
+from continuum.dynamics.effect import Effect
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
+from continuum.errors import FileError, InvalidValueError
+from continuum.parameter_file import read_parameter_file
+
+_ENTRY = "a mapping of value, unit and source"
+
+
+def load_model(path: str | Path) -> Model:
+    """The model that a file describes; a bare name that is no file here is a model that comes with the library.
+
+    Raises:
+        FileError: the file cannot be read or is no YAML mapping.
+        InvalidValueError: a name, value or unit that is not allowed, or a required parameter that is missing.
+    """
+    path = Path(path)
+    shipped = Path(__file__).parent / "models" / path
+    return model_from_mapping(read_parameter_file(shipped if shipped.exists() and not path.exists() else path))
+
+
+def model_from_mapping(block: Mapping[str, object]) -> Model:
+    """As :func:`load_model`, of a file's contents."""
+    _only(block, ("n_joints", "parameters", "effects"), "")
+    n = block.get("n_joints")
+    if not isinstance(n, int) or isinstance(n, bool) or not 1 <= n <= 1000:
+        raise InvalidValueError("n_joints", n, "a whole number from 1 to 1000")
+    values, sources = _values(_mapping(block, "parameters"), PARAMETERS, n, "parameters.")
+    effects = []
+    for name in _mapping(block, "effects"):
+        effect: Effect = effect_named(name)
+        given = _mapping(_mapping(block, "effects"), name, "effects.")
+        own, own_sources = _values(given, effect.parameters, n, f"effects.{name}.")
+        effects.append(ActiveEffect(effect, own))
+        sources |= {f"{name}.{key}": source for key, source in own_sources.items()}
+    return Model(Parameters(**values), tuple(effects), sources)
+
+
+def save_model(model: Model, path: str | Path) -> None:
+    """Write a model so that :func:`load_model` gives it back.
+
+    Raises:
+        FileError: the file cannot be written.
+    """
+    parameters: dict[str, object] = {}
+    effects: dict[str, dict[str, object]] = {active.effect.name: {} for active in model.effects}
+    meanings = model.meanings()
+    for name, value in model.values().items():
+        number = float(value[0]) if (value == value[0]).all() else [float(item) for item in value]
+        entry = {"value": number, "unit": meanings[name].unit, "source": model.sources.get(name, "not stated")}
+        owner, _, key = name.rpartition(".")
+        (effects[owner] if owner else parameters)[key] = entry
+    written = {"n_joints": model.n_joints, "parameters": parameters, "effects": effects}
+    try:
+        Path(path).write_text(yaml.safe_dump(written, sort_keys=False), encoding="utf-8")
+    except OSError as error:
+        raise FileError(path, f"cannot be written ({error})") from error
+
+
+def _values(
+    block: Mapping[str, object], allowed: Mapping[str, Parameter], n: int, prefix: str
+) -> tuple[dict[str, Numbers], dict[str, str]]:
+    """Arrays and sources of a block of parameters."""
+    _only(block, allowed, prefix)
+    values, sources = {}, {}
+    for name, parameter in allowed.items():
+        if name not in block:
+            if parameter.default is None:
+                raise InvalidValueError(prefix + name, None, parameter.allowed)
+            values[name] = parameter.array(parameter.default, n, prefix + name)
+            continue
+        entry = _mapping(block, name, prefix)
+        _only(entry, ("value", "unit", "source"), f"{prefix}{name}.")
+        if entry.get("unit") != parameter.unit:
+            raise InvalidValueError(f"{prefix}{name}.unit", entry.get("unit"), repr(parameter.unit))
+        values[name] = parameter.array(entry.get("value"), n, prefix + name)
+        sources[name] = str(entry.get("source", "not stated"))
+    return values, sources
+
+
+def _mapping(block: Mapping[str, object], name: str, prefix: str = "") -> Mapping[str, object]:
+    found = block.get(name)
+    if found is None:
+        return {}
+    if not isinstance(found, Mapping):
+        raise InvalidValueError(prefix + name, found, _ENTRY)
+    return found
+
+
+def _only(block: Mapping[str, object], allowed: Iterable[str], prefix: str) -> None:
+    names = tuple(allowed)
+    for key in block:
+        if key not in names:
+            raise InvalidValueError(f"{prefix}{key}", block[key], "not known here; one of " + ", ".join(names))

@@ -1,0 +1,27 @@
+"""The two cables of a planar section: on which side they run, and how long a cable is in one module.
+
+Cable 1 runs at x = +a and bends the arm towards positive angles, cable 2 at x = -a. Its chord in a module whose joint
+stands at theta is l = 2 (b cos(theta / 2) - side a sin(theta / 2)): Eq. 8 in the plane, with one joint.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.parameters import Parameters
+
+SIDES = np.array([1.0, -1.0])
+"""Side of each cable, (n_cables,)."""
+
+
+def chord_lengths(theta: Numbers, p: Parameters) -> Numbers:
+    """Length of each cable in each module, (n, n_cables) [m]."""
+    half = theta[:, None] / 2
+    return 2 * (p.half_spacing[:, None] * np.cos(half) - SIDES * p.hole_radius[:, None] * np.sin(half))
+
+
+def chord_slopes(theta: Numbers, p: Parameters) -> Numbers:
+    """d l / d theta of the same, (n, n_cables) [m/rad]."""
+    half = theta[:, None] / 2
+    return -(p.half_spacing[:, None] * np.sin(half) + SIDES * p.hole_radius[:, None] * np.cos(half))

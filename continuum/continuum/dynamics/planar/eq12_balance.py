@@ -1,0 +1,36 @@
+"""Thesis Eq. 12, whole: M theta'' + C theta' + K (theta - theta_0) + G + F - J_s^T W B u, zero when it holds.
+
+Integrators, statics, inverse dynamics and fits all call this one sum.
+"""
+
+from __future__ import annotations
+
+from continuum.dynamics.expressions import Numbers, suffix_sum
+from continuum.dynamics.planar.eq12_cable_torque import cable_torque
+from continuum.dynamics.planar.eq12_coriolis_matrix import link_coriolis_matrix
+from continuum.dynamics.planar.eq12_gravity_torque import link_gravity_torque
+from continuum.dynamics.planar.eq12_inertia_matrix import link_inertia_matrix
+from continuum.dynamics.planar.eq12_spring_torque import spring_torque
+from continuum.dynamics.planar.eq13_joint_friction import joint_friction
+from continuum.dynamics.planar.instant import Instant
+
+
+def torque_balance(now: Instant) -> Numbers:
+    """Left side minus right side of Eq. 12, (n,) [N m]."""
+    move, p = now.motion, now.p
+    return (
+        rigid_body_torque(now)
+        + spring_torque(move.theta, p)
+        + joint_friction(move.theta_rate, p)
+        - cable_torque(move, now.u, p)
+    )
+
+
+def rigid_body_torque(now: Instant) -> Numbers:
+    """M theta'' + C theta' + G, (n,) [N m]; formed in the links' absolute angles, which a turning base moves too."""
+    move, p = now.motion, now.p
+    return suffix_sum(
+        link_inertia_matrix(move.link_angle, p) @ move.link_acceleration
+        + link_coriolis_matrix(move.link_angle, move.link_rate, p) @ move.link_rate
+        + link_gravity_torque(move.link_angle, p)
+    )

@@ -1,0 +1,45 @@
+"""Position, speed and acceleration of a planar chain: relative joint angles, and the links' absolute ones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.dynamics.expressions import Numbers
+
+
+@dataclass(frozen=True)
+class Motion:
+    """One instant of the arm.
+
+    Attributes:
+        theta, theta_rate, theta_acceleration: of the joints, (n,) [rad, rad/s, rad/s2].
+        base_angle, base_rate, base_acceleration: turn of the base plate itself, (1,); zero unless an effect turns it.
+    """
+
+    theta: Numbers
+    theta_rate: Numbers
+    theta_acceleration: Numbers
+    base_angle: Numbers
+    base_rate: Numbers
+    base_acceleration: Numbers
+
+    @property
+    def link_angle(self) -> Numbers:
+        """Angle of each link from the straight arm, (n,) [rad]."""
+        return self.base_angle + self.summed(self.theta)
+
+    @property
+    def link_rate(self) -> Numbers:
+        """Its rate, (n,) [rad/s]."""
+        return self.base_rate + self.summed(self.theta_rate)
+
+    @property
+    def link_acceleration(self) -> Numbers:
+        """And acceleration, (n,) [rad/s2]."""
+        return self.base_acceleration + self.summed(self.theta_acceleration)
+
+    def summed(self, joints: Numbers) -> Numbers:
+        """Sums from the base of what belongs to the joints, (n,)."""
+        return np.cumsum(joints)

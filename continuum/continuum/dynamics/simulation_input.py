@@ -1,0 +1,53 @@
+"""Checks of what a simulation is given."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.model import Model
+from continuum.errors import InvalidValueError
+
+
+def finite_array(name: str, given: object, allowed: str) -> Array:
+    """``given`` as an array of floats.
+
+    Raises:
+        InvalidValueError: it holds what is no number, or is not finite.
+    """
+    try:
+        array = np.asarray(given)
+    except ValueError as error:  # rows of different lengths
+        raise InvalidValueError(name, given, allowed) from error
+    if array.dtype.kind not in "iuf" or not np.all(np.isfinite(array)):
+        raise InvalidValueError(name, given, allowed)
+    return array.astype(float)
+
+
+def initial_state(model: Model, given: object) -> Array:
+    """A whole state (2 n + n_states,), of a whole one, or of joint angles alone (n,), which start at rest.
+
+    Raises:
+        InvalidValueError: another size, or not finite.
+    """
+    n, size = model.n_joints, 2 * model.n_joints + model.n_states
+    allowed = f"{size} finite numbers, or the {n} joint angles"
+    x = finite_array("initial state", given, allowed)
+    if x.shape == (n,):
+        x = np.concatenate([x, np.zeros(size - n)])
+    if x.shape != (size,):
+        raise InvalidValueError("initial state", given, allowed)
+    return x
+
+
+def output_times(given: object) -> Array:
+    """Times (n_times,) [s] as floats.
+
+    Raises:
+        InvalidValueError: none, not finite, or not increasing.
+    """
+    allowed = "finite, increasing numbers [s]"
+    times = finite_array("times", given, allowed)
+    if times.ndim != 1 or times.size < 1 or np.any(np.diff(times) <= 0):
+        raise InvalidValueError("times", given, allowed)
+    return times

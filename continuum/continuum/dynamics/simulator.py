@@ -1,0 +1,96 @@
+"""The fast simulation of a model: its compiled equations and the ESDIRK integrator."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.compiled.equations import CompiledEquations
+from continuum.dynamics.compiled.machine_code import address_of
+from continuum.dynamics.integration.esdirk import integrate
+from continuum.dynamics.integration.esdirk_tableau import Tableau, third_order
+from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.model import Model
+from continuum.dynamics.simulation_input import finite_array, initial_state, output_times
+from continuum.dynamics.tensions import Tensions, slack
+from continuum.dynamics.trajectory import SimulationStatus, Trajectory
+from continuum.dynamics.values import parameter_vector
+from continuum.errors import InvalidValueError
+
+_STATUS = (SimulationStatus.COMPLETE, SimulationStatus.STEP_TOO_SMALL, SimulationStatus.NOT_FINITE)
+
+
+class Simulator:
+    """Compiles a model's equations once; simulates with any values of its parameters.
+
+    Args:
+        model: the model; `run` takes the values from it unless told others.
+        tolerances: of integration.
+        tableau: the Runge-Kutta method, third order by default.
+    """
+
+    def __init__(self, model: Model, tolerances: Tolerances | None = None, tableau: Tableau | None = None) -> None:
+        self.model = model
+        self.tolerances = tolerances or Tolerances()
+        self._tableau = tableau or third_order()
+        self.equations = CompiledEquations(model)
+
+    def run(
+        self,
+        initial: Array,
+        times: Array,
+        tensions: Tensions | None = None,
+        values: Array | None = None,
+        free: Array | None = None,
+        free_initial: Array | None = None,
+    ) -> Trajectory:
+        """Simulate from ``times[0]`` to ``times[-1]``.
+
+        Args:
+            initial: state at the first time, (2 n + n_states,) [rad, rad/s, ...]; angles alone start at rest.
+            times: output times, increasing, (n_times,) [s].
+            tensions: of the cables; slack without.
+            values: flat parameter values as `parameter_vector` gives them, (n_p,); the model's own without.
+            free: directions in these values to differentiate by, (n_p, n_free).
+            free_initial: derivative of the initial state by the same free quantities, (n_x, n_free).
+
+        Raises:
+            InvalidValueError: an argument of the wrong shape, not finite, or times that do not increase.
+        """
+        n, tensions = self.model.n_joints, tensions or slack()
+        x0, times = initial_state(self.model, initial), output_times(times)
+        p = self._values(values)
+        directions, slope0 = self._free(p.size, x0.size, free, free_initial)
+        method, limits = self._tableau, self.tolerances
+        newton = address_of(self.equations.newton)
+        slopes = address_of(self.equations.slopes) if directions.shape[1] else 0
+        states, slopes, taken, refused, status = integrate(
+            newton, slopes, n, x0, p, times - times[0], tensions.times - times[0], tensions.values,
+            method.a, method.c, method.error, method.order, limits.relative, limits.absolute, limits.max_step,
+            np.ascontiguousarray(directions), np.ascontiguousarray(slope0),
+        )  # fmt: skip
+        return Trajectory(_STATUS[status], times, states, n, taken, refused, slopes)
+
+    def _values(self, given: Array | None) -> Array:
+        """Parameter values, (n_p,)."""
+        own = parameter_vector(self.model)
+        if given is None:
+            return own
+        values = finite_array("values", given, f"{own.size} finite numbers")
+        if values.shape != own.shape:
+            raise InvalidValueError("values", given, f"{own.size} finite numbers")
+        return values
+
+    @staticmethod
+    def _free(n_p: int, n_x: int, free: Array | None, free_initial: Array | None) -> tuple[Array, Array]:
+        """Directions (n_p, n_free) in the parameters, and (n_x, n_free) in the initial state."""
+        if free is None:
+            free = np.zeros((n_p, 0))
+        directions = finite_array("free", free, f"finite numbers, ({n_p}, n_free)")
+        if directions.ndim != 2 or directions.shape[0] != n_p:
+            raise InvalidValueError("shape of free", directions.shape, f"({n_p}, n_free)")
+        wanted = (n_x, directions.shape[1])
+        slope0 = finite_array("free_initial", np.zeros(wanted) if free_initial is None else free_initial, str(wanted))
+        if slope0.shape != wanted:
+            raise InvalidValueError("shape of free_initial", slope0.shape, str(wanted))
+        return directions, slope0

@@ -1,0 +1,33 @@
+"""All parameter values of a model as one vector, for fits and compiled code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.model import Model
+
+
+def parameter_vector(model: Model) -> Array:
+    """The values in the order of `Model.values`, (n_p,)."""
+    return np.concatenate([np.asarray(value, dtype=float) for value in model.values().values()])
+
+
+def parameter_slots(model: Model) -> dict[str, slice]:
+    """Where each parameter stands in that vector."""
+    slots, at = {}, 0
+    for name, value in model.values().items():
+        slots[name] = slice(at, at + len(value))
+        at += len(value)
+    return slots
+
+
+def shared_directions(model: Model, names: Sequence[str]) -> Array:
+    """Directions in the vector, one for each name, that change a parameter of all joints alike, (n_p, len(names))."""
+    slots = parameter_slots(model)
+    directions = np.zeros((parameter_vector(model).size, len(names)))
+    for column, name in enumerate(names):
+        directions[slots[name], column] = 1.0
+    return directions

@@ -1,0 +1,21 @@
+"""Compile the integrator's loops, or load them from their cache, before somebody waits for them.
+
+`python3 -m continuum.dynamics.warm_up` does it once for all programs after an installation.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.dynamics.model_file import load_model
+from continuum.dynamics.simulator import Simulator
+
+
+def warm_up() -> None:
+    """Simulate the prototype for an instant."""
+    model = load_model("lamecc_prototype.yaml")
+    Simulator(model).run(np.zeros(model.n_joints), np.array([0.0, 1e-3]))
+
+
+if __name__ == "__main__":
+    warm_up()

@@ -1,0 +1,164 @@
+"""J_s, W, B and u of Eqs. 14 to 17: the cables' virtual work, geometry, and their friction on the discs."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from continuum_laws.differences import differences
+from dynamics_laws import moving, prototype_model, random_parameters
+
+from continuum.arm import Section
+from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.planar.cables import SIDES, chord_lengths, chord_slopes
+from continuum.dynamics.planar.eq12_cable_torque import cable_torque
+from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation, wrap_angles
+from continuum.dynamics.planar.eq16_link_wrenches import link_wrenches
+from continuum.dynamics.planar.eq17_serial_jacobian import serial_jacobian, serial_jacobian_transposed_times
+from continuum.kinematics.cables import cable_lengths
+from continuum.kinematics.configuration import allen_from_jones
+
+each_size = pytest.mark.parametrize("n", [1, 2, 5, 8])
+
+
+def cases(n: int, seed: int, count: int = 8) -> list[tuple[Parameters, np.ndarray, np.ndarray, np.ndarray]]:
+    """Parameters with joint angles short of where holes meet, rates, and tensions at the base."""
+    random = np.random.default_rng([seed, n])
+    return [
+        (random_parameters(random, n), random.uniform(-0.5, 0.5, n), random.normal(size=n), random.uniform(0, 50, 2))
+        for _ in range(count)
+    ]
+
+
+def disc_poses(theta: np.ndarray, p: Parameters) -> np.ndarray:
+    """x, z and angle of every disc, (n, 3), link by link."""
+    at, angle, poses = np.zeros(2), 0.0, []
+    for turn, b, d in zip(theta, p.half_spacing, p.joint_spacing, strict=True):
+        angle += turn
+        along = np.array([np.sin(angle), np.cos(angle)])
+        poses.append([*(at + b * along), angle])
+        at = at + d * along
+    return np.array(poses)
+
+
+@each_size
+def test_serial_jacobian_is_the_slope_of_the_discs_poses(n: int) -> None:
+    for p, theta, _, _ in cases(n, 1):
+        J = differences(lambda q: disc_poses(q, p), theta)  # (n, 3, n)  # noqa: B023
+        for i, angle in enumerate(np.cumsum(theta)):  # into the link's frame
+            c, s = np.cos(angle), np.sin(angle)
+            J[i] = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ J[i]
+        np.testing.assert_allclose(serial_jacobian(np.cumsum(theta), p), J.reshape(3 * n, n), rtol=0, atol=1e-11)
+
+
+@each_size
+def test_torque_of_wrenches_is_the_transposed_serial_jacobian(n: int) -> None:
+    random = np.random.default_rng(n)
+    for p, theta, _, _ in cases(n, 2):
+        wrenches, angle = random.normal(size=(n, 3)), np.cumsum(theta)
+        torque = serial_jacobian(angle, p).T @ wrenches.reshape(-1)
+        np.testing.assert_allclose(serial_jacobian_transposed_times(wrenches, angle, p), torque, atol=1e-13)
+
+
+@each_size
+def test_wrenches_are_those_of_strings_through_holes(n: int) -> None:
+    """Each chord pulls, between points of two discs, along the line from one to the other."""
+    for p, theta, _, _ in cases(n, 3):
+        tensions = np.random.default_rng(n).uniform(0, 50, (n, 2))
+        poses, expected = np.concatenate([[[0, -p.half_spacing[0], 0]], disc_poses(theta, p)]), np.zeros((n + 1, 3))
+        for i in range(n):  # module i lies between disc i - 1 and disc i
+            for side, tension in zip(SIDES, tensions[i], strict=True):
+                low, high = (hole(pose, side * p.hole_radius[i]) for pose in poses[i : i + 2])
+                pull = tension * (high - low) / np.linalg.norm(high - low)
+                expected[i] += wrench(pull, low, poses[i])
+                expected[i + 1] += wrench(-pull, high, poses[i + 1])
+        np.testing.assert_allclose(link_wrenches(tensions, theta, p), expected[1:], rtol=0, atol=1e-11)
+
+
+def hole(pose: np.ndarray, offset: float) -> np.ndarray:
+    return pose[:2] + offset * np.array([np.cos(pose[2]), -np.sin(pose[2])])
+
+
+def wrench(force: np.ndarray, at: np.ndarray, pose: np.ndarray) -> np.ndarray:
+    """(F_x, F_z, M) at a disc's centre, in its frame, of a force at a point; moments turn z towards x."""
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    lever = at - pose[:2]
+    return np.array(
+        [c * force[0] - s * force[1], s * force[0] + c * force[1], lever[1] * force[0] - lever[0] * force[1]]
+    )
+
+
+@each_size
+def test_cable_torque_is_the_cables_virtual_work(n: int) -> None:
+    for p, theta, rate, u in cases(n, 4):
+        slopes = differences(lambda q: chord_lengths(q, p), theta)  # (n, n_cables, n)  # noqa: B023
+        tensions = tension_propagation(theta, rate, p) * u
+        work = -np.einsum("ij,ijk->k", tensions, slopes)
+        np.testing.assert_allclose(
+            cable_torque(moving(theta, rate), u, p), work, rtol=0, atol=1e-10 * np.abs(work).max()
+        )
+        np.testing.assert_allclose(chord_slopes(theta, p), np.einsum("iji->ij", slopes), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("n", [1, 4])
+@pytest.mark.parametrize("bend", [-0.9, 0.0, 1e-9, 0.3, 1.2])
+def test_chords_add_up_to_the_lengths_of_the_kinematics(n: int, bend: float) -> None:
+    """One section of n joints bent in the plane phi = 0, cables at azimuths 0 and pi; a third one is not compared."""
+    section = Section(name="s", n_joints=n, b=0.02, a=0.015, cable_azimuths=(0.0, np.pi, 1.0), bend_limit=1.3)
+    p = prototype_model(n).parameters
+    p = replace(p, half_spacing=np.full(n, section.b), hole_radius=np.full(n, section.a))
+    w = allen_from_jones(np.array(0.0 if bend >= 0 else np.pi), np.array(abs(bend)))
+    found = chord_lengths(np.full(n, bend / n), p).sum(axis=0)
+    np.testing.assert_allclose(found, cable_lengths(w, section)[:2], rtol=1e-13)
+
+
+def test_cable_1_bends_towards_positive_angles_and_grows_shorter() -> None:
+    p = prototype_model().parameters
+    straight, positive = np.zeros(5), np.full(5, 0.1)
+    np.testing.assert_array_less(0, cable_torque(moving(straight, straight), np.array([10.0, 0.0]), p))
+    np.testing.assert_array_less(cable_torque(moving(straight, straight), np.array([0.0, 10.0]), p), 0)
+    shortened = chord_lengths(straight, p) - chord_lengths(positive, p)
+    assert np.all(shortened[:, 0] > 0)
+    assert np.all(shortened[:, 1] < 0)
+
+
+def test_a_cable_does_not_push() -> None:
+    for p, theta, rate, u in cases(5, 5):
+        pulled = cable_torque(moving(theta, rate), u * [1, 0], p)
+        np.testing.assert_array_equal(cable_torque(moving(theta, rate), np.array([u[0], -7.0]), p), pulled)
+        np.testing.assert_array_equal(cable_torque(moving(theta, rate), np.array([-1.0, -7.0]), p), np.zeros(5))
+
+
+@pytest.mark.parametrize("cable", [0, 1])
+def test_losses_are_as_printed_where_the_arm_bends_one_way_and_the_cable_is_taken_in(cable: int) -> None:
+    """Eq. 15: T_i = u exp(-mu_c (theta_1 + ... + theta_(i-1) + theta_i / 2))."""
+    random, side = np.random.default_rng(6), SIDES[cable]
+    p = replace(random_parameters(random, 5), cable_slope=np.array([1e6]))
+    theta, rate = side * random.uniform(0.05, 0.5, 5), side * random.uniform(0.5, 2.0, 5)
+    printed = np.exp(-p.capstan_friction * (np.cumsum(np.abs(theta)) - np.abs(theta) / 2))
+    np.testing.assert_allclose(tension_propagation(theta, rate, p)[:, cable], printed, rtol=1e-12)
+    paid_out = tension_propagation(theta, -rate, p)[:, cable]
+    np.testing.assert_allclose(paid_out, 1 / printed, rtol=1e-12)  # rises towards the tip
+    assert np.all(np.diff(paid_out) > 0)
+
+
+def test_wrap_is_the_angle_between_neighbouring_chords() -> None:
+    """The chord of module i leans by half its joint's angle from both of its links."""
+    theta = np.array([0.4, 0.2, -0.3, -0.1, 0.3])
+    leans = np.concatenate([[0.0], np.cumsum(theta) - theta / 2])  # before the base plate the cable is straight
+    np.testing.assert_allclose(wrap_angles(theta), np.abs(np.diff(leans)), rtol=1e-14)
+
+
+@each_size
+def test_friction_on_the_discs_takes_power(n: int) -> None:
+    """What is put in at the base, u times the speed taken in, is never less than what reaches the modules."""
+    for p, theta, rate, u in cases(n, 7, count=30):
+        taken_in = -chord_slopes(theta, p) * rate[:, None]
+        lost = u * taken_in.sum(axis=0) - np.sum(tension_propagation(theta, rate, p) * u * taken_in, axis=0)
+        assert np.all(lost >= -1e-12)
+        assert np.any(lost > 1e-9)
+
+
+def test_no_capstan_friction_no_loss() -> None:
+    for p, theta, rate, _ in cases(5, 8):
+        p = replace(p, capstan_friction=np.zeros(1))
+        np.testing.assert_array_equal(tension_propagation(theta, rate, p), np.ones((5, 2)))

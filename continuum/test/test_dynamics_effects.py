@@ -1,0 +1,189 @@
+"""Effects beyond Eq. 12: each hook does what it says, effects compose, and at their defaults they are absent."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from dynamics_laws import (
+    FRICTIONLESS,
+    LaggingDrive,
+    Sag,
+    TipLoad,
+    TurningBase,
+    Wind,
+    accelerations,
+    active,
+    random_model,
+    random_parameters,
+)
+
+from continuum.dynamics.balance import balance
+from continuum.dynamics.effect import Effect
+from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.tensions import Tensions
+from continuum.dynamics.values import parameter_slots, parameter_vector
+from continuum.errors import InvalidValueError
+
+N = 3
+U = np.array([2.0, 1.0])
+
+
+def instant(seed: int, n_states: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    """State and rates; the effects' states follow."""
+    random = np.random.default_rng(seed)
+    return random.uniform(-0.5, 0.5, 2 * N + n_states), random.normal(size=N + n_states)
+
+
+def with_effects(*effects: ActiveEffect) -> Model:
+    return random_model(41, N, effects)
+
+
+PLAIN = with_effects()
+
+
+@pytest.mark.parametrize("effect", [Effect, TipLoad, Wind, Sag])
+def test_an_effect_without_states_is_absent_at_its_defaults(effect: Callable[[], Effect]) -> None:
+    x, v = instant(1)
+    np.testing.assert_array_equal(balance(with_effects(active(effect(), N)), x, v, U), balance(PLAIN, x, v, U))
+
+
+def test_a_base_that_does_not_turn_is_absent() -> None:
+    x, v = instant(2)
+    turning = with_effects(active(TurningBase()))
+    found = balance(turning, np.append(x, [0.0, 0.0]), np.append(v, [0.0, 0.0]), U)
+    np.testing.assert_array_equal(found, np.append(balance(PLAIN, x, v, U), [0.0, 0.0]))
+
+
+def test_a_drive_that_has_caught_up_is_absent() -> None:
+    x, v = instant(3)
+    found = balance(with_effects(active(LaggingDrive(), lag=0.5)), np.append(x, U), np.append(v, [0.0, 0.0]), 99 * U)
+    np.testing.assert_array_equal(found, np.append(balance(PLAIN, x, v, U), [0.0, 0.0]))
+
+
+def test_changed_parameters_are_those_of_another_model() -> None:
+    x, v = instant(4)
+    mass = PLAIN.parameters.mass + np.array([0.0, 0.0, 0.3])
+    found = balance(with_effects(active(TipLoad(), mass=0.3)), x, v, U)
+    np.testing.assert_array_equal(found, balance(PLAIN.with_values({"mass": mass}), x, v, U))
+
+
+def test_an_added_torque_stands_on_the_left() -> None:
+    x, v = instant(5)
+    found = balance(with_effects(active(Wind(), N, torque=0.25)), x, v, U)
+    np.testing.assert_allclose(found, balance(PLAIN, x, v, U) + 0.25, rtol=1e-14)
+
+
+def test_a_tilted_base_is_a_turned_hang_angle() -> None:
+    x, v = instant(6)
+    found = balance(with_effects(active(TurningBase(), tilt=0.4)), np.append(x, [0, 0]), np.append(v, [0, 0]), U)
+    turned = PLAIN.with_values({"hang_angle": PLAIN.parameters.hang_angle + 0.4})
+    np.testing.assert_allclose(found[:N], balance(turned, x, v, U), rtol=1e-12)
+
+
+def test_a_turning_base_moves_the_links_as_a_joint_would() -> None:
+    """Without what hangs on the first joint's own angle, it does not matter what turns the first link."""
+    nothing = FRICTIONLESS | {"stiffness": 0.0}
+    x, v = instant(7, 2)
+    found = balance(with_effects(active(TurningBase())).with_values(nothing), x, v, np.zeros(2))
+    joint = x[: 2 * N].copy(), v[:N].copy()
+    joint[0][[0, N]] += x[2 * N :]
+    joint[1][0] += v[-1]
+    np.testing.assert_allclose(found[:N], balance(PLAIN.with_values(nothing), *joint, np.zeros(2)), rtol=1e-12)
+
+
+def test_effects_compose() -> None:
+    """Each has its own states and values; together they do what they do alone, whatever their order."""
+    effects = [
+        active(TurningBase(), tilt=0.2, frequency=3.0),
+        active(TipLoad(), mass=0.2),
+        active(LaggingDrive(), lag=0.1),
+        active(Wind(), N, torque=-0.1),
+    ]
+    x, v = instant(8, 4)
+    x, v = np.abs(x), v  # tensions of the drive are none below zero
+    one = balance(with_effects(*effects), x, v, U)
+    swap_x, swap_v = np.r_[0 : 2 * N, 2 * N + 2, 2 * N + 3, 2 * N, 2 * N + 1], np.r_[0:N, N + 2, N + 3, N, N + 1]
+    other = balance(with_effects(*effects[::-1]), x[swap_x], v[swap_v], U)
+    np.testing.assert_allclose(other, one[swap_v], rtol=1e-12)
+    np.testing.assert_allclose(one[N : N + 2], [v[N] - x[2 * N + 1], v[N + 1] + 9.0 * x[2 * N]], rtol=1e-12)
+    np.testing.assert_allclose(one[N + 2 :], 0.1 * v[N + 2 :] + x[2 * N + 2 :] - U, rtol=1e-12)
+
+
+def test_a_simulated_base_swings_and_a_simulated_drive_follows() -> None:
+    times = np.linspace(0.0, 0.5, 26)
+    model = with_effects(active(TurningBase(), frequency=7.0), active(LaggingDrive(), lag=0.1))
+    x0 = np.concatenate([np.zeros(2 * N), [0.3, 0.0], [0.0, 0.0]])
+    states = Simulator(model, Tolerances(1e-7, 1e-8, 0.05)).run(x0, times).states
+    np.testing.assert_allclose(states[:, 2 * N], 0.3 * np.cos(7 * times), rtol=0, atol=1e-5)
+    np.testing.assert_allclose(states[:, 2 * N + 2 :], (1 - np.exp(-times / 0.1))[:, None] * U, rtol=0, atol=1e-5)
+    assert np.ptp(states[:, :N], axis=0).min() > 1e-2
+
+
+def test_a_drive_without_lag_is_an_equation_without_rates_of_its_own() -> None:
+    """At the default lag the state's equation holds no rate: the matrix is singular, and that is told."""
+    found = Simulator(with_effects(active(LaggingDrive()))).run(
+        np.append(np.zeros(2 * N), U), [0.0, 0.1], Tensions([0.0], [U])
+    )
+    assert not found.status.value.startswith("complete")
+
+
+def test_names_of_values() -> None:
+    model = with_effects(active(TipLoad(), mass=0.1), active(Wind(), N, torque=0.2))
+    assert list(model.values())[-2:] == ["tip_load.mass", "wind.torque"]
+    assert list(model.values()) == list(model.meanings()) == list(parameter_slots(model))
+    assert parameter_vector(model).size == parameter_slots(model)["wind.torque"].stop
+    changed = model.with_values({"tip_load.mass": 0.5, "stiffness": 1.0})
+    assert changed.values()["tip_load.mass"] == [0.5]
+    np.testing.assert_array_equal(changed.parameters.stiffness, np.ones(N))
+    assert model.values()["tip_load.mass"] == [0.1]
+    x, v = instant(9)
+    mass = model.parameters.mass + np.array([0.0, 0.0, 0.5])
+    np.testing.assert_allclose(
+        balance(changed, x, v, U),
+        balance(PLAIN.with_values({"mass": mass, "stiffness": 1.0}), x, v, U) + 0.2,
+        rtol=1e-13,
+    )
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"stifness": 1.0},
+        {"wind.torque": 0.1},
+        {"stiffness": -1.0},
+        {"stiffness": [1.0, 2.0]},
+        {"stiffness": np.ones((N, 1))},
+        {"stiffness": True},
+        {"stiffness": "1"},
+        {"stiffness": None},
+        {"stiffness": 1j},
+        {"stiffness": np.complex128(1j)},
+        {"stiffness": []},
+        {"stiffness": 10**400},
+        {"gravity": [9.81, 9.81, 9.81]},
+        {"mass": np.nan},
+        {"hang_angle": 4.0},
+    ],
+)
+def test_bad_values_are_told(changed: dict[str, object]) -> None:
+    with pytest.raises(InvalidValueError, match="allowed"):
+        PLAIN.with_values(changed)
+
+
+@pytest.mark.parametrize("value", [1.0, 1, np.float32(1.0), np.int64(1), np.array(1.0), [1.0], (1, 1.0, 1), np.ones(N)])
+def test_numbers_of_every_kind_are_taken(value: object) -> None:
+    np.testing.assert_array_equal(PLAIN.with_values({"stiffness": value}).parameters.stiffness, np.ones(N))
+
+
+def test_models_do_not_share_their_arrays() -> None:
+    given = np.ones(N)
+    model = PLAIN.with_values({"stiffness": given})
+    given[0] = 7.0
+    np.testing.assert_array_equal(model.parameters.stiffness, np.ones(N))
+
+
+def test_accelerations_balance() -> None:
+    model, (x, _) = Model(random_parameters(np.random.default_rng(42), N)), instant(10)
+    np.testing.assert_allclose(balance(model, x, accelerations(model, x, U), U), 0, atol=1e-12)

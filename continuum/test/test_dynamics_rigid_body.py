@@ -1,0 +1,117 @@
+"""M, C, G, K and F of Eq. 12: properties of mechanics, and an independent engine of rigid bodies."""
+
+import mujoco
+import numpy as np
+import pytest
+from continuum_laws.differences import differences
+from dynamics_laws import moving, prototype_model, random_parameters
+
+from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.planar.eq12_balance import rigid_body_torque
+from continuum.dynamics.planar.eq12_coriolis_matrix import coriolis_matrix
+from continuum.dynamics.planar.eq12_gravity_torque import gravity_potential, gravity_torque
+from continuum.dynamics.planar.eq12_inertia_matrix import inertia_matrix
+from continuum.dynamics.planar.eq12_spring_torque import spring_potential, spring_torque
+from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, dry_friction, joint_friction
+from continuum.dynamics.planar.instant import Instant
+
+each_size = pytest.mark.parametrize("n", [1, 2, 5, 8])
+
+
+def cases(n: int, seed: int, count: int = 8) -> list[tuple[Parameters, np.ndarray, np.ndarray, np.ndarray]]:
+    """Parameters with joint angles, rates and accelerations."""
+    random = np.random.default_rng([seed, n])
+    return [
+        (random_parameters(random, n), random.normal(size=n), 5 * random.normal(size=n), 50 * random.normal(size=n))
+        for _ in range(count)
+    ]
+
+
+@each_size
+def test_inertia_is_symmetric_and_positive_definite(n: int) -> None:
+    for p, theta, _, _ in cases(n, 1):
+        M = inertia_matrix(np.cumsum(theta), p)
+        np.testing.assert_allclose(M, M.T, rtol=1e-14)
+        assert np.linalg.eigvalsh(M)[0] > 0
+
+
+@each_size
+def test_rate_of_inertia_less_twice_coriolis_is_skew(n: int) -> None:
+    for p, theta, rate, _ in cases(n, 2):
+        M_rate = differences(lambda t: inertia_matrix(np.cumsum(theta + t * rate), p), [0.0], 1e-3)[..., 0]  # noqa: B023
+        C = coriolis_matrix(np.cumsum(theta), np.cumsum(rate), p)
+        N = M_rate - 2 * C
+        np.testing.assert_allclose(N + N.T, 0, atol=1e-9 * (np.abs(M_rate).max() + np.abs(C).max()))
+
+
+@each_size
+def test_gravity_and_springs_are_slopes_of_their_potentials(n: int) -> None:
+    for p, theta, _, _ in cases(n, 3):
+        slope = differences(lambda q: gravity_potential(np.cumsum(q), p), theta)[0]  # noqa: B023
+        np.testing.assert_allclose(gravity_torque(np.cumsum(theta), p), slope, rtol=1e-9, atol=1e-12)
+        slope = differences(lambda q: np.sum(spring_potential(q, p)), theta)  # noqa: B023
+        np.testing.assert_allclose(spring_torque(theta, p), slope, rtol=1e-9, atol=1e-12)
+
+
+class Engine:
+    """MuJoCo's planar chain with the same links; z along the straight arm, positive angles turn z towards x."""
+
+    def __init__(self, p: Parameters) -> None:
+        bodies = ""
+        for i in reversed(range(p.n_joints)):
+            at = p.half_spacing[i - 1] + p.half_spacing[i] if i else 0.0
+            inertia = " ".join([f"{p.inertia[i]:.17g}"] * 3)
+            bodies = (
+                f'<body pos="0 0 {at:.17g}"><joint type="hinge" axis="0 1 0"/><inertial mass="{p.mass[i]:.17g}" '
+                f'pos="0 0 {p.center_of_mass[i]:.17g}" diaginertia="{inertia}"/>{bodies}</body>'
+            )
+        xml = f'<mujoco><compiler boundinertia="0"/><worldbody>{bodies}</worldbody></mujoco>'
+        self.model = mujoco.MjModel.from_xml_string(xml)
+        beta = p.hang_angle[0]
+        self.model.opt.gravity = p.gravity[0] * np.array([-np.sin(beta), 0.0, np.cos(beta)])
+        self.data = mujoco.MjData(self.model)
+
+    def inertia(self, theta: np.ndarray) -> np.ndarray:
+        self.bias(theta, 0 * theta)
+        M = np.zeros((theta.size, theta.size))
+        mujoco.mj_fullM(self.model, self.data, M)
+        return M
+
+    def bias(self, theta: np.ndarray, rate: np.ndarray) -> np.ndarray:
+        """C theta' + G [N m]."""
+        self.data.qpos[:], self.data.qvel[:] = theta, rate
+        mujoco.mj_forward(self.model, self.data)
+        return self.data.qfrc_bias.copy()
+
+
+@each_size
+def test_rigid_body_terms_are_those_of_an_independent_engine(n: int) -> None:
+    for p, theta, rate, acceleration in cases(n, 4):
+        engine, angle = Engine(p), np.cumsum(theta)
+        M, still, biased = engine.inertia(theta), engine.bias(theta, 0 * theta), engine.bias(theta, rate)
+        expected = (
+            (inertia_matrix(angle, p), M),
+            (gravity_torque(angle, p), still),
+            (coriolis_matrix(angle, np.cumsum(rate), p) @ rate, biased - still),
+            (rigid_body_torque(Instant(moving(theta, rate, acceleration), np.zeros(2), p)), M @ acceleration + biased),
+        )
+        for found, theirs in expected:
+            scale = np.abs(biased).max() if theirs.ndim == 1 else np.abs(M).max()
+            np.testing.assert_allclose(found, theirs, rtol=0, atol=1e-12 * scale)
+
+
+@each_size
+def test_friction_is_odd_and_takes_power(n: int) -> None:
+    for p, _, rate, _ in cases(n, 5):
+        F = joint_friction(rate, p)
+        np.testing.assert_allclose(joint_friction(-rate, p), -F, rtol=1e-14)
+        assert np.all(F * rate > 0)
+
+
+def test_friction_is_that_of_the_thesis() -> None:
+    """Eq. 13 at Table 3's values, by hand, at the Stribeck speed."""
+    p, speed = prototype_model(1).parameters, np.array([0.2994])
+    dry = 0.0413 * (1 + 0.7472 / np.e)
+    np.testing.assert_allclose(joint_friction(speed, p), 0.0314 * 0.2994 + dry, rtol=1e-12)
+    np.testing.assert_allclose(break_away_torque(p), 0.0413 * 1.7472, rtol=1e-12)
+    np.testing.assert_allclose(dry_friction(100 * speed, p), 0.0413, rtol=1e-12)
