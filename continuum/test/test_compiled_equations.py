@@ -18,7 +18,7 @@ from continuum.kinematics.compiled import equations
 from continuum.kinematics.compiled.arm_arrays import arm_arrays
 from continuum.kinematics.compiled.rate import run_tip_rate
 from continuum.kinematics.compiled.solver import run_solver
-from continuum.kinematics.compiled.task import TargetArrays, evaluate
+from continuum.kinematics.compiled.task import TargetArrays, evaluate, target_of
 from continuum.kinematics.compiled.tip import tip_and_jacobian
 from continuum.kinematics.compiled.warm_up import warm_up
 from continuum.kinematics.differential import DIRECTION, POSE, POSITION, DifferentialKinematics, least_bending
@@ -56,7 +56,7 @@ def test_the_task_tells_distance_and_angle_and_the_descent_of_its_squared_error(
     postures = random_postures(arm, 6, seed=1) + 0.2 * random_postures(arm, 6, seed=2)
     distances, angles = misses(arm, postures, targets)
     for k, w in enumerate(postures):
-        target = TargetArrays(kind, weight, targets.positions[k], targets.axes[k])
+        target = target_of(targets.rows[k], weight)
 
         def half_square(x: np.ndarray, target: TargetArrays = target) -> np.ndarray:
             squares = []

@@ -10,7 +10,7 @@ from continuum.errors import InvalidValueError
 from continuum.kinematics import fabrikc
 from continuum.kinematics.chain import arm_pose, section_tip_poses
 from continuum.kinematics.compiled.arm_arrays import arm_arrays
-from continuum.kinematics.compiled.task import TargetArrays
+from continuum.kinematics.compiled.task import target_of
 from continuum.kinematics.configuration import allen_from_jones, bend
 from continuum.kinematics.fabrikc import leg_length, solve_fabrikc
 from continuum.kinematics.ik_result import IkStatus
@@ -35,7 +35,7 @@ def test_passes_leave_a_solution_where_it_is(with_direction: bool) -> None:
     for w in random_postures(arm, 10, seed=1, largest=1.3):
         tips = section_tip_poses(w, arm)
         targets = targets_at(arm, w[None], DIRECTION if with_direction else POSITION)
-        target = TargetArrays(targets.kind, 0.1, targets.positions[0], targets.axes[0])
+        target = target_of(targets.rows[0], 0.1)
         tangents = np.ascontiguousarray(tips[:, :3, 2])
         joints = np.empty((4, 3))
         fabrikc._place_joints(arrays, tangents, joints)

@@ -68,8 +68,8 @@ def page(
 Made by `make bench-ik` (seed {options.seed}). Targets are tip positions and directions of random postures, {n} for
 every row, {options.targets} for every start and tolerance; sections are the prototype's (Table 1: five joints,
 b = 19.25 mm), turned by 30 degrees each, with bend limits of 180 degrees. A target counts as solved when the forward
-kinematics says so. Times are of single Python calls on one core of a shared two-core machine: read them as ratios
-within the page.
+kinematics says so. Times are of single Python calls, the making of the target and its checks included, on one core of a
+shared two-core machine: read them as ratios within the page.
 
 ## The solver
 

@@ -38,14 +38,15 @@ class Score:
 
 
 def score_solver(sample: Sample, tolerance: float, from_random: bool) -> Score:
-    """Time the call that a program makes, target by target; the making of the target object is not counted."""
+    """Time what a program does target by target: it makes the target, which checks it, and calls the solver."""
     solver = InverseKinematics(sample.arm, tolerance)
     n = len(sample.targets)
     times, iterations, solved = np.empty(n), np.empty(n), np.zeros(n, bool)
-    for k, target in each_target(sample, n):
-        start = sample.starts[k] if from_random else None
+    positions, directions = sample.targets.positions, sample.targets.directions
+    for k in range(n):
+        position, direction, start = positions[k], directions[k], sample.starts[k] if from_random else None
         began = time.perf_counter()
-        result = solver.solve(target, start)
+        result = solver.solve(Target(position, direction), start)
         times[k] = time.perf_counter() - began
         iterations[k], solved[k] = result.iterations, arrived(sample, k, result.configuration, tolerance)
     return _score(times, iterations, solved)
@@ -77,9 +78,8 @@ def score_helix() -> tuple[Score, Score, float]:
     times, iterations, solved = np.empty(len(positions)), np.empty(len(positions)), np.zeros(len(positions), bool)
     w = begin
     for k, position in enumerate(positions):
-        target = Target(position)
         began = time.perf_counter()
-        result = solver.solve(target, w)
+        result = solver.solve(Target(position), w)
         times[k] = time.perf_counter() - began
         w, iterations[k], solved[k] = result.configuration, result.iterations, result.solved
     single = _score(times, iterations, solved)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.kinematics.compiled.arm_arrays import arm_arrays
+from continuum.kinematics.compiled.arm_arrays import arm_arrays, arm_table
 from continuum.kinematics.compiled.limits import pull_within
 from continuum.kinematics.compiled.rate import run_tip_rate
 from continuum.kinematics.compiled.task import radian_in_metres
@@ -46,7 +46,9 @@ class DifferentialKinematics:
     def __init__(self, arm: Arm, kind: int = POSITION) -> None:
         self.arm = arm
         self.kind = kind
+        self._table = arm_table(arm)
         self._arrays = arm_arrays(arm)
+        self._weight = radian_in_metres(arm)
 
     def rate(
         self, w: ArrayLike, velocity: ArrayLike, spin: ArrayLike = (0.0, 0.0, 0.0), wish: ArrayLike | None = None
@@ -60,9 +62,9 @@ class DifferentialKinematics:
         """
         w = configuration_of(self.arm, w)
         rate, moved, held = run_tip_rate(
-            self._arrays,
+            self._table,
             self.kind,
-            radian_in_metres(self.arm),
+            self._weight,
             w.reshape(-1),
             finite("velocity", velocity, (3,)),
             finite("spin", spin, (3,)),

@@ -16,10 +16,10 @@ import numpy as np
 
 from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.kinematics.compiled.arm_arrays import ArmArrays, arm_arrays
+from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, ArmArrays, arm_table, arrays_of
 from continuum.kinematics.compiled.equations import compiled, entry_point
 from continuum.kinematics.compiled.limits import pull_within
-from continuum.kinematics.compiled.task import TargetArrays, evaluate, radian_in_metres
+from continuum.kinematics.compiled.task import TargetArrays, miss, radian_in_metres, target_of
 from continuum.kinematics.ik_result import IkResult, IkStatus
 from continuum.kinematics.ik_target import POSITION, Target, configuration_of
 from continuum.kinematics.rigid import IDENTITY, product, turned_about_z
@@ -53,8 +53,9 @@ def solve_fabrikc(
     """
     target = Target(position, direction)
     w = configuration_of(arm, start).reshape(-1)
-    arrays = TargetArrays(target.kind, radian_in_metres(arm), target.position, target.axes[0])
-    iterations, distance, angle = _fabrikc(arm_arrays(arm), arrays, w, float(tolerance), max_iterations)
+    iterations, distance, angle = _fabrikc(
+        arm_table(arm), radian_in_metres(arm), target.rows[0], w, float(tolerance), max_iterations
+    )
     solved = distance <= tolerance and angle <= tolerance
     status = IkStatus.SOLVED if solved else IkStatus.NO_CONVERGENCE
     return IkResult(w.reshape(-1, 2), status, iterations, distance, angle)
@@ -69,10 +70,11 @@ def fabrikc(
     Returns:
         Iterations, distance [m] and angle [rad] of that configuration.
     """
-    error, jacobian = np.empty(target.n_rows), np.empty((6, len(w)))
+    error = np.empty(target.n_rows)
+    bases, tips = np.empty((len(arm.b) + 1, 9)), np.empty((len(arm.b), 3))
     pull_within(arm, w)
-    distance, angle = evaluate(arm, target, w, error, jacobian)
-    tangents = _tip_tangents(arm, w)
+    distance, angle = miss(arm, target, w, error, bases, tips)
+    tangents = bases[1:, 2::3].copy()  # third columns: a section's base has the z axis of the tip before it
     joints = np.empty_like(tangents)
     _place_joints(arm, tangents, joints)
     trial = w.copy()
@@ -82,7 +84,7 @@ def fabrikc(
         _backward(arm, target, joints, tangents)
         _forward(arm, target, joints, tangents)
         _configuration_from_tangents(arm, tangents, trial)
-        trial_distance, trial_angle = evaluate(arm, target, trial, error, jacobian)
+        trial_distance, trial_angle = miss(arm, target, trial, error, bases, tips)
         if trial_distance + target.weight * trial_angle < distance + target.weight * angle:
             w[:] = trial
             distance, angle = trial_distance, trial_angle
@@ -159,18 +161,6 @@ def _bend_within(free: Array, fixed: Array, bend_limit: float) -> tuple[Array, f
 
 
 @compiled
-def _tip_tangents(arm: ArmArrays, w: Array) -> Array:
-    """Tip tangents (n_sections, 3) of the sections, in ``base_link``, at ``w`` (2 n_sections,) [rad]."""
-    tangents = np.empty((len(arm.b), 3))
-    rotation = IDENTITY
-    for i in range(len(arm.b)):
-        base = turned_about_z(rotation, arm.cos_twist[i], arm.sin_twist[i])
-        rotation = product(base, rotation_entries(w[2 * i], w[2 * i + 1]))
-        tangents[i, 0], tangents[i, 1], tangents[i, 2] = rotation[2], rotation[5], rotation[8]
-    return tangents
-
-
-@compiled
 def _configuration_from_tangents(arm: ArmArrays, tangents: Array, w: Array) -> None:
     """Fill ``w`` (2 n_sections,) [rad] of the arm whose sections end with the tangents (n_sections, 3)."""
     rotation = IDENTITY
@@ -215,9 +205,9 @@ def _base_axis() -> Array:
 
 
 def _build(digest: str) -> Callable[..., Any]:
-    def run(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, max_iterations: int) -> Any:
+    def run(table: Array, weight: float, row: Array, w: Array, tolerance: float, max_iterations: int) -> Any:
         _ = digest
-        return fabrikc(arm, target, w, tolerance, max_iterations)
+        return fabrikc(arrays_of(table, table[BEND_LIMIT]), target_of(row, weight), w, tolerance, max_iterations)
 
     return run
 

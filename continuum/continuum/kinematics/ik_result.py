@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +21,7 @@ class IkStatus(enum.IntEnum):
     NO_CONVERGENCE = 3
 
 
-@dataclass(frozen=True)
-class IkResult:
+class IkResult(NamedTuple):
     """A configuration and how well it meets its target.
 
     Attributes:

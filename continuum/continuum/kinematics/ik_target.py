@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -16,11 +13,14 @@ POSITION, DIRECTION, POSE = 3, 5, 6
 """Kinds of target, by the number of conditions that they set."""
 
 
-@dataclass(frozen=True, eq=False)
-class Targets:
-    """Targets of one kind.
+_ROUNDING = 1e-15
+_KINDS = {3: POSITION, 6: DIRECTION, 12: POSE}
 
-    Attributes:
+
+class Targets:
+    """Targets of one kind. They hold copies of what was given, and do not change.
+
+    Args:
         positions: (n, 3) [m] in ``base_link``.
         directions: where the tip's z axis shall point, (n, 3), of any length but zero; None where it is free.
         rotations: of the tip frame in ``base_link``, (n, 3, 3), or None. Excludes ``directions``.
@@ -29,38 +29,47 @@ class Targets:
         InvalidValueError: wrong shape, not finite, a direction of length zero, no rotation, or both given.
     """
 
-    positions: Array
-    directions: Array | None = None
-    rotations: Array | None = None
+    __slots__ = ("_rows",)
 
-    def __post_init__(self) -> None:
-        positions = finite("positions", self.positions, (-1, 3))
-        object.__setattr__(self, "positions", positions)
-        if self.directions is not None and self.rotations is not None:
-            raise InvalidValueError("directions", self.directions, "none beside rotations, which have them already")
-        if self.directions is not None:
-            directions = finite("directions", self.directions, (len(positions), 3))
-            object.__setattr__(self, "directions", _unit_vectors(directions))
-        if self.rotations is not None:
-            rotations = finite("rotations", self.rotations, (len(positions), 3, 3))
-            object.__setattr__(self, "rotations", _orthonormal(rotations))
+    def __init__(
+        self, positions: ArrayLike, directions: ArrayLike | None = None, rotations: ArrayLike | None = None
+    ) -> None:
+        points = finite("positions", positions, (-1, 3))
+        n = len(points)
+        self._rows = points
+        _refuse_both(directions, rotations)
+        if directions is not None:
+            self._rows = _side_by_side(points, _unit_vectors(finite("directions", directions, (n, 3))))
+        elif rotations is not None:
+            self._rows = _side_by_side(points, _orthonormal(finite("rotations", rotations, (n, 3, 3))).reshape(n, 9))
 
     def __len__(self) -> int:
-        return len(self.positions)
+        return len(self._rows)
+
+    @property
+    def rows(self) -> Array:
+        """What is wanted, (n, 3), (n, 6) or (n, 12): positions, and behind them directions or rotations row by row."""
+        return self._rows
 
     @property
     def kind(self) -> int:
         """POSITION, DIRECTION or POSE."""
-        return POSE if self.rotations is not None else POSITION if self.directions is None else DIRECTION
+        return _KINDS[self._rows.shape[1]]
 
-    @cached_property
-    def axes(self) -> Array:
-        """Matrices (n, 3, 3) that hold what is wanted: the rotations, or the directions as their third columns."""
-        if self.rotations is not None:
-            return self.rotations
-        axes = np.zeros((len(self), 3, 3))
-        axes[:, :, 2] = (0.0, 0.0, 1.0) if self.directions is None else self.directions
-        return axes
+    @property
+    def positions(self) -> Array:
+        """(n, 3) [m]."""
+        return self._rows[:, :3]
+
+    @property
+    def directions(self) -> Array | None:
+        """Unit vectors (n, 3), or None where no direction was asked for."""
+        return self._rows[:, 3:] if self.kind == DIRECTION else None
+
+    @property
+    def rotations(self) -> Array | None:
+        """(n, 3, 3), or None where no rotation was asked for."""
+        return self._rows[:, 3:].reshape(-1, 3, 3) if self.kind == POSE else None
 
 
 class Target(Targets):
@@ -75,25 +84,28 @@ class Target(Targets):
         InvalidValueError: as for :class:`Targets`.
     """
 
+    __slots__ = ()
+
     def __init__(
         self, position: ArrayLike, direction: ArrayLike | None = None, rotation: ArrayLike | None = None
     ) -> None:
-        super().__init__(
-            finite("position", position, (3,))[None],
-            None if direction is None else finite("direction", direction, (3,))[None],
-            None if rotation is None else finite("rotation", rotation, (3, 3))[None],
-        )
+        self._rows = finite("position", position, (3,)).reshape(1, 3)
+        _refuse_both(direction, rotation)
+        if direction is not None:
+            self._rows = _side_by_side(self._rows, _unit_vectors(finite("direction", direction, (3,))[None]))
+        elif rotation is not None:
+            self._rows = _side_by_side(self._rows, _orthonormal(finite("rotation", rotation, (3, 3))).reshape(1, 9))
 
     @property
     def position(self) -> Array:
         """(3,) [m]."""
-        position: Array = self.positions[0]
+        position: Array = self._rows[0, :3]
         return position
 
     @property
     def direction(self) -> Array | None:
         """Unit vector (3,), or None where it is free."""
-        return None if self.directions is None else self.directions[0]
+        return self._rows[0, 3:] if self.kind == DIRECTION else None
 
 
 def configuration_of(arm: Arm, start: ArrayLike | None) -> Array:
@@ -111,30 +123,53 @@ def finite(name: str, value: object, shape: tuple[int, ...]) -> Array:
     Raises:
         InvalidValueError: it is none.
     """
-    words = " x ".join("n" if count < 0 else str(count) for count in shape)
-    allowed = "three finite numbers" if shape == (3,) else f"finite numbers, {words}"
     try:
         array = np.array(value, dtype=float, order="C")
     except (TypeError, ValueError, OverflowError):
-        raise InvalidValueError(name, value, allowed) from None
-    fits = len(array.shape) == len(shape) and all(b in (-1, a) for a, b in zip(array.shape, shape, strict=True))
-    if not fits or not np.isfinite(array).all():
-        raise InvalidValueError(name, array.tolist(), allowed)
+        raise InvalidValueError(name, value, _words(shape)) from None
+    if not _fits(array.shape, shape) or not np.isfinite(array).all():
+        raise InvalidValueError(name, array.tolist(), _words(shape))
     return array
 
 
+def _fits(found: tuple[int, ...], shape: tuple[int, ...]) -> bool:
+    if found == shape:
+        return True
+    return len(found) == len(shape) and all(b in (-1, a) for a, b in zip(found, shape, strict=True))
+
+
+def _words(shape: tuple[int, ...]) -> str:
+    lengths = " x ".join("n" if count < 0 else str(count) for count in shape)
+    return "three finite numbers" if shape == (3,) else f"finite numbers, {lengths}"
+
+
+def _refuse_both(directions: object, rotations: object) -> None:
+    if directions is not None and rotations is not None:
+        raise InvalidValueError("directions", directions, "none beside rotations, which have them already")
+
+
+def _side_by_side(points: Array, more: Array) -> Array:
+    rows = np.empty((len(points), 3 + more.shape[-1]))
+    rows[:, :3], rows[:, 3:] = points, more
+    return rows
+
+
 def _unit_vectors(directions: Array) -> Array:
-    lengths = np.linalg.norm(directions, axis=-1, keepdims=True)
-    if np.any(lengths < 1e-12):
-        k = int(np.argmin(lengths))
-        raise InvalidValueError("direction", directions[k].tolist(), "three finite numbers, not all zero")
-    return directions / lengths
+    """``directions`` (n, 3), each divided by its length; a unit vector stays what it is to the last digit."""
+    lengths: Array = np.hypot(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
+    if (lengths < 1e-12).any():
+        raise InvalidValueError(
+            "direction", directions[np.argmin(lengths)].tolist(), "three finite numbers, not all zero"
+        )
+    lengths[np.abs(lengths - 1.0) < _ROUNDING] = 1.0
+    return directions / lengths[:, None]
 
 
 def _orthonormal(rotations: Array) -> Array:
+    """``rotations`` (..., 3, 3), which must be such."""
     worst = np.abs(np.swapaxes(rotations, -1, -2) @ rotations - np.eye(3)).max(axis=(-2, -1))
     wrong = (worst > 1e-6) | (np.linalg.det(rotations) < 0.0)
     if np.any(wrong):
-        k = int(np.argmax(wrong))
-        raise InvalidValueError("rotation", rotations[k].tolist(), "a right-handed rotation matrix, to 1e-6")
+        first = rotations.reshape(-1, 3, 3)[np.argmax(wrong)]
+        raise InvalidValueError("rotation", first.tolist(), "a right-handed rotation matrix, to 1e-6")
     return rotations

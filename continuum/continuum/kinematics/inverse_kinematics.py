@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
-from continuum.kinematics.compiled.arm_arrays import arm_arrays
+from continuum.kinematics.compiled.arm_arrays import arm_table
 from continuum.kinematics.compiled.search import start_postures
 from continuum.kinematics.compiled.solver import COLD, FIRST, FOLLOW, LEAST_BENDING, NEAR_START, WARM, run_solver
 from continuum.kinematics.compiled.task import radian_in_metres
@@ -22,6 +22,8 @@ from continuum.kinematics.ik_target import Target, Targets, configuration_of, fi
 OBJECTIVES = {"first": FIRST, "near_start": NEAR_START, "least_bending": LEAST_BENDING}
 """What a redundant arm does with its freedom: take the first answer found, the one near it
 that is nearest to the start, or the least bent of several neighbourhoods."""
+
+_STATUSES = tuple(IkStatus)  # in the order of their numbers
 
 
 class InverseKinematics:
@@ -49,7 +51,8 @@ class InverseKinematics:
         self.arm = arm
         self.tolerance = float(tolerance)
         self.objective = objective
-        self._limited, self._unlimited = arm_arrays(arm), arm_arrays(arm, with_limits=False)
+        self._table = arm_table(arm)
+        self._weight = radian_in_metres(arm)
         self._postures = start_postures(arm.n_sections, n_restarts)
 
     def solve(self, target: Target, start: ArrayLike | None = None) -> IkResult:
@@ -60,12 +63,14 @@ class InverseKinematics:
             start: configuration (n_sections, 2) [rad] near which the answer is wanted; without it, any.
 
         Raises:
-            InvalidValueError: malformed start. A hard target is no error: see the result's status.
+            InvalidValueError: malformed start, or not one target. A hard target is no error: see the result's status.
         """
+        if not isinstance(target, Target):
+            raise InvalidValueError("target", target, "a Target; for many there is solve_many")
         w = configuration_of(self.arm, start)
         numbers = self._run(target, w.reshape(1, -1), COLD if start is None else WARM)
         status, iterations, distance, angle = numbers[0].tolist()
-        return IkResult(w, IkStatus(int(status)), int(iterations), distance, angle)
+        return IkResult(w, _STATUSES[int(status)], int(iterations), distance, angle)
 
     def solve_many(self, targets: Targets, starts: ArrayLike | None = None) -> IkBatch:
         """Answer each target by itself.
@@ -94,12 +99,9 @@ class InverseKinematics:
     def _run(self, targets: Targets, w: Array, start: int) -> Array:
         numbers = np.empty((len(targets), 4))
         run_solver(
-            self._limited,
-            self._unlimited,
-            targets.kind,
-            radian_in_metres(self.arm),
-            targets.positions,
-            targets.axes,
+            self._table,
+            self._weight,
+            targets.rows,
             w,
             start,
             self.tolerance,

@@ -65,6 +65,15 @@ def matrix(entries: Entries9) -> Array:
     return flat.reshape((*flat.shape[:-1], 3, 3))
 
 
+def entries_of(m: Array) -> Entries9:
+    """The nine entries (...) of an array (..., 3, 3)."""
+    return (
+        m[..., 0, 0], m[..., 0, 1], m[..., 0, 2],
+        m[..., 1, 0], m[..., 1, 1], m[..., 1, 2],
+        m[..., 2, 0], m[..., 2, 1], m[..., 2, 2],
+    )  # fmt: skip
+
+
 def transform(rotation: Array, position: Array) -> Array:
     """Homogeneous transform (..., 4, 4) of a rotation (..., 3, 3) and a position (..., 3) [m]."""
     result = np.zeros((*np.broadcast_shapes(rotation.shape[:-2], position.shape[:-1]), 4, 4))
@@ -72,8 +81,3 @@ def transform(rotation: Array, position: Array) -> Array:
     result[..., :3, 3] = position
     result[..., 3, 3] = 1.0
     return result
-
-
-def rotation_about_z(angle: float) -> Array:
-    """Rotation matrix (3, 3) about z by ``angle`` [rad]."""
-    return matrix(turned_about_z(IDENTITY, np.cos(angle), np.sin(angle)))

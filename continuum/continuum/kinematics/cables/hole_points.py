@@ -18,11 +18,7 @@ def hole_points(w: Array, section: Section, a: Array | None = None, azimuths: Ar
     The discs stand on the arc of Eq. 4: disc k is the tip of a section with k of the n_j joints.
     Between two discs a cable is straight, so the segments between its holes add up to its length of Eq. 8.
 
-    Args:
-        w: configurations of the section.
-        section: the section that the cables run through.
-        a: radius of each cable's holes, (n_cables,) [m]; the section's own without it.
-        azimuths: azimuth of each cable in the section's frame, (n_cables,) [rad]; the section's own without it.
+    Arguments are those of :func:`~continuum.kinematics.cables.eq08_lengths.cable_lengths`.
     """
     a, azimuths = cable_holes(section, a, azimuths)
     in_disc = np.stack([a * np.cos(azimuths), a * np.sin(azimuths), np.zeros_like(azimuths)], axis=-1)

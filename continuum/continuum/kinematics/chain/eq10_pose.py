@@ -13,10 +13,10 @@ from continuum.kinematics.rigid import (
     IDENTITY,
     Entries3,
     Entries9,
+    entries_of,
     matrix,
     product,
     rotated,
-    rotation_about_z,
     transform,
     turned_about_z,
     vector,
@@ -55,7 +55,7 @@ def arm_pose(w: Array, arm: Arm) -> Array:
 
 def section_base_rotations(tip_poses: Array, arm: Arm) -> Array:
     """Rotations (..., n_sections, 3, 3) of the sections' base frames, twist included, from the sections' tip poses."""
-    before = np.concatenate(
-        [np.broadcast_to(np.eye(3), tip_poses[..., :1, :3, :3].shape), tip_poses[..., :-1, :3, :3]], axis=-3
-    )
-    return before @ np.stack([rotation_about_z(section.twist) for section in arm.sections])
+    upright = np.broadcast_to(np.eye(3), tip_poses[..., :1, :3, :3].shape)
+    before = np.concatenate([upright, tip_poses[..., :-1, :3, :3]], axis=-3)
+    twists = np.array([section.twist for section in arm.sections])
+    return matrix(turned_about_z(entries_of(before), np.cos(twists), np.sin(twists)))

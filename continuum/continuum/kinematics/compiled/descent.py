@@ -9,7 +9,7 @@ from continuum.kinematics.compiled.arm_arrays import ArmArrays
 from continuum.kinematics.compiled.equations import compiled
 from continuum.kinematics.compiled.least_squares_step import least_squares_step
 from continuum.kinematics.compiled.limits import hold_outward, pull_within
-from continuum.kinematics.compiled.task import TargetArrays, evaluate, squared
+from continuum.kinematics.compiled.task import TargetArrays, fill_task_jacobian, miss, squared
 
 _LARGEST_STEP = 1.0  # of any coordinate in one iteration [rad]
 _ROUNDING = 1e-16  # keeps the normal equations definite where the Jacobian has lost rank [m2]
@@ -29,18 +29,22 @@ def descend(
         Iterations, distance [m], angle [rad], and whether both are within the tolerance.
     """
     size = len(w)
-    jacobian, trial_jacobian = np.empty((6, size)), np.empty((6, size))
+    jacobian = np.empty((6, size))
     error, trial_error = np.empty(target.n_rows), np.empty(target.n_rows)
+    bases, tips = np.empty((len(arm.b) + 1, 9)), np.empty((len(arm.b), 3))
     normal = np.empty((max(6, size), max(6, size)))
     step, trial = np.empty(size), np.empty(size)
     held = np.empty(len(arm.b), np.bool_)
     pull_within(arm, w)
-    distance, angle = evaluate(arm, target, w, error, jacobian)
+    distance, angle = miss(arm, target, w, error, bases, tips)
     cost = squared(error)
     n_slow = 0
+    has_moved = True
     for iteration in range(max_iterations):
         if distance <= tolerance and angle <= tolerance:
             return iteration, distance, angle, True
+        if has_moved:
+            fill_task_jacobian(arm, target, w, bases, tips, jacobian)
         held[:] = False
         while True:
             least_squares_step(jacobian, error, damping * cost + _ROUNDING, normal, step)
@@ -51,12 +55,12 @@ def descend(
         for k in range(size):
             trial[k] = w[k] + scale * step[k]
         pull_within(arm, trial)
-        trial_distance, trial_angle = evaluate(arm, target, trial, trial_error, trial_jacobian)
+        trial_distance, trial_angle = miss(arm, target, trial, trial_error, bases, tips)
         trial_cost = squared(trial_error)
-        if trial_cost < cost:
+        has_moved = trial_cost < cost
+        if has_moved:
             n_slow = n_slow + 1 if trial_cost > _SLOW * cost else 0
             w[:] = trial
-            jacobian, trial_jacobian = trial_jacobian, jacobian
             error, trial_error = trial_error, error
             distance, angle, cost = trial_distance, trial_angle, trial_cost
             damping = max(0.2 * damping, 1e-9)

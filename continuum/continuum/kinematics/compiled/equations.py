@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numba
+import numpy as np
 from numba.extending import register_jitable
 
 from continuum import kinematics
@@ -45,6 +46,15 @@ for _equation in _EQUATIONS:
 
 compiled = numba.njit(error_model="numpy")
 """Compiles a function that is called from compiled code alone; not cached by itself."""
+
+
+inlined = numba.njit(error_model="numpy", forceinline=True)
+"""The same for small functions called all the time: handing over an arm's arrays takes as long as their work."""
+
+
+def argument(value: Any) -> Any:
+    """A constant to hand to compiled functions; numba would compile one more version for a plain number alone."""
+    return np.asarray(value)[()]
 
 
 def sources_digest() -> str:

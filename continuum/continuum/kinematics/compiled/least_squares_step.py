@@ -22,35 +22,39 @@ def least_squares_step(jacobian: Array, error: Array, damping: float, normal: Ar
         step: (k,), the result.
     """
     m, k = len(error), len(step)
+    rows = jacobian[:m]
     if m <= k:
         solution = error.copy()
-        for i in range(m):
-            for j in range(i + 1):
-                total = 0.0
-                for c in range(k):
-                    total += jacobian[i, c] * jacobian[j, c]
-                normal[i, j] = total
-            normal[i, i] += damping
+        _fill_normal(rows, damping, normal)
         if not solve_positive_definite(normal, solution):
             return False
-        for c in range(k):
-            total = 0.0
-            for i in range(m):
-                total += jacobian[i, c] * solution[i]
-            step[c] = total
+        _fill_transposed_product(rows, solution, step)
         return True
-    for i in range(k):
+    _fill_normal(rows.T, damping, normal)
+    _fill_transposed_product(rows, error, step)
+    return solve_positive_definite(normal, step)
+
+
+@compiled
+def _fill_normal(rows: Array, damping: float, normal: Array) -> None:
+    """Fill the lower triangle of ``normal`` with rows rows^T + damping I."""
+    for i in range(rows.shape[0]):
         for j in range(i + 1):
             total = 0.0
-            for r in range(m):
-                total += jacobian[r, i] * jacobian[r, j]
+            for c in range(rows.shape[1]):
+                total += rows[i, c] * rows[j, c]
             normal[i, j] = total
         normal[i, i] += damping
+
+
+@compiled
+def _fill_transposed_product(rows: Array, x: Array, y: Array) -> None:
+    """Fill ``y`` with rows^T x."""
+    for c in range(rows.shape[1]):
         total = 0.0
-        for r in range(m):
-            total += jacobian[r, i] * error[r]
-        step[i] = total
-    return solve_positive_definite(normal, step)
+        for r in range(rows.shape[0]):
+            total += rows[r, c] * x[r]
+        y[c] = total
 
 
 @compiled

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.kinematics.compiled.arm_arrays import ArmArrays
+from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, ArmArrays, arrays_of
 from continuum.kinematics.compiled.equations import compiled, entry_point
 from continuum.kinematics.compiled.limits import hold_outward, stop_radial
 from continuum.kinematics.compiled.task import turn_into_tip_frame
@@ -70,9 +70,9 @@ def _damped_rate(jacobian: Array, task: Array, free: Array) -> Array:
 
 
 def _build(digest: str) -> Callable[..., Any]:
-    def run(arm: ArmArrays, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array) -> Any:
+    def run(table: Array, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array) -> Any:
         _ = digest
-        return tip_rate(arm, kind, weight, w, velocity, spin, wish)
+        return tip_rate(arrays_of(table, table[BEND_LIMIT]), kind, weight, w, velocity, spin, wish)
 
     return run
 

@@ -1,6 +1,9 @@
 """Use of the redundancy: of all answers to a target near one, that which is nearest to a reference configuration.
 
-The reference is the configuration that the search began with, or the straight arm, whose neighbour bends least.
+The reference is the configuration that the search began with, or the straight arm, whose neighbour bends least. The
+search is Newton's method on the Lagrangian |w - reference|^2 / 2 - multipliers . conditions, in the directions that
+leave the conditions alone; each step is corrected onto the target. Where the Lagrangian curves downward it is damped,
+in the end to a step down the gradient.
 """
 
 from __future__ import annotations
@@ -9,58 +12,125 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
-from continuum.kinematics.compiled.descent import descend
+from continuum.kinematics.compiled.constraints import (
+    Conditions,
+    fill_normals,
+    inner,
+    no_conditions,
+    press,
+    press_on_held,
+    restore,
+    way_to_limits,
+)
 from continuum.kinematics.compiled.equations import compiled
-from continuum.kinematics.compiled.least_squares_step import least_squares_step
-from continuum.kinematics.compiled.limits import hold_outward, stop_radial
-from continuum.kinematics.compiled.task import TargetArrays, evaluate
+from continuum.kinematics.compiled.least_squares_step import solve_positive_definite
+from continuum.kinematics.compiled.task import TargetArrays, squared
 
 _MAX_ITERATIONS = 100
-_SETTLED = 1e-9  # change of a coordinate that ends the slide [rad]
-_CORRECTION_ITERATIONS = 10
-_EXACT = 1e-13  # distance [m] and angle [rad] that corrections aim at: slack in the target would pass for a gain
-_ROUNDING = 1e-14
+_STATIONARY = 1e-9  # way to the reference that is left free [rad]
+_LARGEST_DAMPING = 1e6
+_LARGEST_STEP = 0.5  # of any coordinate in one iteration [rad]
+_SMALL_STEP = 1e-4  # below which the gain drowns in what corrections leave [rad]
+_SLACK = 1e-11  # what they leave of the squared distance to the reference [rad2]
+_DIFFERENCE = 1e-7  # step of the differences [rad]
 
 
 @compiled
 def slide_towards(arm: ArmArrays, target: TargetArrays, w: Array, reference: Array, tolerance: float) -> int:
-    """Move ``w`` (2 n_sections,) [rad], which solves the target, in place towards ``reference``; iterations.
-
-    Each step is the shortest way to the reference within the linearised target, min |dw - (reference - w)| with
-    J dw = error, corrected onto the target; it is shortened until the distance to the reference shrinks.
-    """
+    """Move ``w`` (2 n_sections,) [rad], which solves the target, in place towards ``reference``; iterations."""
     size = len(w)
     if target.n_rows >= size:
         return 0
-    error, jacobian = np.empty(target.n_rows), np.empty((6, size))
-    normal, correction = np.empty((size, size)), np.empty(size)
-    held = np.empty(len(arm.b), np.bool_)
-    descend(arm, target, w, _EXACT, _CORRECTION_ITERATIONS, 0.0)
-    remaining = np.sum((w - reference) ** 2)
-    gain = 1.0
+    conditions, of_trial = no_conditions(len(arm.b), target.n_rows), no_conditions(len(arm.b), target.n_rows)
+    change, trial = np.empty(size), w.copy()
+    restore(arm, target, w, of_trial)
+    damping = 0.0
     for iteration in range(_MAX_ITERATIONS):
-        evaluate(arm, target, w, error, jacobian)
-        wish = gain * (reference - w)
-        held[:] = False
-        while True:
-            needed = error - jacobian[: target.n_rows] @ wish
-            least_squares_step(jacobian, needed, _ROUNDING, normal, correction)
-            step = wish + correction
-            if not hold_outward(arm, w, step, held, jacobian, target.n_rows):
-                break
-            stop_radial(w, held, wish)
-        trial = w + step
-        _, distance, angle, _ = descend(arm, target, trial, _EXACT, _CORRECTION_ITERATIONS, 0.0)
-        left = np.sum((trial - reference) ** 2)
-        if distance <= tolerance and angle <= tolerance and left < remaining:
-            moved = np.max(np.abs(trial - w))
-            w[:] = trial
-            remaining = left
-            gain = min(1.0, 2.0 * gain)
-            if moved < _SETTLED:
-                return iteration + 1
-        else:
-            gain *= 0.25
-            if gain < 1e-4:
-                return iteration + 1
+        gradient = w - reference
+        rank = press(arm, target, w, gradient, conditions)
+        descent = _descent_along(conditions.basis[rank:], gradient)
+        if squared(descent) < _STATIONARY**2:
+            return iteration
+        hessian = _hessian(arm, target, w, reference, rank, conditions)
+        moved = False
+        while not moved and damping < _LARGEST_DAMPING:
+            if _newton_step(hessian, descent, damping, conditions.basis[rank:], change):
+                part, meets_limit = way_to_limits(arm, w, change, conditions.held)
+                if meets_limit:
+                    rank = press_on_held(arm, target, w, gradient, conditions)
+                    descent = _descent_along(conditions.basis[rank:], gradient)
+                    hessian = _hessian(arm, target, w, reference, rank, conditions)
+                    continue
+                trial, largest = _stepped(w, part, change)
+                of_trial.held[:] = conditions.held
+                distance, angle = restore(arm, target, trial, of_trial)
+                gain = squared(gradient) - squared(trial - reference)
+                moved = distance <= tolerance and angle <= tolerance
+                moved = moved and (gain > 0.0 or (0.0 < largest < _SMALL_STEP and gain > -_SLACK))
+            if not moved:
+                damping = max(4.0 * damping, 0.25)
+        if not moved:
+            return iteration + 1
+        w[:] = trial
+        damping = 0.1 * damping if damping > 1e-2 else 0.0
     return _MAX_ITERATIONS
+
+
+@compiled
+def _descent_along(rows: Array, gradient: Array) -> Array:
+    """Descent along each of the orthonormal ``rows``."""
+    descent = np.empty(len(rows))
+    for k in range(len(rows)):
+        descent[k] = -inner(rows[k], gradient)
+    return descent
+
+
+@compiled
+def _newton_step(hessian: Array, descent: Array, damping: float, rows: Array, change: Array) -> bool:
+    """Fill ``change`` (2 n_sections,) with Newton's step along ``rows``; False if the damped Hessian is indefinite."""
+    step, damped = descent.copy(), hessian.copy()
+    for k in range(len(step)):
+        damped[k, k] += damping
+    if not solve_positive_definite(damped, step):
+        return False
+    change[:] = 0.0
+    for k in range(len(step)):
+        for c in range(len(change)):
+            change[c] += step[k] * rows[k, c]
+    return True
+
+
+@compiled
+def _stepped(w: Array, part: float, change: Array) -> tuple[Array, float]:
+    """``w`` moved by ``part`` of ``change``, or less if that is much; and the largest change of a coordinate [rad]."""
+    largest = np.max(np.abs(change))
+    part = min(part, _LARGEST_STEP / max(largest, _LARGEST_STEP))
+    return w + part * change, part * largest
+
+
+@compiled
+def _hessian(
+    arm: ArmArrays, target: TargetArrays, w: Array, reference: Array, rank: int, conditions: Conditions
+) -> Array:
+    """Hessian of the Lagrangian along the free rows of the basis, by differences of its gradient. Spends normals."""
+    free = conditions.basis[rank:]
+    hessian = np.empty((len(free), len(free)))
+    here = _lagrangian_gradient(w, reference, conditions)
+    for j in range(len(free)):
+        ahead = w + _DIFFERENCE * free[j]
+        fill_normals(arm, target, ahead, conditions)
+        there = _lagrangian_gradient(ahead, reference, conditions)
+        for i in range(len(free)):
+            hessian[i, j] = (inner(free[i], there) - inner(free[i], here)) / _DIFFERENCE
+    return 0.5 * (hessian + hessian.T)
+
+
+@compiled
+def _lagrangian_gradient(w: Array, reference: Array, conditions: Conditions) -> Array:
+    gradient = w - reference
+    for row in range(len(conditions.multipliers)):
+        multiplier = conditions.multipliers[row]
+        if multiplier != 0.0:
+            for k in range(len(w)):
+                gradient[k] -= multiplier * conditions.normals[row, k]
+    return gradient

@@ -7,13 +7,13 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
 from continuum.kinematics.compiled.descent import descend
-from continuum.kinematics.compiled.equations import compiled
+from continuum.kinematics.compiled.equations import argument, compiled
 from continuum.kinematics.compiled.task import TargetArrays
 from continuum.kinematics.fabrikc import fabrikc
 from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
 
-_FABRIKC_PASSES = 1
-_MAX_ITERATIONS = 40  # of a descent
+_FABRIKC_PASSES = argument(1)
+_MAX_ITERATIONS = argument(40)  # of a descent
 _DAMPING = 1e-3  # at the start of a descent
 
 
@@ -56,8 +56,8 @@ def search(
     """
     begin = w.copy()
     iterations = 0
-    ends[:, 0] = np.inf
-    for k in range(0 if is_warm else 1, 2 + len(postures)):
+    first = 0 if is_warm else 1
+    for k in range(first, 2 + len(postures)):
         if k < 2:
             w[:] = begin
         else:
@@ -72,6 +72,8 @@ def search(
         iterations += spent
         if solved:
             break
+        if k == first:
+            ends[:, 0] = np.inf
         ends[k, 0] = distance * distance + (target.weight * angle) ** 2
         ends[k, 1:] = w
     return iterations, distance, angle, solved

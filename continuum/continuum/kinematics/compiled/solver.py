@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.kinematics.compiled.arm_arrays import ArmArrays
-from continuum.kinematics.compiled.equations import compiled, entry_point
+from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, CONTACT, ArmArrays, arrays_of
+from continuum.kinematics.compiled.equations import argument, compiled, entry_point
 from continuum.kinematics.compiled.nearest import nearest_of
 from continuum.kinematics.compiled.redundancy import slide_towards
 from continuum.kinematics.compiled.search import search
-from continuum.kinematics.compiled.task import TargetArrays, evaluate
+from continuum.kinematics.compiled.task import TargetArrays, evaluate, target_of
 from continuum.kinematics.ik_result import IkStatus
 
 FIRST, NEAR_START, LEAST_BENDING = 0, 1, 2
@@ -23,6 +23,7 @@ COLD, WARM, FOLLOW = 0, 1, 2
 
 _SOLVED, _LIMIT_REACHED = int(IkStatus.SOLVED), int(IkStatus.LIMIT_REACHED)
 _UNREACHABLE, _NO_CONVERGENCE = int(IkStatus.UNREACHABLE), int(IkStatus.NO_CONVERGENCE)
+_COLD, _WARM = argument(False), argument(True)
 _N_NEIGHBOURHOODS = 12  # in which the least bent answer is looked for
 _N_NEAREST = 4  # descents from which the nearest pose is looked for
 
@@ -62,7 +63,7 @@ def answer(
     if distance <= tolerance and angle <= tolerance:
         return _SOLVED, iterations, distance, angle
     beyond = w.copy()
-    spent, _, _, within_reach = search(unlimited, target, beyond, True, tolerance, postures, ends)
+    spent, _, _, within_reach = search(unlimited, target, beyond, _WARM, tolerance, postures, ends)
     iterations += spent
     if within_reach:
         return _LIMIT_REACHED, iterations, distance, angle
@@ -80,7 +81,7 @@ def _least_bent(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float
         other = straight.copy()
         for i in range(len(other)):
             other[i] = arm.bend_limit[i // 2] * postures[k, i]
-        spent, _, _, solved = search(arm, target, other, False, tolerance, postures[:0], ends)
+        spent, _, _, solved = search(arm, target, other, _COLD, tolerance, postures[:0], ends)
         iterations += spent
         if solved:
             iterations += slide_towards(arm, target, other, straight, tolerance)
@@ -91,12 +92,9 @@ def _least_bent(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float
 
 def _build(digest: str) -> Callable[..., Any]:
     def run(
-        arm: ArmArrays,
-        unlimited: ArmArrays,
-        n_rows: int,
+        table: Array,
         weight: float,
-        positions: Array,
-        rotations: Array,
+        rows: Array,
         w: Array,
         start: int,
         tolerance: float,
@@ -105,8 +103,9 @@ def _build(digest: str) -> Callable[..., Any]:
         numbers: Array,
     ) -> None:
         _ = digest
-        for k in range(len(positions)):
-            target = TargetArrays(n_rows, weight, positions[k], rotations[k])
+        arm, unlimited = arrays_of(table, table[BEND_LIMIT]), arrays_of(table, table[CONTACT])
+        for k in range(len(rows)):
+            target = target_of(rows[k], weight)
             if start == FOLLOW and k > 0:
                 w[k] = w[k - 1]
             status, iterations, distance, angle = answer(
@@ -118,4 +117,4 @@ def _build(digest: str) -> Callable[..., Any]:
 
 
 run_solver = entry_point(_build)
-"""Answer targets (n, 3), (n, 3, 3) from ``w`` (n, 2 n_sections), in place; fills ``numbers`` (n, 4): see `answer`."""
+"""Answer `Targets.rows` from ``w`` (n, 2 n_sections), in place; fills ``numbers`` (n, 4): see `answer`."""

@@ -10,8 +10,8 @@ import numpy as np
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
-from continuum.kinematics.compiled.equations import compiled
-from continuum.kinematics.compiled.tip import tip_and_jacobian
+from continuum.kinematics.compiled.equations import compiled, inlined
+from continuum.kinematics.compiled.tip import fill_jacobian, nine, walk_to_tip
 from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION
 from continuum.kinematics.rigid import Entries9
 
@@ -32,6 +32,20 @@ class TargetArrays(NamedTuple):
     rotation: Array
 
 
+@compiled
+def target_of(row: Array, weight: float) -> TargetArrays:
+    """The target that a row of :attr:`Targets.rows` holds; ``weight`` is what one radian counts [m]."""
+    rotation = np.zeros((3, 3))
+    n_rows = POSITION
+    if len(row) == 6:
+        n_rows = DIRECTION
+        rotation[:, 2] = row[3:]
+    elif len(row) == 12:
+        n_rows = POSE
+        rotation[:] = row[3:].reshape(3, 3)
+    return TargetArrays(n_rows, weight, row[:3], rotation)
+
+
 def radian_in_metres(arm: Arm) -> float:
     """What one radian of the tip's rotation counts beside its position [m]: a tenth of the arm's length."""
     return 0.1 * arm.length
@@ -39,13 +53,24 @@ def radian_in_metres(arm: Arm) -> float:
 
 @compiled
 def evaluate(arm: ArmArrays, target: TargetArrays, w: Array, error: Array, jacobian: Array) -> tuple[float, float]:
-    """Distance [m] and angle [rad] from the tip at ``w`` (2 n_sections,) to the target.
+    """Distance [m] and angle [rad] from the tip at ``w`` (2 n_sections,) [rad] to the target.
 
     Fills ``error`` (n_rows,) [m] and the first n_rows rows of ``jacobian`` (6, 2 n_sections) [m/rad]: position in
     ``base_link``, then rotation in the tip frame times the weight. The Jacobian's transpose times the error is the
     exact descent of half the squared error.
     """
-    rotation, position = tip_and_jacobian(arm, w, jacobian)
+    bases, tips = np.empty((len(arm.b) + 1, 9)), np.empty((len(arm.b), 3))
+    distance, angle = miss(arm, target, w, error, bases, tips)
+    fill_task_jacobian(arm, target, w, bases, tips, jacobian)
+    return distance, angle
+
+
+@inlined
+def miss(
+    arm: ArmArrays, target: TargetArrays, w: Array, error: Array, bases: Array, tips: Array
+) -> tuple[float, float]:
+    """The same without the Jacobian; fills ``bases`` and ``tips`` on the way to the tip, from which that can be had."""
+    rotation, position = walk_to_tip(arm, w, bases, tips)
     square = 0.0
     for k in range(3):
         error[k] = target.position[k] - position[k]
@@ -53,11 +78,20 @@ def evaluate(arm: ArmArrays, target: TargetArrays, w: Array, error: Array, jacob
     angle = 0.0
     if target.n_rows > POSITION:
         angle = _fill_rotation_error(target, rotation, error)
-        turn_into_tip_frame(rotation, target.n_rows, target.weight, jacobian)
     return math.sqrt(square), angle
 
 
-@compiled
+@inlined
+def fill_task_jacobian(
+    arm: ArmArrays, target: TargetArrays, w: Array, bases: Array, tips: Array, jacobian: Array
+) -> None:
+    """Fill ``jacobian`` (6, 2 n_sections) as above, from the way to the tip."""
+    fill_jacobian(arm, w, bases, tips, jacobian)
+    if target.n_rows > POSITION:
+        turn_into_tip_frame(nine(bases[-1]), target.n_rows, target.weight, jacobian)
+
+
+@inlined
 def _fill_rotation_error(target: TargetArrays, rotation: Entries9, error: Array) -> float:
     """Rotation vector, in the tip frame, that turns the tip to the target; returns its angle [rad]."""
     d = np.empty((3, 3))  # the target's axes seen from the tip
@@ -85,7 +119,7 @@ def _fill_rotation_error(target: TargetArrays, rotation: Entries9, error: Array)
     return angle
 
 
-@compiled
+@inlined
 def turn_into_tip_frame(rotation: Entries9, n_rows: int, weight: float, jacobian: Array) -> None:
     """Turn the rows 3 to n_rows of ``jacobian`` from ``base_link`` into the tip frame, times the weight."""
     for k in range(jacobian.shape[1]):
