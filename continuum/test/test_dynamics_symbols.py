@@ -11,7 +11,7 @@ from dynamics_laws import LaggingDrive, Sag, TipLoad, TurningBase, Wind, active,
 from continuum.dynamics.balance import balance
 from continuum.dynamics.compiled.machine_code import CompilerError, compile_function
 from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance
-from continuum.dynamics.expressions import positive_part, smooth_sign, suffix_sum, where
+from continuum.dynamics.expressions import positive_part, smooth_sign, suffix_sum, where_positive
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.values import parameter_slots, parameter_vector
 
@@ -120,8 +120,8 @@ def test_elementwise_functions_on_symbols_and_floats() -> None:
         positive_part,
         suffix_sum,
         lambda x: smooth_sign(x, np.array([3.0])),
-        lambda x: where(np.greater(x, 0, dtype=object), x, 2 * x),
-        lambda x: where(np.greater(x, 0, dtype=object), 1.0, x[:1]),
+        lambda x: where_positive(x, x, 2 * x),
+        lambda x: where_positive(x, 1.0, x[:1]),
     ):
         traced = casadi.Function("f", [casadi.vertcat(*names)], [casadi.vertcat(*function(symbols))])
         found = traced(numbers).full().ravel()

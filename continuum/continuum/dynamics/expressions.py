@@ -19,14 +19,14 @@ type Numbers = Any
 """An array of floats, or of symbols, which NumPy's own types cannot tell."""
 
 
-def where(condition: Numbers, yes: Any, no: Any) -> Numbers:
-    """``yes`` where the condition holds, else ``no``, elementwise."""
-    if not _symbolic(condition, yes, no):
-        return np.where(condition, yes, no)
-    parts = np.broadcast_arrays(*(np.asarray(part, dtype=object) for part in (condition, yes, no)))
+def where_positive(x: Numbers, yes: Any, no: Any) -> Numbers:
+    """``yes`` where ``x`` > 0, else ``no``, elementwise."""
+    if not _symbolic(x, yes, no):
+        return np.where(x > 0, yes, no)
+    parts = np.broadcast_arrays(*(np.asarray(part, dtype=object) for part in (x, yes, no)))
     chosen = np.empty(parts[0].shape, dtype=object)
     for index in np.ndindex(chosen.shape):
-        chosen[index] = casadi.if_else(parts[0][index], parts[1][index], parts[2][index])
+        chosen[index] = casadi.if_else(parts[0][index] > 0, parts[1][index], parts[2][index])
     return chosen
 
 

@@ -12,13 +12,13 @@ class SimulationStatus(Enum):
     """How a simulation ended."""
 
     COMPLETE = "complete"
-    STEP_TOO_SMALL = "no step was small enough for the tolerance"
+    STEP_TOO_SMALL = "no step was small enough for the tolerance, or too many were needed"
     NOT_FINITE = "the equations have no finite solution"
 
 
 @dataclass(frozen=True)
 class Trajectory:
-    """States of the arm over time.
+    """States of the arm over time; NaN from where a simulation failed.
 
     Attributes:
         status: how the simulation ended; unless COMPLETE the states are not to be used.

@@ -9,11 +9,12 @@ from numpy.typing import ArrayLike
 
 from continuum.arm import Arm
 from continuum.arrays import Array
+from continuum.errors import InvalidValueError
 from continuum.kinematics.compiled.arm_arrays import arm_arrays, arm_table
 from continuum.kinematics.compiled.limits import pull_within
 from continuum.kinematics.compiled.rate import run_tip_rate
 from continuum.kinematics.compiled.task import radian_in_metres
-from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION, configuration_of, finite
+from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION, finite
 
 __all__ = ["DIRECTION", "POSE", "POSITION", "DifferentialKinematics", "TipRate", "least_bending"]
 
@@ -44,6 +45,8 @@ class DifferentialKinematics:
     """
 
     def __init__(self, arm: Arm, kind: int = POSITION) -> None:
+        if kind not in (POSITION, DIRECTION, POSE):
+            raise InvalidValueError("kind", kind, "POSITION, DIRECTION or POSE")
         self.arm = arm
         self.kind = kind
         self._table = arm_table(arm)
@@ -60,7 +63,7 @@ class DifferentialKinematics:
         Raises:
             InvalidValueError: wrong shape or not finite.
         """
-        w = configuration_of(self.arm, w)
+        w = finite("w", w, (self.arm.n_sections, 2))
         rate, moved, held = run_tip_rate(
             self._table,
             self.kind,
@@ -68,7 +71,7 @@ class DifferentialKinematics:
             w.reshape(-1),
             finite("velocity", velocity, (3,)),
             finite("spin", spin, (3,)),
-            configuration_of(self.arm, wish).reshape(-1),
+            (np.zeros(w.size) if wish is None else finite("wish", wish, w.shape).reshape(-1)),
         )
         return TipRate(rate.reshape(w.shape), moved[:3], moved[3:], held)
 

@@ -21,6 +21,7 @@ from continuum.kinematics.compiled.equations import compiled, entry_point
 from continuum.kinematics.compiled.limits import pull_within
 from continuum.kinematics.compiled.task import TargetArrays, miss, radian_in_metres, target_of
 from continuum.kinematics.ik_result import IkResult, IkStatus
+from continuum.kinematics.ik_settings import checked_count, checked_tolerance
 from continuum.kinematics.ik_target import POSITION, Target, configuration_of
 from continuum.kinematics.rigid import IDENTITY, product, turned_about_z
 from continuum.kinematics.section.chord import chord_length
@@ -51,10 +52,15 @@ def solve_fabrikc(
     Raises:
         InvalidValueError: malformed target or start. A hard target is no error: see the result's status.
     """
-    target = Target(position, direction)
+    target, tolerance = Target(position, direction), checked_tolerance(tolerance)
     w = configuration_of(arm, start).reshape(-1)
     iterations, distance, angle = _fabrikc(
-        arm_table(arm), radian_in_metres(arm), target.rows[0], w, float(tolerance), max_iterations
+        arm_table(arm),
+        radian_in_metres(arm),
+        target.rows[0],
+        w,
+        tolerance,
+        checked_count("max_iterations", max_iterations),
     )
     solved = distance <= tolerance and angle <= tolerance
     status = IkStatus.SOLVED if solved else IkStatus.NO_CONVERGENCE

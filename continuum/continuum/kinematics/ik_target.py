@@ -156,11 +156,14 @@ def _side_by_side(points: Array, more: Array) -> Array:
 
 def _unit_vectors(directions: Array) -> Array:
     """``directions`` (n, 3), each divided by its length; a unit vector stays what it is to the last digit."""
-    lengths: Array = np.hypot(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
-    if (lengths < 1e-12).any():
+    largest = np.abs(directions).max(axis=1, initial=0.0)
+    if not largest.all():
         raise InvalidValueError(
-            "direction", directions[np.argmin(lengths)].tolist(), "three finite numbers, not all zero"
+            "direction", directions[np.argmin(largest)].tolist(), "three finite numbers, not all zero"
         )
+    extreme = (largest < 1e-100) | (largest > 1e100)  # where squares leave the range of floats
+    directions = np.where(extreme[:, None], directions / largest[:, None], directions)
+    lengths: Array = np.hypot(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
     lengths[np.abs(lengths - 1.0) < _ROUNDING] = 1.0
     return directions / lengths[:, None]
 

@@ -17,6 +17,7 @@ from continuum.kinematics.compiled.search import start_postures
 from continuum.kinematics.compiled.solver import COLD, FIRST, FOLLOW, LEAST_BENDING, NEAR_START, WARM, run_solver
 from continuum.kinematics.compiled.task import radian_in_metres
 from continuum.kinematics.ik_result import IkBatch, IkResult, IkStatus
+from continuum.kinematics.ik_settings import checked_count, checked_tolerance
 from continuum.kinematics.ik_target import Target, Targets, configuration_of, finite
 
 OBJECTIVES = {"first": FIRST, "near_start": NEAR_START, "least_bending": LEAST_BENDING}
@@ -36,24 +37,18 @@ class InverseKinematics:
         n_restarts: postures tried after the start before a target is given up.
 
     Raises:
-        InvalidValueError: unknown objective, a tolerance that is not positive, or a negative number of restarts.
+        InvalidValueError: unknown objective, a tolerance below rounding, or a number of restarts that is none.
     """
 
     def __init__(self, arm: Arm, tolerance: float = 1e-6, objective: str = "first", n_restarts: int = 200) -> None:
-        if objective not in OBJECTIVES:
+        if not isinstance(objective, str) or objective not in OBJECTIVES:
             raise InvalidValueError("objective", objective, f"one of {', '.join(OBJECTIVES)}")
-        if not 0 <= n_restarts <= 100_000:
-            raise InvalidValueError("n_restarts", n_restarts, "a whole number from 0 to 100000")
-        if not 0.0 < tolerance < np.inf:
-            raise InvalidValueError("tolerance", tolerance, "a number > 0")
-        if n_restarts < 0:
-            raise InvalidValueError("n_restarts", n_restarts, "a number >= 0")
         self.arm = arm
-        self.tolerance = float(tolerance)
+        self.tolerance = checked_tolerance(tolerance)
         self.objective = objective
         self._table = arm_table(arm)
         self._weight = radian_in_metres(arm)
-        self._postures = start_postures(arm.n_sections, n_restarts)
+        self._postures = start_postures(arm.n_sections, checked_count("n_restarts", n_restarts))
 
     def solve(self, target: Target, start: ArrayLike | None = None) -> IkResult:
         """Answer one target.

@@ -20,6 +20,7 @@ from continuum.kinematics.inverse_kinematics import InverseKinematics
 
 _NO_SPIN = np.zeros(3)
 _BEHIND = 1e-3  # part of the wanted velocity that the tip may lack and still count as following
+_AT_REST = 1e-12  # [m/s], rounding
 _RESTARTS_IN_MOTION = 16  # so that a pose out of reach takes about a millisecond
 _SEARCH_EVERY = 25  # poses out of reach, after which all restarts are tried again
 _JUMP = 0.5  # change of a coordinate against the prediction [rad] from which an answer does not continue the motion
@@ -105,7 +106,7 @@ class Tracker:
         now = self._rate(velocity, angular_velocity)
         behind = float(np.linalg.norm(now.velocity - velocity))
         status = IkStatus.SOLVED
-        if behind > _BEHIND * np.linalg.norm(velocity):
+        if behind > _BEHIND * np.linalg.norm(velocity) + _AT_REST:
             status = IkStatus.LIMIT_REACHED if now.held else IkStatus.UNREACHABLE
         return Tracked(IkResult(self.configuration, status, 0, behind * dt, 0.0), now.rate)
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import casadi
 
-from continuum.errors import ContinuumError
+from continuum.errors import ContinuumError, FileError
 
 _OPTIMISED_BELOW = 2_000_000  # characters of C; beyond, optimising takes minutes
 
@@ -28,6 +28,7 @@ def compile_function(function: casadi.Function) -> Any:
 
     Raises:
         CompilerError: no C compiler is found (named by the environment's CC, else cc or gcc), or it fails.
+        FileError: the cache folder cannot be made.
     """
     code = _c_code(function)
     compiler = _compiler()
@@ -64,14 +65,17 @@ def _compiler() -> str:
 
 def _compile(code: str, compiler: str, library: Path) -> None:
     level = "-O1" if len(code) < _OPTIMISED_BELOW else "-O0"
-    library.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        library.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(library.parent, f"cannot keep compiled models ({error}); set XDG_CACHE_HOME") from error
     with tempfile.TemporaryDirectory(dir=library.parent) as folder:
         source, built = Path(folder, "model.c"), Path(folder, "model.so")
         source.write_text(code, encoding="utf-8")
         command = [compiler, level, "-fPIC", "-shared", "-o", str(built), str(source), "-lm"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
-            raise CompilerError(f"{' '.join(command)} failed: {done.stderr.strip()[:500]}")
+            raise CompilerError(f"{' '.join(command)} failed: {' '.join(done.stderr.split())[:500]}")
         built.replace(library)
 
 

@@ -25,14 +25,14 @@ from continuum.dynamics.planar.motion import Motion
 class _TracedMotion(Motion):
     """A motion that notes which symbols stand for sums of which others."""
 
-    sums: dict[str, tuple[Numbers, Numbers]] = field(default_factory=dict)
+    sums: dict[tuple[str, ...], tuple[Numbers, Numbers]] = field(default_factory=dict)
 
     def summed(self, joints: Numbers) -> Numbers:
         if not all(isinstance(joint, casadi.SX) and joint.is_symbolic() for joint in joints):
             return super().summed(joints)  # an effect's own angles
-        key = str(joints[0])
+        key = tuple(str(joint) for joint in joints)
         if key not in self.sums:
-            self.sums[key] = (joints, _symbols(f"sum_{key}", len(joints)))
+            self.sums[key] = (joints, _symbols(f"sum_{len(self.sums)}", len(joints)))
         return self.sums[key][1]
 
 
@@ -71,13 +71,12 @@ class SymbolicBalance:
     def _derivative(self, by: Any) -> Any:
         """dr/d by, its columns one below the other."""
         whole = casadi.jacobian(self._r, by)
+        names = [str(by[i]) for i in range(by.numel())]
         for joints, sums in self._sums:
-            first = [i for i in range(by.numel()) if str(by[i]) == str(joints[0])]
-            if first:  # d sum_k / d joint_i is 1 for k >= i: sum the columns from the last
+            if str(joints[0]) in names:  # d sum_k / d joint_i is 1 for k >= i: sum the columns from the last
                 through = casadi.cumsum(casadi.densify(casadi.jacobian(self._r, _column(sums)))[:, ::-1], 1)[:, ::-1]
-                at = slice(first[0], first[0] + len(joints))
                 whole = casadi.densify(whole)
-                whole[:, at] += through
+                whole[:, [names.index(str(joint)) for joint in joints]] += through
         return casadi.vec(casadi.densify(whole))
 
 

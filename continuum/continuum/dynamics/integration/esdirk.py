@@ -23,7 +23,7 @@ from continuum.dynamics.integration.stage_newton import (
     stage_matrix,
 )
 
-OK, STEP_TOO_SMALL, NOT_FINITE = 0, 1, 2
+_MOST_STEPS = 200_000  # between two outputs
 
 
 @compiled
@@ -85,7 +85,7 @@ def _build(digest: str) -> Callable[..., Any]:
         nx, free = x0.size, slope0.shape[1]
         nv, nu = nx - n, inputs.shape[1]
         at_u = nx + nv
-        states, state_slopes = np.empty((times.size, nx)), np.zeros((times.size, nx, free))
+        states, state_slopes = np.full((times.size, nx), np.nan), np.full((times.size, nx, free), np.nan)
         packed, out = np.zeros(at_u + nu + p.size), np.zeros(nv + nv * nv + nv * nx + nv * p.size)
         packed[at_u + nu :] = p
         J, pivots = np.empty((nv, nv)), np.zeros(nv, dtype=np.int64)
@@ -104,6 +104,7 @@ def _build(digest: str) -> Callable[..., Any]:
             _stage_slopes(slopes, packed, out, J, pivots, dx, 0.0, n, directions, dK[0])
         knot = 0
         for k in range(1, times.size):
+            at_most = taken + refused + _MOST_STEPS
             while t < times[k]:
                 while knot < input_times.size and input_times[knot] <= t:
                     knot += 1
@@ -117,7 +118,7 @@ def _build(digest: str) -> Callable[..., Any]:
                     step = left
                 elif step > 0.5 * left:
                     step = 0.5 * left
-                if step < 1e-12 * max(1.0, abs(t)):
+                if step < 1e-12 * max(1.0, abs(t)) or taken + refused > at_most:
                     return states, state_slopes, taken, refused, 1
                 good = True
                 hg = step * hg1

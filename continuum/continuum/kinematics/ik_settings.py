@@ -1,0 +1,34 @@
+"""Settings of the solvers, checked."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.errors import InvalidValueError
+
+SMALLEST_TOLERANCE = 1e-14
+"""What rounding allows, [m] and [rad]."""
+
+
+def checked_tolerance(tolerance: object) -> float:
+    """A tolerance [m] and [rad].
+
+    Raises:
+        InvalidValueError: it is none.
+    """
+    if not isinstance(tolerance, float | int | np.floating | np.integer) or isinstance(tolerance, bool):
+        raise InvalidValueError("tolerance", tolerance, f"a finite number >= {SMALLEST_TOLERANCE:g}")
+    if not SMALLEST_TOLERANCE <= tolerance < np.inf:
+        raise InvalidValueError("tolerance", tolerance, f"a finite number >= {SMALLEST_TOLERANCE:g}")
+    return float(tolerance)
+
+
+def checked_count(name: str, count: object, most: int = 100_000) -> int:
+    """A whole number from 0 to ``most``.
+
+    Raises:
+        InvalidValueError: it is none.
+    """
+    if not isinstance(count, int | np.integer) or isinstance(count, bool) or not 0 <= count <= most:
+        raise InvalidValueError(name, count, f"a whole number from 0 to {most}")
+    return int(count)

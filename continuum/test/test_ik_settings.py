@@ -1,0 +1,62 @@
+"""Settings of solvers that make no sense are refused by name."""
+
+import numpy as np
+import pytest
+
+from continuum.arm import Arm, Section
+from continuum.errors import InvalidValueError
+from continuum.kinematics.differential import DifferentialKinematics
+from continuum.kinematics.fabrikc import solve_fabrikc
+from continuum.kinematics.ik_target import Targets
+from continuum.kinematics.inverse_kinematics import InverseKinematics
+from continuum.kinematics.tracking import Tracker
+
+ARM = Arm(tuple(Section(f"section_{i}", n_joints=5, b=0.02, a=0.03) for i in range(3)))
+POINT = np.array([0.1, 0.0, 0.4])
+
+
+@pytest.mark.parametrize("tolerance", [0, -1.0, float("nan"), float("inf"), 1e-17, "1e-6", None, [1e-6], True])
+def test_tolerances(tolerance: object) -> None:
+    with pytest.raises(InvalidValueError, match="tolerance"):
+        InverseKinematics(ARM, tolerance)  # type: ignore[arg-type]
+    with pytest.raises(InvalidValueError, match="tolerance"):
+        solve_fabrikc(ARM, POINT, tolerance=tolerance)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("count", [-3, 2.5, None, True, "7"])
+def test_counts(count: object) -> None:
+    with pytest.raises(InvalidValueError, match="n_restarts"):
+        InverseKinematics(ARM, n_restarts=count)  # type: ignore[arg-type]
+    with pytest.raises(InvalidValueError, match="max_iterations"):
+        solve_fabrikc(ARM, POINT, max_iterations=count)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("objective", ["shortest", None, ["first"]])
+def test_objectives(objective: object) -> None:
+    with pytest.raises(InvalidValueError, match="objective"):
+        InverseKinematics(ARM, objective=objective)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", [0, 4, 7, -1, 600, "POSE", None])
+def test_kinds(kind: object) -> None:
+    with pytest.raises(InvalidValueError, match="kind"):
+        DifferentialKinematics(ARM, kind)  # type: ignore[arg-type]
+
+
+def test_a_posture_is_needed_for_a_rate() -> None:
+    with pytest.raises(InvalidValueError, match="w is"):
+        DifferentialKinematics(ARM).rate(None, [0, 0, 0])  # type: ignore[arg-type]
+    with pytest.raises(InvalidValueError, match="wish"):
+        DifferentialKinematics(ARM).rate(np.ones((3, 2)), [0, 0, 0], wish=[1.0])
+
+
+@pytest.mark.parametrize("target", [Targets([POINT, POINT]), Targets(np.zeros((0, 3))), POINT, None])
+def test_solve_answers_one_target(target: object) -> None:
+    with pytest.raises(InvalidValueError, match="target"):
+        InverseKinematics(ARM).solve(target)  # type: ignore[arg-type]
+
+
+def test_an_arm_that_is_told_to_stop_follows() -> None:
+    tracker = Tracker(ARM)
+    tracker.pose(POINT, None)
+    assert tracker.twist(np.zeros(3), None, 0.01).result.solved
