@@ -17,7 +17,7 @@ import numpy as np
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, ArmArrays, arm_table, arrays_of
-from continuum.kinematics.compiled.equations import compiled, entry_point
+from continuum.kinematics.compiled.equations import compiled, entry_point, merged
 from continuum.kinematics.compiled.limits import pull_within
 from continuum.kinematics.compiled.task import TargetArrays, miss, radian_in_metres, target_of
 from continuum.kinematics.ik_result import IkResult, IkStatus
@@ -103,7 +103,7 @@ def leg_length(theta: float, b: float, n_joints: int) -> float:
     return chord_length(theta, b, n_joints) / (2.0 * math.cos(0.5 * theta))
 
 
-@compiled
+@merged
 def _backward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Array) -> None:
     """From the target to the base: moves the virtual joints (n_sections, 3) [m] so that they end at the target."""
     end = target.position.copy()
@@ -118,7 +118,7 @@ def _backward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Arr
         end, tangent = joints[i] - leg * base_tangent, base_tangent
 
 
-@compiled
+@merged
 def _forward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Array) -> None:
     """From the base to the tip: moves virtual joints and tip tangents, each (n_sections, 3), to an arm on its base."""
     bends = _bends(tangents)
@@ -133,7 +133,7 @@ def _forward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Arra
         base, tangent = joints[i] + leg * tip_tangent, tip_tangent
 
 
-@compiled
+@merged
 def _place_joints(arm: ArmArrays, tangents: Array, joints: Array) -> None:
     """Fill the virtual joints (n_sections, 3) [m] of the arm whose sections end with the tangents (n_sections, 3)."""
     bends = _bends(tangents)
@@ -166,7 +166,7 @@ def _bend_within(free: Array, fixed: Array, bend_limit: float) -> tuple[Array, f
     return math.cos(limit) * fixed + math.sin(limit) * across, limit
 
 
-@compiled
+@merged
 def _configuration_from_tangents(arm: ArmArrays, tangents: Array, w: Array) -> None:
     """Fill ``w`` (2 n_sections,) [rad] of the arm whose sections end with the tangents (n_sections, 3)."""
     rotation = IDENTITY

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
-from continuum.kinematics.compiled.equations import compiled
+from continuum.kinematics.compiled.equations import compiled, merged
 from continuum.kinematics.compiled.limits import AT_LIMIT, pull_within
 from continuum.kinematics.compiled.task import TargetArrays, evaluate, squared
 
@@ -81,7 +81,7 @@ def fill_normals(arm: ArmArrays, target: TargetArrays, w: Array, conditions: Con
     return miss
 
 
-@compiled
+@merged
 def press(arm: ArmArrays, target: TargetArrays, w: Array, gradient: Array, conditions: Conditions) -> int:
     """Choose the limits that hold ``w`` against the descent of ``gradient`` (2 n_sections,), and how much each presses.
 
@@ -110,7 +110,7 @@ def press_on_held(arm: ArmArrays, target: TargetArrays, w: Array, gradient: Arra
     return rank
 
 
-@compiled
+@merged
 def _change_held(arm: ArmArrays, w: Array, gradient: Array, rank: int, conditions: Conditions) -> bool:
     """Let go the limit that pulls most or else hold the one that is pushed most; False if there is none of either."""
     held, multipliers, basis = conditions.held, conditions.multipliers, conditions.basis
@@ -212,7 +212,7 @@ def _span(conditions: Conditions) -> int:
     return rank
 
 
-@compiled
+@merged
 def _complete(basis: Array, rank: int) -> None:
     """Fill the rows of ``basis`` (k, k) from ``rank`` on, so that it spans everything."""
     size = len(basis)
@@ -250,7 +250,7 @@ def _append(basis: Array, count: int, row: Array, least: float) -> bool:
     return True
 
 
-@compiled
+@merged
 def _fill_multipliers(gradient: Array, rank: int, conditions: Conditions) -> None:
     """Fill the multipliers by substitution from the last: a normal has no part in basis rows that came after it."""
     normals, multipliers = conditions.normals, conditions.multipliers

@@ -6,7 +6,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
-from continuum.kinematics.compiled.equations import compiled
+from continuum.kinematics.compiled.equations import merged
 from continuum.kinematics.compiled.least_squares_step import least_squares_step
 from continuum.kinematics.compiled.limits import hold_outward, pull_within
 from continuum.kinematics.compiled.task import TargetArrays, fill_task_jacobian, miss, squared
@@ -17,7 +17,7 @@ _SLOW = 0.98  # a squared error that shrinks by less ...
 _N_SLOW = 4  # ... so many times in a row ends the search
 
 
-@compiled
+@merged
 def descend(
     arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, max_iterations: int, damping: float
 ) -> tuple[int, float, float, bool]:

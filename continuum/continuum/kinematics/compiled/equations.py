@@ -51,6 +51,9 @@ compiled = numba.njit(error_model="numpy")
 inlined = numba.njit(error_model="numpy", forceinline=True)
 """The same for small functions called all the time: handing over an arm's arrays takes as long as their work."""
 
+merged = numba.njit(error_model="numpy", inline="always")
+"""The same for functions with one caller: they become a part of it, which spares the time to compile them apart."""
+
 
 def argument(value: Any) -> Any:
     """A constant to hand to compiled functions; numba would compile one more version for a plain number alone."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
-from continuum.kinematics.compiled.equations import compiled
+from continuum.kinematics.compiled.equations import compiled, merged
 from continuum.kinematics.compiled.least_squares_step import solve_positive_definite
 from continuum.kinematics.compiled.limits import AT_LIMIT, pull_within
 from continuum.kinematics.compiled.task import TargetArrays, evaluate, squared
@@ -27,7 +27,7 @@ _ROUNDING = 1e-13  # part of a squared error that rounding may hide
 _STATIONARY = 1e-10  # gradient of the half squared error, in weights per rad, that ends the search
 
 
-@compiled
+@merged
 def descend_to_nearest(arm: ArmArrays, target: TargetArrays, w: Array) -> tuple[int, bool]:
     """Move ``w`` (2 n_sections,) [rad] in place to a local minimum of the error; iterations, and whether it is one."""
     size = len(w)
@@ -80,7 +80,7 @@ def _cost_and_gradient(
     return 0.5 * squared(error), gradient
 
 
-@compiled
+@merged
 def _choose_held(arm: ArmArrays, w: Array, gradient: Array, on_limit: NDArray[np.bool_]) -> None:
     """Hold the sections that stand at their limit and would gain by bending further."""
     for i in range(len(on_limit)):
@@ -123,7 +123,7 @@ def _move(w: Array, step: Array, on_limit: NDArray[np.bool_]) -> None:
             row += 2
 
 
-@compiled
+@merged
 def _hessian(
     arm: ArmArrays,
     target: TargetArrays,
@@ -148,7 +148,7 @@ def _hessian(
     return 0.5 * (hessian + hessian.T)
 
 
-@compiled
+@merged
 def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tries: int) -> tuple[int, bool]:
     """The nearest pose that descents find from the first of ``ends`` and from the ``n_tries`` best; fills ``w``.
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, ArmArrays, arrays_of
-from continuum.kinematics.compiled.equations import compiled, entry_point
+from continuum.kinematics.compiled.equations import compiled, entry_point, merged
 from continuum.kinematics.compiled.limits import hold_outward, stop_radial
 from continuum.kinematics.compiled.task import turn_into_tip_frame
 from continuum.kinematics.compiled.tip import tip_and_jacobian
@@ -22,7 +22,7 @@ from continuum.kinematics.rigid import rotated, transposed
 _NEAR_SINGULAR = 0.02  # of the largest singular value, below which damping sets in
 
 
-@compiled
+@merged
 def tip_rate(
     arm: ArmArrays, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array
 ) -> tuple[Array, Array, bool]:

@@ -22,7 +22,7 @@ from continuum.kinematics.compiled.constraints import (
     restore,
     way_to_limits,
 )
-from continuum.kinematics.compiled.equations import compiled
+from continuum.kinematics.compiled.equations import compiled, merged
 from continuum.kinematics.compiled.least_squares_step import solve_positive_definite
 from continuum.kinematics.compiled.task import TargetArrays, squared
 
@@ -85,7 +85,7 @@ def _descent_along(rows: Array, gradient: Array) -> Array:
     return descent
 
 
-@compiled
+@merged
 def _newton_step(hessian: Array, descent: Array, damping: float, rows: Array, change: Array) -> bool:
     """Fill ``change`` (2 n_sections,) with Newton's step along ``rows``; False if the damped Hessian is indefinite."""
     step, damped = descent.copy(), hessian.copy()
@@ -100,7 +100,7 @@ def _newton_step(hessian: Array, descent: Array, damping: float, rows: Array, ch
     return True
 
 
-@compiled
+@merged
 def _stepped(w: Array, part: float, change: Array) -> tuple[Array, float]:
     """``w`` moved by ``part`` of ``change``, or less if that is much; and the largest change of a coordinate [rad]."""
     largest = np.max(np.abs(change))

@@ -7,7 +7,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
 from continuum.kinematics.compiled.descent import descend
-from continuum.kinematics.compiled.equations import argument, compiled
+from continuum.kinematics.compiled.equations import argument, compiled, merged
 from continuum.kinematics.compiled.task import TargetArrays
 from continuum.kinematics.fabrikc import fabrikc
 from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
@@ -31,7 +31,7 @@ def start_postures(n_sections: int, count: int) -> Array:
     return np.stack([bend * np.cos(azimuth), bend * np.sin(azimuth)], axis=-1).reshape(count, d)
 
 
-@compiled
+@merged
 def _point_at(arm: ArmArrays, position: Array, w: Array) -> None:
     """Closed form for an arm of one section: Eq. 5, seen from the section's base."""
     c, s = arm.cos_twist[0], arm.sin_twist[0]

@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, CONTACT, ArmArrays, arrays_of
-from continuum.kinematics.compiled.equations import argument, compiled, entry_point
+from continuum.kinematics.compiled.equations import argument, entry_point, merged
 from continuum.kinematics.compiled.nearest import nearest_of
 from continuum.kinematics.compiled.redundancy import slide_towards
 from continuum.kinematics.compiled.search import search
@@ -28,7 +28,7 @@ _N_NEIGHBOURHOODS = 12  # in which the least bent answer is looked for
 _N_NEAREST = 4  # descents from which the nearest pose is looked for
 
 
-@compiled
+@merged
 def answer(
     arm: ArmArrays,
     unlimited: ArmArrays,
@@ -70,7 +70,7 @@ def answer(
     return _UNREACHABLE if settled else _NO_CONVERGENCE, iterations, distance, angle
 
 
-@compiled
+@merged
 def _least_bent(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, postures: Array, ends: Array) -> int:
     """Move ``w``, which solves the target, in place to the least bent answer of several neighbourhoods; iterations."""
     straight = np.zeros_like(w)
