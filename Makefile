@@ -5,7 +5,7 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo test bench-ik check format lock clean
+.PHONY: help setup demo test reproduction bench-dynamics bench-ik check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -18,6 +18,12 @@ demo: setup ## follow the thesis's helix with real nodes, results in out/demo
 
 test: check ## run the checks and every test (ARGS="-k name" are given to pytest)
 	@$(IN_WORKSPACE) pytest $(ARGS)
+
+reproduction: setup ## make the thesis's dynamic results again: docs/reproduction.md
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.reproduction $(ARGS)
+
+bench-dynamics: setup ## measure the integrators against each other: docs/numerics.md (about 10 minutes)
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.bench_dynamics $(ARGS)
 
 bench-ik: setup ## measure the inverse kinematics against its rivals: docs/ik-benchmark.md (about 10 minutes)
 	@$(IN_WORKSPACE) python3 -m tools.bench_ik $(ARGS)

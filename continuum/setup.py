@@ -1,6 +1,15 @@
+from pathlib import Path
+
 from setuptools import find_packages, setup
 
 package_name = "continuum"
+
+
+def effects() -> list[str]:
+    """Every file of the effects' package but its __init__ is an effect: rest_angle.py holds RestAngle."""
+    names = sorted(path.stem for path in Path(__file__).parent.glob("continuum/effects/[!_]*.py"))
+    return [f"{name} = continuum.effects.{name}:{name.title().replace('_', '')}" for name in names]
+
 
 setup(
     name=package_name,
@@ -18,5 +27,6 @@ setup(
         "console_scripts": [
             "continuum = continuum.cli:main",
         ],
+        "continuum.effects": effects(),
     },
 )

@@ -20,6 +20,7 @@ setup(
         "console_scripts": [
             "section = continuum_manipulator.section_node:main",
             "robot = continuum_manipulator.robot_node:main",
+            "dynamics = continuum_manipulator.dynamics_node:main",
             "cable_tangler = continuum_manipulator.cable_tangler_node:main",
             "markers = continuum_manipulator.markers_node:main",
             "recorder = continuum_manipulator.recorder_node:main",

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
+from continuum import joint_names
 from continuum.errors import FileError, InvalidValueError
 from continuum.parameter_file import read_parameter_file
 from continuum.parameter_spec import ParameterSpec
 
 FOUR_CABLES = [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]
 """Azimuths of four cables, a quarter turn apart, as on the prototype [rad]."""
-
-_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")  # it becomes a part of topic, frame and parameter names
 
 SECTIONS_PARAMETER = ParameterSpec("sections", str, "names of the sections from the base", is_list=True)
 
@@ -86,8 +84,7 @@ class Section:
     link_inertia: float = _default("link_inertia")
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or not _NAME.fullmatch(self.name):
-            raise InvalidValueError("name of section", self.name, "a letter, then letters, digits and underscores")
+        joint_names.check_section(self.name)
         for spec in SECTION_PARAMETERS:
             value = spec.check(getattr(self, spec.name), f"{self.name}.")
             object.__setattr__(self, spec.name, tuple(value) if isinstance(value, list) else value)
@@ -117,22 +114,22 @@ class Section:
     @property
     def cable_names(self) -> tuple[str, ...]:
         """Names of the actuating cables, counted from 1."""
-        return tuple(f"{self.name}_cable_{j + 1}" for j in range(len(self.cable_azimuths)))
+        return joint_names.cable_names(self.name, len(self.cable_azimuths))
 
     @property
     def phi_joint(self) -> str:
         """Name of the joint at the base that turns the bending plane (thesis appendix A)."""
-        return f"{self.name}_phi"
+        return joint_names.phi_joint(self.name)
 
     @property
     def theta_joints(self) -> tuple[str, ...]:
         """Names of the bending joints from base to tip; each turns by theta / n_joints."""
-        return tuple(f"{self.name}_theta_{k + 1}" for k in range(self.n_joints))
+        return joint_names.theta_joints(self.name, self.n_joints)
 
     @property
     def phi_back_joint(self) -> str:
         """Name of the joint at the tip that turns back by -phi."""
-        return f"{self.name}_phi_back"
+        return joint_names.phi_back_joint(self.name)
 
     @property
     def base_frame(self) -> str:

@@ -180,6 +180,19 @@ class Sag(Effect):
         return gravity_torque(leaning.link_angle, now.p) - gravity_torque(now.motion.link_angle, now.p)
 
 
+class Broken(Effect):
+    """A torque that is no number once a joint has bent far enough, or at once."""
+
+    name = "broken"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "limit": Parameter("l", "rad", -10.0, 10.0, False, "angle up to which it is a number", 10.0)
+    }
+
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+        """A square root of what becomes negative."""
+        return 1e-9 * np.sqrt(own["limit"] - now.motion.theta)
+
+
 def active(effect: Effect, n_joints: int = 1, **values: float) -> ActiveEffect:
     """The effect with these values, the others at their defaults."""
     return ActiveEffect(

@@ -70,14 +70,14 @@ def test_help_says_what_can_be_done_next(capsys: Captured) -> None:
     assert code("--help") == 0
     text = capsys.readouterr().out
     commands = re.findall(r"^  (continuum|ros2) (\w+)", text, re.MULTILINE)
-    assert {("continuum", name) for name in ("info", "solve", "report")} <= set(commands)
+    assert {("continuum", name) for name in ("info", "solve", "simulate", "report")} <= set(commands)
     assert {("ros2", "launch"), ("ros2", "bag")} <= set(commands)
     assert (CONFIG.parents[1] / re.search(r"like (\S+\.yaml)", text)[1]).is_file()
     for package, file in re.findall(r"ros2 launch (\w+) (\S+)", text):
         assert (CONFIG.parents[1] / package / "launch" / file).is_file()
 
 
-@pytest.mark.parametrize("command", ["info", "solve", "report"])
+@pytest.mark.parametrize("command", ["info", "solve", "simulate", "report"])
 def test_help_of_a_command(capsys: Captured, command: str) -> None:
     assert code(command, "--help") == 0
     assert f"usage: continuum {command}" in capsys.readouterr().out

@@ -9,6 +9,7 @@ from continuum_laws.differences import differences
 from dynamics_laws import LaggingDrive, Sag, TipLoad, TurningBase, Wind, active, random_model
 
 from continuum.dynamics.balance import balance
+from continuum.dynamics.compiled import code_in_parts
 from continuum.dynamics.compiled.machine_code import CompilerError, compile_function
 from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance
 from continuum.dynamics.expressions import positive_part, smooth_sign, suffix_sum, where_positive
@@ -38,16 +39,16 @@ def model_and_symbols(name: str) -> tuple[Model, SymbolicBalance]:
 
 
 def random_point(model: Model, seed: int) -> np.ndarray:
-    """State, rates, tensions and parameters, packed."""
+    """State, rates, tensions, parameters and h g, packed."""
     random, n = np.random.default_rng(seed), model.n_joints
     x = np.concatenate([random.uniform(-0.5, 0.5, n), random.normal(size=n), random.uniform(0.5, 2.0, model.n_states)])
-    return np.concatenate([x, 5 * random.normal(size=n + model.n_states), [4.0, 2.0], parameter_vector(model)])
+    return np.concatenate([x, 5 * random.normal(size=n + model.n_states), [4.0, 2.0], parameter_vector(model), [0.3]])
 
 
 def numeric(model: Model, packed: np.ndarray) -> np.ndarray:
     """The balance of floats at a packed point."""
     nx, nv = 2 * model.n_joints + model.n_states, model.n_joints + model.n_states
-    x, v, u, p = np.split(packed, [nx, nx + nv, nx + nv + 2])
+    x, v, u, p = np.split(packed[:-1], [nx, nx + nv, nx + nv + 2])
     return balance(model.built_from({name: p[at] for name, at in parameter_slots(model).items()}), x, v, u)
 
 
@@ -66,28 +67,62 @@ def test_derivatives_are_slopes_of_the_balance(name: str) -> None:
     nx, nv = 2 * model.n_joints + model.n_states, model.n_joints + model.n_states
     for seed in range(2):
         packed = random_point(model, seed)
-        slopes = symbols.slopes(packed).full().ravel()
-        newton = symbols.newton(packed).full().ravel()
-        np.testing.assert_array_equal(newton, slopes[: newton.size])
-        r, matrices = slopes[:nv], slopes[nv:].reshape(-1, nv).T  # dr/dv, dr/dx, dr/dp side by side
-        np.testing.assert_allclose(r, numeric(model, packed), rtol=1e-11, atol=1e-12)
         step = 1e-3 * np.minimum(1.0, np.where(packed == 0, 1.0, np.abs(packed)))
         expected = differences(lambda s: numeric(model, packed + s * step), np.zeros(packed.size), 1.0) / step  # noqa: B023
-        expected = np.concatenate([expected[:, nx : nx + nv], expected[:, :nx], expected[:, nx + nv + 2 :]], axis=1)
-        scale = np.abs(expected).max(axis=0) + 1e-3
-        assert np.max(np.abs(matrices - expected) / scale) < 1e-7
+        by_x, by_v, _, by_p, _ = np.split(expected, [nx, nx + nv, nx + nv + 2, packed.size - 1], axis=1)
+        n, hg = model.n_joints, packed[-1]
+        stage = by_v + hg * by_x[:, n:]
+        stage[:, :n] += hg**2 * by_x[:, :n]
+        for function, matrices in (
+            (symbols.residual, []),
+            (symbols.stage, [stage]),
+            (symbols.newton, [by_v, by_x]),
+            (symbols.slopes, [stage, by_x, by_p]),
+        ):
+            found = function(packed).full().reshape(-1, nv).T
+            wanted = np.concatenate([numeric(model, packed)[:, None], *matrices], axis=1)
+            scale = np.abs(wanted).max(axis=0) + 1e-3
+            np.testing.assert_allclose(found / scale, wanted / scale, rtol=0, atol=1e-7)
 
 
 @each_model
 def test_machine_code_computes_what_the_interpreter_does(name: str) -> None:
     model, symbols = model_and_symbols(name)
-    for function in (symbols.newton, symbols.slopes):
+    for function in (symbols.residual, symbols.stage, symbols.newton, symbols.slopes):
         code = compile_function(function)
         for seed in range(5):
             packed = random_point(model, seed)
             out = np.full(function.nnz_out(), np.nan)
             code(packed.ctypes.data, out.ctypes.data)
             np.testing.assert_allclose(out, function(packed).full().ravel(), rtol=1e-12, atol=1e-13)
+
+
+@each_model
+def test_code_cut_into_parts_computes_the_same(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    model, symbols = model_and_symbols(name)
+    whole = compile_function(symbols.stage)
+    monkeypatch.setattr(code_in_parts, "_LONGEST", 100)
+    monkeypatch.setattr(code_in_parts, "_PART", 70)
+    parts = compile_function(symbols.stage)
+    assert parts is not whole
+    packed, size = random_point(model, 1), symbols.stage.nnz_out()
+    found, expected = np.full(size, np.nan), np.full(size, np.nan)
+    parts(packed.ctypes.data, found.ctypes.data)
+    whole(packed.ctypes.data, expected.ctypes.data)
+    np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-13)
+
+
+def test_long_code_is_cut_and_short_code_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    code = "static int casadi_f0(int mem) {\n  casadi_real a0, a01,\n  a02;\n" + "  a01=(a0+a02);\n" * 7
+    code += "  if (res[0]!=0) res[0][0]=a02;\n  return 0;\n}\nint f() {\n  return 0;\n}\n"
+    assert code_in_parts.in_parts(code) == code
+    monkeypatch.setattr(code_in_parts, "_LONGEST", 7)
+    monkeypatch.setattr(code_in_parts, "_PART", 5)
+    cut = code_in_parts.in_parts(code)
+    assert cut.count("static void part_") == 2
+    assert cut.count("a[1]=(a[0]+a[2]);") == 7
+    assert "casadi_real a[3];\n  part_0(arg, res, a);\n  part_1(arg, res, a);\n  return 0;" in cut
+    assert "res[0][0]=a[2];" in cut
 
 
 def test_tracing_does_not_look_at_the_values() -> None:

@@ -40,6 +40,23 @@ BAD_PARAMETERS = {
     "too few sections listed": ("cable_tangler", ARM, {"arm.sections": "[section_1]"}, "arm.section_2 is"),
     "a value where a block is due": ("markers", ARM, {"arm.section_1.a.b": 1}, "arm.section_1.a"),
     "no arm": ("markers", (), {}, "arm is None; allowed: a block"),
+    "no model": ("dynamics", (), {"model": "nowhere.yaml"}, "nowhere.yaml: "),
+    "an arm in the place of a model": ("dynamics", (), {"model": ARM_FILE}, "allowed: not known here; one of n_joints"),
+    "unknown integrator": ("dynamics", (), {"integrator": "euler"}, "allowed: one of bdf, esdirk"),
+    "two postures": (
+        "dynamics",
+        (),
+        {"initial_bend": 1.0, "initial_angles": "[0.1, 0.1, 0.1, 0.1, 0.1]"},
+        "initial_bend is 1.0; allowed: 0, or no initial_angles",
+    ),
+    "angles of another arm": (
+        "dynamics",
+        (),
+        {"initial_angles": "[0.1, 0.2]"},
+        "initial_angles is [0.1, 0.2]; allowed: 5",
+    ),
+    "section name for no topic": ("dynamics", (), {"section": "1st"}, "name of section is '1st'; allowed: a letter"),
+    "tension that pushes": ("dynamics", (), {"max_tension": -1.0}, "max_tension is -1.0; allowed: "),
     "unknown storage": ("recorder", (), {"storage": "tape"}, "storage is 'tape'; allowed: one of mcap, sqlite3"),
 }
 

@@ -65,12 +65,17 @@ def _inputs(package: Path) -> Iterator[str | bytes]:
     is_python = (package / "setup.py").exists()
     for path in sorted(package.rglob("*")):
         relative = path.relative_to(package)
-        in_code = is_python and relative.parts[0] == package.name and relative.name != "__init__.py"
+        in_code = is_python and relative.parts[0] == package.name and not _names_matter(relative)
         if in_code or relative.parts[0] == "test" or "__pycache__" in relative.parts or not path.is_file():
             continue
         yield str(relative)
         if not is_python or relative.name in READ_BY_BUILD:
             yield path.read_bytes()
+
+
+def _names_matter(relative: Path) -> bool:
+    """Whether a build looks at the names of such files: packages are found by __init__.py, effects by their files."""
+    return relative.name == "__init__.py" or relative.parts[1:-1] == ("effects",)
 
 
 def _digest(parts: Iterable[str | bytes]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from continuum.cli import info, report, solve
+from continuum.cli import info, report, simulate, solve
 from continuum.cli.negative_numbers import written_out
 from continuum.errors import ContinuumError
 
@@ -13,14 +13,16 @@ _NEXT_STEPS = """\
 what you can do next:
   continuum info ARM.yaml                      lengths, cables and bend limits of an arm
   continuum solve ARM.yaml 0.15 0 0.20         bring the tip to a point; bends and cable lengths of the answer
+  continuum simulate --release 90 --picture X.png   let go of an arm that is bent by 90 degrees
   continuum report RECORDING --arm ARM.yaml    tracking error, cable rates and losses of a recorded run
 
   ros2 launch continuum_manipulator three_sections.launch.xml     the nodes of an arm of three sections
   ros2 launch trajectory_generator helix.launch.xml               the same, following the thesis's helix
+  ros2 launch continuum_manipulator dynamics.launch.xml           a simulated arm that tension commands pull
   ros2 bag record /cable_states                                   record what the cables do
 
 ARM.yaml is a file like continuum_description/config/three_sections.yaml.
-Exit codes: 0 done, 1 the answer is no (a target out of reach), 2 wrong usage, file or value.
+Exit codes: 0 done, 1 the answer is no (a target out of reach, a simulation that fails), 2 wrong usage, file or value.
 """
 
 
@@ -28,12 +30,12 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the command; returns the process's exit code."""
     parser = argparse.ArgumentParser(
         prog="continuum",
-        description="Multi-section, cable-driven snake arms: kinematics, and what recordings show of them.",
+        description="Multi-section, cable-driven snake arms: kinematics, dynamics, and what recordings show of them.",
         epilog=_NEXT_STEPS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (info, solve, report):
+    for command in (info, solve, simulate, report):
         command.add_to(commands)
     options = parser.parse_args(written_out(sys.argv[1:] if arguments is None else arguments))
     try:

@@ -1,4 +1,4 @@
-"""Negative numbers on the command line: argparse takes ``-1e-2`` for an option, ``-0.01`` for the number that it is."""
+"""Negative numbers on the command line: argparse takes ``-1e-2`` and ``-1,2`` for options, ``-0.01`` for a number."""
 
 from __future__ import annotations
 
@@ -7,8 +7,18 @@ from collections.abc import Sequence
 from decimal import Decimal
 
 _EXPONENT = re.compile(r"-(\d+\.?\d*|\.\d+)[eE][-+]?\d{1,3}")
+_LIST = re.compile(r"-[\d.][-+\d.eE]*(,[-+\d.eE]+)+")
 
 
 def written_out(arguments: Sequence[str]) -> list[str]:
-    """The arguments, negative numbers with an exponent written without it, digit for digit."""
-    return [format(Decimal(text), "f") if _EXPONENT.fullmatch(text) else text for text in arguments]
+    """The arguments, negative numbers with an exponent written without it, digit for digit.
+
+    A list of numbers that begins with a minus is joined to the option before it.
+    """
+    written: list[str] = []
+    for text in arguments:
+        if _LIST.fullmatch(text) and written and written[-1].startswith("--") and "=" not in written[-1]:
+            written[-1] += f"={text}"
+        else:
+            written.append(format(Decimal(text), "f") if _EXPONENT.fullmatch(text) else text)
+    return written

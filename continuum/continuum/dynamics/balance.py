@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -23,11 +24,15 @@ def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | N
         u: commanded tension of each cable, (n_cables,) [N].
         motion: of the joints, where it is known already; made from ``x`` and ``v`` without.
     """
-    now, parts = _instant(model, x, v, u, motion or joint_motion(model, x, v)), list(_parts(model, x, v))
+    now, told = _instant(model, x, v, u, motion or joint_motion(model, x, v))
+    parts = list(_parts(model, x, v))
     torque = torque_balance(now)
     for active, state, _ in parts:
         torque = torque + active.effect.torque(now, active.values, state)
-    own = [active.effect.state_balance(now, active.values, state, rate) for active, state, rate in parts]
+    own = [
+        active.effect.state_balance(replace(now, u=told_it), active.values, state, rate)
+        for (active, state, rate), told_it in zip(parts, told, strict=True)
+    ]
     return np.concatenate([torque, *own])
 
 
@@ -37,13 +42,15 @@ def joint_motion(model: Model, x: Numbers, v: Numbers) -> Motion:
     return Motion(x[:n], x[n : 2 * n], v[:n], still, still, still)
 
 
-def _instant(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion) -> Instant:
-    p = model.parameters
+def _instant(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion) -> tuple[Instant, list[Numbers]]:
+    """What the torques see, and the tensions that each effect is told before it changes them."""
+    p, told = model.parameters, []
     for active, state, rate in _parts(model, x, v):
+        told.append(u)
         p = active.effect.change_parameters(p, active.values)
         motion = active.effect.move_base(motion, active.values, state, rate)
         u = active.effect.pull(u, active.values, state)
-    return Instant(motion, u, p)
+    return Instant(motion, u, p), told
 
 
 def _parts(model: Model, x: Numbers, v: Numbers) -> Iterator[tuple[ActiveEffect, Numbers, Numbers]]:

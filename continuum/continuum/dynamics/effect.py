@@ -35,8 +35,8 @@ class Effect:
         in_words: what is the matter with the arm, one sentence for a mechanic.
         looks_like: what it does to the data, one sentence.
         experiment: what to measure so that it stands out from what resembles it, one sentence.
-        state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's units;
-            0 where it is certain.
+        state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
+            units; 0 where it is certain.
     """
 
     name: ClassVar[str]
@@ -68,7 +68,7 @@ class Effect:
         return np.zeros(1)
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        """Zero when the effect's states obey their equations, (n_states,)."""
+        """Zero when the effect's states obey their equations, (n_states,); ``now.u`` is what `pull` was given."""
         return state_rate
 
     def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:

@@ -9,17 +9,16 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.compiled.equations import CompiledEquations
 from continuum.dynamics.compiled.machine_code import address_of
-from continuum.dynamics.integration.esdirk import integrate
+from continuum.dynamics.integration.esdirk import STATUSES, integrate
 from continuum.dynamics.integration.esdirk_tableau import Tableau, third_order
+from continuum.dynamics.integration.problem import Method, Problem
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import Model
 from continuum.dynamics.simulation_input import finite_array, initial_state, output_times
 from continuum.dynamics.tensions import Tensions, slack
-from continuum.dynamics.trajectory import SimulationStatus, Trajectory
+from continuum.dynamics.trajectory import Trajectory
 from continuum.dynamics.values import parameter_vector
 from continuum.errors import InvalidValueError
-
-_STATUS = (SimulationStatus.COMPLETE, SimulationStatus.STEP_TOO_SMALL, SimulationStatus.NOT_FINITE)
 
 
 class Simulator:
@@ -69,15 +68,19 @@ class Simulator:
         x0, times = initial_state(self.model, initial), output_times(times)
         p = self._values(values)
         directions, slope0 = self._free(p.size, x0.size, free, free_initial)
-        method, limits = self._tableau, self.tolerances
-        newton = address_of(self.equations.newton)
-        slopes = address_of(self.equations.slopes) if directions.shape[1] else 0
-        states, slopes, taken, refused, status = integrate(
-            newton, slopes, n, x0, p, times - times[0], tensions.times - times[0], tensions.values,
-            method.a, method.c, method.error, method.order, limits.relative, limits.absolute, limits.max_step,
-            np.ascontiguousarray(directions), np.ascontiguousarray(slope0),
+        equations, tableau, limits = self.equations, self._tableau, self.tolerances
+        problem = Problem(
+            address_of(equations.residual), address_of(equations.stage),
+            address_of(equations.slopes) if directions.shape[1] else 0,
+            n, p, tensions.times - times[0], tensions.values, np.ascontiguousarray(directions),
         )  # fmt: skip
-        return Trajectory(_STATUS[status], times, states, n, taken, refused, slopes)
+        method = Method(
+            tableau.a, tableau.c, tableau.error, tableau.order, limits.relative, limits.absolute, limits.max_step
+        )
+        states, slopes, taken, refused, status = integrate(
+            problem, method, x0, times - times[0], np.ascontiguousarray(slope0)
+        )
+        return Trajectory(STATUSES[status], times, states, n, taken, refused, slopes)
 
     def _values(self, given: Array | None) -> Array:
         """Parameter values, (n_p,)."""

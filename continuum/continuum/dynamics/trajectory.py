@@ -25,7 +25,7 @@ class Trajectory:
         times: (n_times,) [s].
         states: joint angles, joint rates, states of effects, (n_times, n_x) [rad, rad/s, ...].
         n_joints: number of joints.
-        steps, refused: steps that the integrator took, and that it had to repeat.
+        steps, refused: steps that the integrator took, and that it had to repeat (SciPy's BDF: not told, 0).
         slopes: derivative of the states by the free quantities asked for, (n_times, n_x, n_free); n_free may be 0.
     """
 

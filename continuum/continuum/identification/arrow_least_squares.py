@@ -16,6 +16,8 @@ import numpy as np
 from continuum.arrays import Array
 
 _ENOUGH = 0.02  # of log-likelihood: a smaller expected gain is not worth a step
+_ENOUGH_OF_COST = 2e-4
+_LEAST_DAMPING = 1e-4
 _MOST_ITERATIONS = 40
 
 
@@ -93,7 +95,8 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, own_start: Seque
     cost, damping, evaluations = unknowns.cost(parts, shared, own), 1e-2, 1
     for _ in range(_MOST_ITERATIONS):
         step, own_steps, gain = damped_step(unknowns, parts, shared, own, damping)
-        if gain < _ENOUGH and damping <= 1.0:
+        enough = max(_ENOUGH, _ENOUGH_OF_COST * cost)
+        if gain < enough and damping <= 1.0:
             return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
         there = np.clip(shared + step, unknowns.lower, unknowns.upper)
         own_there = [mine + change for mine, change in zip(own, own_steps, strict=True)]
@@ -101,9 +104,9 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, own_start: Seque
         new = np.inf if tried is None else unknowns.cost(tried, there, own_there)
         if tried is not None and new < cost:
             good = (cost - new) > 0.5 * gain
-            settled = cost - new < _ENOUGH and gain < 20 * _ENOUGH
+            settled = cost - new < enough and gain < 20 * enough
             shared, own, parts, cost = there, own_there, tried, new
-            damping = damping * (0.1 if good else 0.5)
+            damping = max(damping * (0.1 if good else 0.5), _LEAST_DAMPING)
             if settled:
                 return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
         else:

@@ -105,6 +105,7 @@ def fit(
     free: Sequence[Free],
     start: Array | None = None,
     own: Sequence[Array] | None = None,
+    restart: float | None = None,
 ) -> Fit:
     """Fit the unknowns ``free`` of a model, and the initial state of every recording.
 
@@ -115,6 +116,7 @@ def fit(
         free: unknowns; those of parameters that differ by recording get a value in each.
         start: coordinates of the shared ones to start from, (k,); the model's own values without.
         own: coordinates of each recording's own unknowns to start from.
+        restart: time after which runs begin anew from a state of their own [s]; never without.
 
     Raises:
         InvalidValueError: an unknown that the model does not have.
@@ -122,7 +124,7 @@ def fit(
     model = simulator.model
     shared = FreeSpace(model, [unknown for unknown in free if not is_per_recording(model, unknown)])
     mine = FreeSpace(model, [unknown for unknown in free if is_per_recording(model, unknown)])
-    runs = [RunResidual(simulator, recording, noise, shared, mine) for recording in recordings]
+    runs = [RunResidual(simulator, recording, noise, shared, mine, restart) for recording in recordings]
     begin = np.zeros(len(shared.unknowns)) if start is None else shared.clipped(start)
     unknowns = Unknowns(
         begin,

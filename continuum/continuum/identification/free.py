@@ -23,10 +23,12 @@ class Free:
     Attributes:
         name: of the parameter, as in `Model.values`.
         joint: whose value alone moves, from 0; None moves those of all joints by the same amount.
+        tolerance: prior standard deviation relative to the model's value, where parts are known to be alike; else wide.
     """
 
     name: str
     joint: int | None = None
+    tolerance: float | None = None
 
     def __str__(self) -> str:
         return self.name if self.joint is None else f"{self.name}[{self.joint + 1}]"
@@ -68,10 +70,12 @@ class FreeSpace:
                 at = at[unknown.joint : unknown.joint + 1]
             values = self.origin[at]
             self.scale[i] = meaning.typical or max(np.max(np.abs(values)), 1e-3 * (meaning.upper - meaning.lower))
+            self.spread[i] = _BASELINE_SPREAD if meaning.typical is None else _EFFECT_SPREAD
+            if unknown.tolerance is not None:
+                self.scale[i], self.spread[i] = unknown.tolerance * np.max(np.abs(values)), 1.0
             self.directions[at, i] = self.scale[i]
             self.lower[i] = (meaning.lower - values.min()) / self.scale[i]
             self.upper[i] = (meaning.upper - values.max()) / self.scale[i]
-            self.spread[i] = _BASELINE_SPREAD if meaning.typical is None else _EFFECT_SPREAD
 
     def values(self, coordinates: Array) -> Array:
         """All values of the model, (n_p,), at coordinates (n_free,)."""

@@ -1,6 +1,6 @@
 """How much the sensors err, estimated from the recordings without any model of the arm.
 
-White noise is what remains of fourth differences: motion sampled at 120 Hz leaves next to nothing in them. What wanders
+White noise is what remains of fourth differences where the arm is quiet. What wanders
 slowly in the angles is seen beside the integral of the measured rates. Joints are differences of neighbouring
 sensors, so their errors are correlated from joint to joint; the covariance over the joints is estimated too.
 """
@@ -18,6 +18,9 @@ from continuum.identification.recording import Recording
 
 _ANGLE_FLOOR = np.deg2rad(0.1)  # no joint angle from inertial sensors is better [rad]
 _RATE_FLOOR = np.deg2rad(0.1)  # [rad/s]
+_STRETCH = 16  # samples
+_QUIET = 0.15  # of the stretches are quiet in most recordings
+_QUIET_FACTOR = 0.484  # mean square of white noise in the stretch at that quantile, measured on white noise
 _WANDER_TRIED = np.concatenate([[0.0], np.geomspace(0.05, 30, 25)])  # sizes in units of the white noise
 
 
@@ -44,16 +47,21 @@ class Channel:
         joints: (n_joints, n_joints) [rad^2 or rad^2/s^2].
         slow: variance of the slow part in units of the white one.
         slow_time: correlation time of the slow part, infinite for a constant [s].
+        walk: variance that a random walk gains in a second, in units of the white one [1/s].
+        ramp: variance of a slope in time, in units of the white part's [1/s2].
     """
 
     joints: Array
     slow: float
     slow_time: float
+    walk: float = 0.0
+    ramp: float = 0.0
 
     def whitener(self, times: Array) -> Whitener:
         """What turns errors sampled at ``times`` into independent ones of unit variance."""
-        apart = np.abs(times[:, None] - times[None, :])
+        apart, since = np.abs(times[:, None] - times[None, :]), times - times[0]
         in_time = np.eye(times.size) + self.slow * np.exp(-apart / self.slow_time)
+        in_time += self.walk * np.minimum(since[:, None], since[None, :]) + self.ramp * np.outer(since, since)
         return Whitener(np.linalg.cholesky(in_time), np.linalg.cholesky(self.joints))
 
     @property
@@ -94,23 +102,43 @@ def estimate_noise(recordings: Sequence[Recording], known: SensorKnowledge | Non
         return Noise(Channel(white, known.wander**2 / scale, known.wander_time), None)
     rate_white = _white_covariance(rates, _RATE_FLOOR)
     wander = _wander(recordings, white, rate_white, known.wander_time)
-    bias = known.rate_bias**2 / float(np.mean(np.diag(rate_white)))
-    return Noise(Channel(white, wander**2, known.wander_time), Channel(rate_white, bias, np.inf))
+    bias = known.rate_bias**2
+    # angles of gyros are integrals of what the rates show: their noise adds up to a walk, their bias to a ramp
+    step = float(np.mean(np.concatenate([np.diff(r.times) for r in recordings])))
+    walk = float(np.mean(np.diag(rate_white))) * step
+    return Noise(
+        Channel(white, wander**2, known.wander_time, walk / scale, bias / scale),
+        Channel(rate_white, bias / float(np.mean(np.diag(rate_white))), np.inf),
+    )
 
 
 def _white_covariance(signals: Sequence[Array], floor: float) -> Array:
-    """Covariance over the joints of the white part, (n, n), from fourth differences; outliers are held down."""
-    differences = np.concatenate([np.diff(signal, 4, axis=0) for signal in signals]) / np.sqrt(70)
-    spread = 1.4826 * np.median(np.abs(differences), axis=0)
-    held = np.clip(differences, -3 * spread, 3 * spread)
-    correlation = np.corrcoef(held.T) if held.shape[1] > 1 and np.all(spread > 0) else np.eye(held.shape[1])
-    spread = np.maximum(spread, floor)
-    return np.asarray(0.95 * correlation + 0.05 * np.eye(spread.size)) * np.outer(spread, spread)
+    """Covariance over the joints of the white part, (n, n), from fourth differences in the quietest stretches.
+
+    Links that swing fast against each other after a release show in fourth differences too, so that only stretches in
+    which they are least are believed; white noise itself would be least somewhere, which the factor takes back.
+    """
+    n = signals[0].shape[1]
+    stretches = [
+        piece
+        for signal in signals
+        for piece in np.array_split(np.diff(signal, 4, axis=0), max(1, signal.shape[0] // _STRETCH))
+    ]
+    energy = np.array([np.mean(piece**2, axis=0) / 70 for piece in stretches])
+    spread = np.maximum(np.sqrt(np.quantile(energy, _QUIET, axis=0) / _QUIET_FACTOR), floor)
+    limit = np.quantile(energy, 2 * _QUIET, axis=0)
+    quiet = [piece for piece, size in zip(stretches, energy, strict=True) if np.all(size <= 3 * limit)]
+    correlation = np.eye(n)
+    if n > 1 and len(quiet) > 3:
+        parts = np.concatenate(quiet)
+        if np.all(np.std(parts, axis=0) > 0):
+            correlation = np.corrcoef(np.clip(parts, -3 * np.std(parts, axis=0), 3 * np.std(parts, axis=0)).T)
+    return np.asarray(0.95 * correlation + 0.05 * np.eye(n)) * np.outer(spread, spread)
 
 
 def _wander(recordings: Sequence[Recording], white: Array, rate_white: Array, time: float) -> float:
     """Size of the angles' slow part in units of the white one: the likeliest, given the rates."""
-    score = np.zeros(_WANDER_TRIED.size)
+    score = np.zeros((2, _WANDER_TRIED.size))  # angles that are integrals of these rates, and angles of their own
     for recording in recordings:
         t, rate = recording.times - recording.times[0], recording.theta_rate
         if rate is None:
@@ -124,9 +152,9 @@ def _wander(recordings: Sequence[Recording], white: Array, rate_white: Array, ti
         gap = (basis.T @ (recording.theta - integral)) / np.sqrt(np.diag(white))
         walk = float(np.mean(np.diag(rate_white) / np.diag(white)) * np.mean(dt)) * np.minimum(t[:, None], t[None, :])
         slow = basis.T @ np.exp(-np.abs(t[:, None] - t[None, :]) / time) @ basis
-        rest = np.eye(basis.shape[1]) + basis.T @ walk @ basis
-        for k, size in enumerate(_WANDER_TRIED):
-            factor = np.linalg.cholesky(rest + size**2 * slow)
-            score[k] -= gap.shape[1] * np.log(np.diag(factor)).sum()
-            score[k] -= (solve_triangular(factor, gap, lower=True) ** 2).sum() / 2
-    return float(_WANDER_TRIED[np.argmax(score)])
+        for own, rest in enumerate((np.eye(basis.shape[1]), np.eye(basis.shape[1]) + basis.T @ walk @ basis)):
+            for k, size in enumerate(_WANDER_TRIED):
+                factor = np.linalg.cholesky(rest + size**2 * slow)
+                score[own, k] -= gap.shape[1] * np.log(np.diag(factor)).sum()
+                score[own, k] -= (solve_triangular(factor, gap, lower=True) ** 2).sum() / 2
+    return float(_WANDER_TRIED[np.argmax(score.max(axis=0))])

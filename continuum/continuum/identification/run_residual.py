@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -38,76 +39,106 @@ class Errors:
 class RunResidual:
     """The residual of one recording as a function of shared unknowns and of its own.
 
-    Its own unknowns are the initial state, and what each recording has a value of its own of.
+    Its own unknowns are the joints' angles and rates where it begins, and what each recording has a value of its own of.
+    It may begin anew every so often, from angles and rates of its own again (multiple shooting, Bock and Plitt 1984): a
+    long free run leaves a wrong model so far behind that slopes show nothing, a short one does not. States of effects
+    run on.
 
     Args:
         simulator: of the model.
         recording: what was measured.
         noise: of the sensors.
         shared, own: unknowns that move the model's values.
+        restart: time after which it begins anew [s]; never without.
     """
 
     def __init__(
-        self, simulator: Simulator, recording: Recording, noise: Noise, shared: FreeSpace, own: FreeSpace
+        self,
+        simulator: Simulator,
+        recording: Recording,
+        noise: Noise,
+        shared: FreeSpace,
+        own: FreeSpace,
+        restart: float | None = None,
     ) -> None:
         self.recording, self.shared, self.own = recording, shared, own
-        self._simulator = simulator
-        self._model = simulator.model
-        n, extra = self._model.n_joints, self._model.n_states
-        spread = np.concatenate(
-            [np.full(a.effect.n_states(n), a.effect.state_spread) for a in self._model.effects] or [np.zeros(0)]
-        )
-        self._unit = np.concatenate([np.full(n, _ANGLE_UNIT), np.full(n, _RATE_UNIT), spread])
-        self._moves = np.flatnonzero(self._unit > 0)
-        self.start = np.zeros(self._moves.size + len(own.unknowns))
-        prior = np.concatenate([np.full(n, _ANGLE_SPREAD), np.full(n, _RATE_SPREAD), np.ones(extra)])
-        self.spread = np.concatenate([prior[self._moves], own.spread])
+        self._simulator, self._model = simulator, simulator.model
+        n = self._model.n_joints
+        self._starts = _starts(recording.times, restart)
+        spread = [np.full(a.effect.n_states(n), a.effect.state_spread) for a in self._model.effects]
+        self._state_unit = np.concatenate([*spread, np.zeros(0)])
+        self._loose = 2 * n + np.flatnonzero(self._state_unit > 0)  # states of effects whose beginning is not known
+        self._motion_unit = np.concatenate([np.full(n, _ANGLE_UNIT), np.full(n, _RATE_UNIT)])
+        begins = len(self._starts)
+        self.start = np.zeros(2 * n * begins + self._loose.size + len(own.unknowns))
+        prior = np.concatenate([np.full(n, _ANGLE_SPREAD), np.full(n, _RATE_SPREAD)])
+        self.spread = np.concatenate([np.tile(prior, begins), np.ones(self._loose.size), own.spread])
+        self._measured = [np.concatenate([recording.theta[row], _rate_at(recording, row)]) for row in self._starts]
         self._whiten_angle = noise.angle.whitener(recording.times)
         uses_rate = recording.theta_rate is not None and noise.rate is not None
         self._whiten_rate = noise.rate.whitener(recording.times) if uses_rate and noise.rate else None
 
     def part(self, shared: Array, own: Array) -> RunPart | None:
         """Errors and slopes; None where the model cannot be simulated."""
-        k = shared.size
-        p, x0 = self._values(shared, own), self._initial(shared, own)
-        columns = k + own.size
-        free, free_initial = np.zeros((p.size, columns)), np.zeros((x0.size, columns))
-        free[:, :k], free[:, k + self._moves.size :] = self.shared.directions, self.own.directions
-        free_initial[self._moves, k + np.arange(self._moves.size)] = self._unit[self._moves]
-        run = self._simulator.run(x0, self.recording.times, self.recording.pull, p, free, free_initial)
-        if run.status is not SimulationStatus.COMPLETE or not np.all(np.isfinite(run.slopes)):
+        p, k = self._values(shared, own), shared.size
+        free = np.zeros((p.size, k + own.size))
+        free[:, :k], free[:, k + own.size - len(self.own.unknowns) :] = self.shared.directions, self.own.directions
+        run = self._run(p, own, free, k)
+        if run is None or not np.all(np.isfinite(run.slopes)):
             return None
         seen = readings(with_vector(self._model, p), run)
         slopes = self._reading_slopes(p, run, seen, free)
         jacobian = np.stack([self._whitened(slope).flat for slope in slopes], axis=1)
         return RunPart(self._errors(seen).flat, jacobian[:, :k], jacobian[:, k:])
 
-    def errors(self, shared: Array, own: Array) -> Errors | None:
-        """The errors alone, by time and joint."""
-        run = self.simulate(shared, own)
-        return None if run is None else self._errors(run)
-
     def simulate(self, shared: Array, own: Array) -> Reading | None:
         """What the sensors would read of the model; None where it cannot be simulated."""
         p = self._values(shared, own)
-        run = self._simulator.run(self._initial(shared, own), self.recording.times, self.recording.pull, p)
-        return readings(with_vector(self._model, p), run) if run.status is SimulationStatus.COMPLETE else None
+        run = self._run(p, own, np.zeros((p.size, 0)), 0)
+        return None if run is None else readings(with_vector(self._model, p), run)
 
     def _values(self, shared: Array, own: Array) -> Array:
-        mine = self.own.clipped(own[self._moves.size :])
+        mine = self.own.clipped(own[own.size - len(self.own.unknowns) :])
         return self.shared.values(shared) + self.own.directions @ mine
 
-    def _initial(self, shared: Array, own: Array) -> Array:
-        """State at the first sample: as measured, moved by the own unknowns."""
-        model = with_vector(self._model, self._values(shared, own))
-        theta, rate = self.recording.theta[0], _first_rate(self.recording)
+    def _run(self, p: Array, own: Array, free: Array, k: int) -> Trajectory | None:
+        """The simulation, stretch by stretch; its slopes by the columns of ``free`` and by where the stretches begin."""
+        n, columns = self._model.n_joints, free.shape[1]
+        times = self.recording.times
+        extra, extra_slope = self._states(p, own), np.zeros((self._model.n_states, columns))
+        for at, state in enumerate(self._loose - 2 * n):
+            if columns:
+                extra_slope[state, k + 2 * n * len(self._starts) + at] = self._state_unit[state]
+        states = np.full((times.size, 2 * n + extra.size), np.nan)
+        slopes = np.zeros((times.size, 2 * n + extra.size, columns))
+        steps = 0
+        for piece, (first, last) in enumerate(pairwise([*self._starts, times.size])):
+            mine = slice(2 * n * piece, 2 * n * (piece + 1))
+            x0 = np.concatenate([self._measured[piece] + self._motion_unit * own[mine], extra])
+            slope0 = np.vstack([np.zeros((2 * n, columns)), extra_slope])
+            if columns:
+                slope0[: 2 * n, k + mine.start : k + mine.stop] = np.diag(self._motion_unit)
+            to = last if last == times.size else last + 1  # to where the next begins, for the states of effects
+            used = np.flatnonzero(np.any(free != 0, axis=0) | np.any(slope0 != 0, axis=0))
+            run = self._simulator.run(x0, times[first:to], self.recording.pull, p, free[:, used], slope0[:, used])
+            if run.status is not SimulationStatus.COMPLETE:
+                return None
+            states[first:to], steps = run.states, steps + run.steps
+            slopes[first:to] = 0.0
+            slopes[first:to, :, used] = run.slopes
+            extra, extra_slope = run.states[-1, 2 * n :], slopes[to - 1, 2 * n :].copy()
+        return Trajectory(SimulationStatus.COMPLETE, times, states, n, steps, 0, slopes)
+
+    def _states(self, p: Array, own: Array) -> Array:
+        """States of the effects at the first sample, (n_states,)."""
+        n, model = self._model.n_joints, with_vector(self._model, p)
+        theta = self._measured[0][:n] + self._motion_unit[:n] * own[:n]
         u = self.recording.pull.at(self.recording.times[0])
-        theta = theta + self._unit[: theta.size] * own[: theta.size]
         states = [a.effect.initial_state(theta, u, a.values, model.parameters) for a in model.effects]
-        x0 = np.concatenate([theta, rate, *states])
-        moved = self._moves[theta.size :]
-        x0[moved] += self._unit[moved] * own[theta.size : self._moves.size]
-        return x0
+        begin = np.concatenate([*states, np.zeros(0)])
+        at = 2 * n * len(self._starts)
+        begin[self._loose - 2 * n] += self._state_unit[self._loose - 2 * n] * own[at : at + self._loose.size]
+        return begin
 
     def _reading_slopes(self, p: Array, run: Trajectory, seen: Reading, free: Array) -> list[Reading]:
         """Change of what the sensors read by one unit of each unknown."""
@@ -146,10 +177,18 @@ class RunResidual:
         return Errors(self._whiten_angle(difference.theta), rate)
 
 
-def _first_rate(recording: Recording) -> Array:
-    """Joint rates at the first sample, (n_joints,) [rad/s]: of a parabola through the first few."""
-    rows = slice(0, 7)
-    t = recording.times[rows] - recording.times[0]
+def _starts(times: Array, restart: float | None) -> list[int]:
+    """Rows at which stretches begin: of equal length, about ``restart`` [s]."""
+    if restart is None:
+        return [0]
+    pieces = max(1, round((times[-1] - times[0]) / restart))
+    return [int(np.searchsorted(times, t)) for t in np.linspace(times[0], times[-1], pieces + 1)[:-1]]
+
+
+def _rate_at(recording: Recording, row: int) -> Array:
+    """Joint rates at one sample, (n_joints,) [rad/s]: measured, or of a parabola through a few angles from there on."""
     if recording.theta_rate is not None:
-        return np.polynomial.polynomial.polyfit(t, recording.theta_rate[rows], 1)[0]
-    return np.polynomial.polynomial.polyfit(t, recording.theta[rows], 2)[1]
+        return recording.theta_rate[row]
+    rows = slice(row, row + 7)
+    t = recording.times[rows] - recording.times[row]
+    return np.asarray(np.polynomial.polynomial.polyfit(t, recording.theta[rows], min(2, t.size - 1))[1])

@@ -91,6 +91,13 @@ def indices_of(wanted: Sequence[str], names: Sequence[str]) -> list[int]:
     return [index[name] for name in wanted]
 
 
+def no_others(known: Sequence[str], names: Sequence[str]) -> None:
+    """There is no name beside those ``known``."""
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise MessageFault(UNKNOWN_NAME, f"{', '.join(unknown)}; known: {', '.join(known)}")
+
+
 def frame(field: str, frame_id: str, allowed: str) -> None:
     """The frame is ``allowed``, or not said."""
     if frame_id not in ("", allowed):

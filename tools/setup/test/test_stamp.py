@@ -43,7 +43,9 @@ def test_any_change_of_a_message_package_builds_it(checkout: Path, name: str) ->
     assert stale_after(checkout, name) == {"msgs"}
 
 
-@pytest.mark.parametrize("name", ["nodes/setup.py", "nodes/package.xml", "nodes/launch/two.launch.xml"])
+@pytest.mark.parametrize(
+    "name", ["nodes/setup.py", "nodes/package.xml", "nodes/launch/two.launch.xml", "nodes/nodes/effects/new.py"]
+)
 def test_a_change_of_what_is_installed_builds_a_python_package(checkout: Path, name: str) -> None:
     assert stale_after(checkout, name) == {"nodes"}
 

@@ -31,6 +31,16 @@ class CompiledEquations:
         self._symbols = SymbolicBalance(model)
 
     @cached_property
+    def residual(self) -> Any:
+        """Machine code of `SymbolicBalance.residual`."""
+        return compile_function(self._symbols.residual)
+
+    @cached_property
+    def stage(self) -> Any:
+        """Machine code of `SymbolicBalance.stage`."""
+        return compile_function(self._symbols.stage)
+
+    @cached_property
     def newton(self) -> Any:
         """Machine code of `SymbolicBalance.newton`."""
         return compile_function(self._symbols.newton)
@@ -69,6 +79,6 @@ class CompiledEquations:
         packed = np.concatenate([x, v, u, self.values if p is None else p])
         if packed.size != self.n_x + self.n_rates + len(SIDES) + self.values.size:  # the machine code reads unchecked
             raise ValueError(f"{packed.size} numbers of state, rates, tensions and parameters")
-        out = np.empty(size)
+        packed, out = np.append(packed, 0.0), np.empty(size)  # no stage: h g is zero
         function(packed.ctypes.data, out.ctypes.data)
         return out

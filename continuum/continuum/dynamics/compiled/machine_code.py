@@ -14,9 +14,8 @@ from typing import Any
 
 import casadi
 
+from continuum.dynamics.compiled.code_in_parts import in_parts
 from continuum.errors import ContinuumError, FileError
-
-_OPTIMISED_BELOW = 2_000_000  # characters of C; beyond, optimising takes minutes
 
 
 class CompilerError(ContinuumError, RuntimeError):
@@ -50,7 +49,7 @@ def address_of(function: Any) -> int:
 def _c_code(function: casadi.Function) -> str:
     generator = casadi.CodeGenerator("model.c")
     generator.add(function)
-    return f"""{generator.dump()}
+    return f"""{in_parts(generator.dump())}
 void flat(const double *in, double *out)
 {{ const double *arg[1] = {{in}}; double *res[1] = {{out}}; {function.name()}(arg, res, 0, 0, 0); }}
 """
@@ -64,7 +63,6 @@ def _compiler() -> str:
 
 
 def _compile(code: str, compiler: str, library: Path) -> None:
-    level = "-O1" if len(code) < _OPTIMISED_BELOW else "-O0"
     try:
         library.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -72,7 +70,7 @@ def _compile(code: str, compiler: str, library: Path) -> None:
     with tempfile.TemporaryDirectory(dir=library.parent) as folder:
         source, built = Path(folder, "model.c"), Path(folder, "model.so")
         source.write_text(code, encoding="utf-8")
-        command = [compiler, level, "-fPIC", "-shared", "-o", str(built), str(source), "-lm"]
+        command = [compiler, "-O1", "-fPIC", "-shared", "-o", str(built), str(source), "-lm"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise CompilerError(f"{' '.join(command)} failed: {' '.join(done.stderr.split())[:500]}")

@@ -37,9 +37,11 @@ class _TracedMotion(Motion):
 
 
 class SymbolicBalance:
-    """Functions of one packed vector: state x, rates v, tensions u, parameters p, in this order.
+    """Functions of one packed vector: state x, rates v, tensions u, parameters p, and h g [s] of an implicit stage.
 
-    Each gives one packed vector, matrices by columns. Parameter values do not matter, their number does.
+    Each gives one packed vector, matrices by columns. Parameter values do not matter, their number does. The stage
+    matrix is the slope of r by the rates v where the state moves with them, theta' and z by h g, theta by (h g)^2:
+    J = dr/dv + h g dr/d(theta', z) + (h g)^2 dr/dtheta.
     """
 
     def __init__(self, model: Model) -> None:
@@ -50,34 +52,77 @@ class SymbolicBalance:
         self._r = _column(balance(model.built_from(values), x, v, u, motion))
         self._sums = list(motion.sums.values())
         self._x, self._v, self._p = _column(x), _column(v), _column(np.concatenate(list(values.values())))
-        self._packed = casadi.vertcat(self._x, self._v, _column(u), self._p)
+        self._n, self._hg = n, casadi.SX.sym("hg")
+        self._packed = casadi.vertcat(self._x, self._v, _column(u), self._p, self._hg)
+
+    @cached_property
+    def residual(self) -> casadi.Function:
+        """r."""
+        return self._function("residual", [])
+
+    @cached_property
+    def stage(self) -> casadi.Function:
+        """r, J; J by one derivative, which costs less than the three that it is made of."""
+        return self._function("stage", [self._stage_matrix()])
 
     @cached_property
     def newton(self) -> casadi.Function:
         """r, dr/dv, dr/dx."""
-        return self._function("newton", [self._v, self._x])
+        return self._function("newton", [self._derivative(self._v), self._derivative(self._x)])
 
     @cached_property
     def slopes(self) -> casadi.Function:
-        """r, dr/dv, dr/dx, dr/dp."""
-        return self._function("slopes", [self._v, self._x, self._p])
+        """r, J, dr/dx, dr/dp."""
+        by_v, by_x, by_p = (self._derivative(symbols) for symbols in (self._v, self._x, self._p))
+        J = by_v + self._hg * by_x[:, self._n :]
+        J[:, : self._n] += self._hg**2 * by_x[:, : self._n]
+        return self._function("slopes", [J, by_x, by_p])
 
-    def _function(self, name: str, by: list[Any]) -> casadi.Function:
-        wanted = casadi.vertcat(self._r, *(self._derivative(symbols) for symbols in by))
+    def _function(self, name: str, matrices: list[Any]) -> casadi.Function:
+        wanted = casadi.vertcat(self._r, *(casadi.vec(casadi.densify(matrix)) for matrix in matrices))
         for joints, sums in self._sums:
             wanted = casadi.substitute(wanted, _column(sums), casadi.cumsum(_column(joints)))
         return casadi.Function(name, [self._packed], [casadi.densify(wanted)])
 
     def _derivative(self, by: Any) -> Any:
-        """dr/d by, its columns one below the other."""
-        whole = casadi.jacobian(self._r, by)
-        names = [str(by[i]) for i in range(by.numel())]
+        """dr/d by, (n_v, n_by)."""
+        whole = casadi.densify(casadi.jacobian(self._r, by))
+        names = _names(by)
         for joints, sums in self._sums:
-            if str(joints[0]) in names:  # d sum_k / d joint_i is 1 for k >= i: sum the columns from the last
-                through = casadi.cumsum(casadi.densify(casadi.jacobian(self._r, _column(sums)))[:, ::-1], 1)[:, ::-1]
-                whole = casadi.densify(whole)
+            if str(joints[0]) in names:
+                through = _through_sums(casadi.jacobian(self._r, _column(sums)))
                 whole[:, [names.index(str(joint)) for joint in joints]] += through
-        return casadi.vec(casadi.densify(whole))
+        return whole
+
+    def _stage_matrix(self) -> Any:
+        """J, (n_v, n_v)."""
+        n, hg, size = self._n, self._hg, self._v.numel()
+        moved, summed = casadi.SX.sym("moved", size), casadi.SX.sym("summed", n)
+        given, where = [self._x, self._v], [self._x + _state_moved(moved, hg, n), self._v + moved]
+        x, v = _names(self._x), _names(self._v)
+        weight = dict.fromkeys(x[:n], hg**2) | dict.fromkeys(x[n:], hg) | dict.fromkeys(v, 1.0)
+        for joints, sums in self._sums:
+            given.append(_column(sums))
+            where.append(_column(sums) + weight.get(str(joints[0]), 0.0) * summed)
+        (r,) = casadi.substitute([self._r], given, where)
+        both = casadi.densify(casadi.jacobian(r, casadi.vertcat(moved, summed)))
+        J = both[:, :size]
+        J[:, :n] += _through_sums(both[:, size:])
+        return casadi.substitute(J, casadi.vertcat(moved, summed), casadi.SX.zeros(size + n))
+
+
+def _through_sums(by_sums: Any) -> Any:
+    """Slope by the joints of what depends on their sums: d sum_k / d joint_i is 1 for k >= i."""
+    return casadi.cumsum(casadi.densify(by_sums)[:, ::-1], 1)[:, ::-1]
+
+
+def _state_moved(moved: Any, hg: Any, n: int) -> Any:
+    """How far a stage's state (theta, theta', z) moves with its rates (theta'', z')."""
+    return casadi.vertcat(hg**2 * moved[:n], hg * moved)
+
+
+def _names(symbols: Any) -> list[str]:
+    return [str(symbols[i]) for i in range(symbols.numel())]
 
 
 def _symbols(name: str, size: int) -> Numbers:

@@ -13,156 +13,60 @@ from typing import Any
 
 import numpy as np
 
-from continuum.dynamics.integration.call_at import call_at
 from continuum.dynamics.integration.compiled_loops import compiled, entry_point
-from continuum.dynamics.integration.stage_newton import (
-    factorise,
-    place_stage,
-    solve_factorised,
-    solve_stage,
-    stage_matrix,
-)
+from continuum.dynamics.integration.esdirk_step import first_stage, slopes_of_stages, solve_stages
+from continuum.dynamics.integration.problem import work_for
+from continuum.dynamics.integration.step_size import FIRST_STEP, error_size, longer, shorter, step_towards
+from continuum.dynamics.trajectory import SimulationStatus
 
+STATUSES = (SimulationStatus.COMPLETE, SimulationStatus.STEP_TOO_SMALL, SimulationStatus.NOT_FINITE)
+"""What the numbers mean with which `integrate` ends."""
+_COMPLETE, _STEP_TOO_SMALL, _NOT_FINITE = range(len(STATUSES))
 _MOST_STEPS = 200_000  # between two outputs
 
 
 @compiled
-def _set_tensions(packed, at, t, input_times, inputs):  # type: ignore[no-untyped-def]
-    """Tensions at ``t`` by linear interpolation, held before the first and after the last row."""
-    last = input_times.size - 1
-    k = np.searchsorted(input_times, t, side="right") - 1
-    for j in range(inputs.shape[1]):
-        if k < 0 or last == 0:
-            packed[at + j] = inputs[0, j]
-        elif k >= last:
-            packed[at + j] = inputs[last, j]
-        else:
-            part = (t - input_times[k]) / (input_times[k + 1] - input_times[k])
-            packed[at + j] = (1 - part) * inputs[k, j] + part * inputs[k + 1, j]
-
-
-@compiled
-def _stage_slopes(slopes, packed, out, J, pivots, base_slope, hg, n, directions, rates_slope):  # type: ignore[no-untyped-def]
-    """Slope of a solved stage's rates, (2 n + extra, free), from that of its base; False where there is none."""
-    nv = J.shape[0]
-    nx = base_slope.shape[0]
-    call_at(slopes, packed, out)
-    stage_matrix(out, J, hg, n)
-    if not factorise(J, pivots):
-        return False
-    moved = base_slope.copy()
-    for r in range(n):
-        moved[r] += hg * base_slope[n + r]
-    by_x = out[nv + nv * nv : nv + nv * nv + nv * nx].reshape(nx, nv).T
-    by_p = out[nv + nv * nv + nv * nx :].reshape(directions.shape[0], nv).T
-    right = -(np.ascontiguousarray(by_x) @ moved + np.ascontiguousarray(by_p) @ directions)
-    solve_factorised(J, pivots, right)
-    rates_slope[:n] = base_slope[n : 2 * n] + hg * right[:n]
-    rates_slope[n:] = right
-    return True
-
-
-@compiled
-def _error_size(K, error, h, x, new, rtol, atol):  # type: ignore[no-untyped-def]
-    """Root mean square of the estimated error in units of the tolerance."""
-    total = 0.0
-    for r in range(x.size):
-        estimate = 0.0
-        for i in range(K.shape[0]):
-            estimate += error[i] * K[i, r]
-        total += (h * estimate / (atol + rtol * max(abs(x[r]), abs(new[r])))) ** 2
-    return np.sqrt(total / x.size)
+def _next_bend(input_times, t):  # type: ignore[no-untyped-def]
+    """When the tensions bend next after ``t``; infinite where they do not."""
+    k = np.searchsorted(input_times, t, side="right")
+    return input_times[k] if k < input_times.size else np.inf
 
 
 def _build(digest: str) -> Callable[..., Any]:
-    def integrate(  # type: ignore[no-untyped-def]
-        newton, slopes, n, x0, p, times, input_times, inputs, a, c, error, order,
-        rtol, atol, max_step, directions, slope0,
-    ):  # fmt: skip
-        """States (times, nx), their slopes (times, nx, free), steps taken and refused, status; see `fast`."""
+    def integrate(problem, method, x0, times, slope0):  # type: ignore[no-untyped-def]
+        """States (n_times, n_x), their slopes (n_times, n_x, n_free), steps taken, refused, index into `STATUSES`."""
         _ = digest
-        stages, hg1 = a.shape[0], a[1, 1]
-        nx, free = x0.size, slope0.shape[1]
-        nv, nu = nx - n, inputs.shape[1]
-        at_u = nx + nv
-        states, state_slopes = np.full((times.size, nx), np.nan), np.full((times.size, nx, free), np.nan)
-        packed, out = np.zeros(at_u + nu + p.size), np.zeros(nv + nv * nv + nv * nx + nv * p.size)
-        packed[at_u + nu :] = p
-        J, pivots = np.empty((nv, nv)), np.zeros(nv, dtype=np.int64)
-        K, dK = np.zeros((stages, nx)), np.zeros((stages, nx, free))
-        base, dbase = np.empty(nx), np.empty((nx, free))
-        t, x, dx = times[0], x0.copy(), slope0.copy()
-        states[0], state_slopes[0] = x, dx
-        taken, refused, h, status = 0, 0, min(1e-4, max_step), 0
-        v = np.zeros(nv)
-        _set_tensions(packed, at_u, t, input_times, inputs)
-        if not solve_stage(newton, packed, out, J, pivots, x, v, 0.0, n, rtol, atol):
-            return states, state_slopes, taken, refused, 2
-        solve_stage(newton, packed, out, J, pivots, x, v, 0.0, n, rtol, atol)
-        K[0, :n], K[0, n:] = x[n : 2 * n], v
-        if free > 0:
-            _stage_slopes(slopes, packed, out, J, pivots, dx, 0.0, n, directions, dK[0])
-        knot = 0
+        x, slope, free = x0.copy(), slope0.copy(), slope0.shape[1]
+        work = work_for(problem, x.size, free, method.c.size)
+        states, slopes = np.full((times.size, x.size), np.nan), np.full((times.size, x.size, free), np.nan)
+        states[0], slopes[0] = x, slope
+        t, taken, refused = times[0], 0, 0
+        if not first_stage(problem, method, work, t, x, slope):
+            return states, slopes, taken, refused, _NOT_FINITE
+        wanted, size_before, just_refused = FIRST_STEP, 1.0, False
         for k in range(1, times.size):
-            at_most = taken + refused + _MOST_STEPS
+            most = taken + refused + _MOST_STEPS
             while t < times[k]:
-                while knot < input_times.size and input_times[knot] <= t:
-                    knot += 1
-                stop = times[k]
-                if knot < input_times.size and input_times[knot] < stop:
-                    stop = input_times[knot]
-                left = stop - t
-                step = min(h, max_step)
-                ends = step >= left * (1 - 1e-10)
-                if ends:
-                    step = left
-                elif step > 0.5 * left:
-                    step = 0.5 * left
-                if step < 1e-12 * max(1.0, abs(t)) or taken + refused > at_most:
-                    return states, state_slopes, taken, refused, 1
-                good = True
-                hg = step * hg1
-                for i in range(1, stages):
-                    base[:] = x
-                    for j in range(i):
-                        if a[i, j] != 0.0:
-                            base += step * a[i, j] * K[j]
-                    v[:] = K[i - 1, n:]
-                    _set_tensions(packed, at_u, t + c[i] * step, input_times, inputs)
-                    if not solve_stage(newton, packed, out, J, pivots, base, v, hg, n, rtol, atol):
-                        good = False
-                        break
-                    K[i, :n], K[i, n:] = packed[n : 2 * n], v
-                if not good:
-                    h, refused = 0.25 * step, refused + 1
-                    continue
-                size = _error_size(K, error, step, x, packed[:nx], rtol, atol)
+                stop = min(times[k], _next_bend(problem.input_times, t))
+                step, ends = step_towards(stop, t, min(wanted, method.max_step))
+                if step < 1e-12 * max(1.0, abs(t)) or taken + refused > most:
+                    return states, slopes, taken, refused, _STEP_TOO_SMALL
+                size, new = np.inf, work.states[-1]
+                if solve_stages(problem, method, work, t, x, step):
+                    size = error_size(step, method.error, work.rates, x, new, method.relative, method.absolute)
                 if not size <= 1.0:
-                    h, refused = step * max(0.2, 0.9 * size ** (-1.0 / order)) if size > 0 else 0.25 * step, refused + 1
+                    wanted, refused, just_refused = shorter(step, size, method.order), refused + 1, True
                     continue
-                if free > 0:
-                    for i in range(1, stages):
-                        base[:] = x
-                        dbase[:] = dx
-                        for j in range(i):
-                            if a[i, j] != 0.0:
-                                base += step * a[i, j] * K[j]
-                                dbase += step * a[i, j] * dK[j]
-                        _set_tensions(packed, at_u, t + c[i] * step, input_times, inputs)
-                        place_stage(packed, base, K[i, n:], hg, n)
-                        _stage_slopes(slopes, packed, out, J, pivots, dbase, hg, n, directions, dK[i])
-                    dx[:] = dbase + hg * dK[stages - 1]
-                    dK[0] = dK[stages - 1]
-                x[:] = packed[:nx]
-                K[0] = K[stages - 1]
-                grown = step * min(5.0, 0.9 * max(size, 1e-10) ** (-1.0 / order))
-                h = grown if not ends else max(grown, min(h, grown * 5.0))
-                t = stop if ends else t + step
-                taken += 1
-            states[k], state_slopes[k] = x, dx
-        if not np.all(np.isfinite(states)):
-            status = 2
-        return states, state_slopes, taken, refused, status
+                if free > 0 and not slopes_of_stages(problem, method, work, t, step, slope):
+                    return states, slopes, taken, refused, _NOT_FINITE
+                grown = longer(step, size, size_before, method.order, just_refused)
+                wanted = max(wanted, grown) if ends else grown  # a step cut short says nothing against a longer one
+                size_before, just_refused = size, False
+                x[:], work.rates[0], work.rate_slopes[0] = new, work.rates[-1], work.rate_slopes[-1]
+                t, taken = stop if ends else t + step, taken + 1
+            states[k], slopes[k] = x, slope
+        status = _COMPLETE if np.all(np.isfinite(states)) else _NOT_FINITE
+        return states, slopes, taken, refused, status
 
     return integrate
 

@@ -46,6 +46,7 @@ def simulate_bdf(
         x0,
         method="BDF",
         t_eval=times,
+        dense_output=True,
         jac=jacobian,
         rtol=limits.relative,
         atol=limits.absolute,
@@ -54,4 +55,6 @@ def simulate_bdf(
     status = SimulationStatus.COMPLETE if done.success else SimulationStatus.STEP_TOO_SMALL
     states = np.full((times.size, x0.size), np.nan)
     states[: done.y.shape[1]] = done.y.T
-    return Trajectory(status, times, states, model.n_joints, done.nfev, 0, np.zeros((times.size, x0.size, 0)))
+    return Trajectory(
+        status, times, states, model.n_joints, done.sol.ts.size - 1, 0, np.zeros((times.size, x0.size, 0))
+    )

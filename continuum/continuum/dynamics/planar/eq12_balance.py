@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from continuum.dynamics.expressions import Numbers, suffix_sum
 from continuum.dynamics.planar.eq12_cable_torque import cable_torque
-from continuum.dynamics.planar.eq12_coriolis_matrix import link_coriolis_matrix
+from continuum.dynamics.planar.eq12_coriolis_matrix import link_coriolis_torque
 from continuum.dynamics.planar.eq12_gravity_torque import link_gravity_torque
-from continuum.dynamics.planar.eq12_inertia_matrix import link_inertia_matrix
+from continuum.dynamics.planar.eq12_inertia_matrix import link_inertia_times
 from continuum.dynamics.planar.eq12_spring_torque import spring_torque
 from continuum.dynamics.planar.eq13_joint_friction import joint_friction
 from continuum.dynamics.planar.instant import Instant
@@ -30,7 +30,7 @@ def rigid_body_torque(now: Instant) -> Numbers:
     """M theta'' + C theta' + G, (n,) [N m]; formed in the links' absolute angles, which a turning base moves too."""
     move, p = now.motion, now.p
     return suffix_sum(
-        link_inertia_matrix(move.link_angle, p) @ move.link_acceleration
-        + link_coriolis_matrix(move.link_angle, move.link_rate, p) @ move.link_rate
+        link_inertia_times(move.link_angle, move.link_acceleration, p)
+        + link_coriolis_torque(move.link_angle, move.link_rate, p)
         + link_gravity_torque(move.link_angle, p)
     )

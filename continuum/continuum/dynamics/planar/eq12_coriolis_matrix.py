@@ -10,7 +10,7 @@ import numpy as np
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.planar.eq12_inertia_matrix import joint_space
-from continuum.dynamics.planar.link_coupling import link_coupling
+from continuum.dynamics.planar.link_coupling import coupling_times, link_coupling
 
 
 def coriolis_matrix(link_angle: Numbers, link_rate: Numbers, p: Parameters) -> Numbers:
@@ -26,3 +26,9 @@ def coriolis_matrix(link_angle: Numbers, link_rate: Numbers, p: Parameters) -> N
 def link_coriolis_matrix(link_angle: Numbers, link_rate: Numbers, p: Parameters) -> Numbers:
     """The same in the links' absolute angles, (n, n) [N m s/rad]."""
     return link_coupling(p) * np.sin(link_angle[:, None] - link_angle[None, :]) * link_rate
+
+
+def link_coriolis_torque(link_angle: Numbers, link_rate: Numbers, p: Parameters) -> Numbers:
+    """The latter matrix times the rates, (n,) [N m]; without the matrix, as `link_inertia_times`."""
+    c, s = np.cos(link_angle), np.sin(link_angle)
+    return s * coupling_times(c * link_rate**2, p) - c * coupling_times(s * link_rate**2, p)

@@ -27,3 +27,11 @@ def link_coupling(p: Parameters) -> Numbers:
 def mass_moments(p: Parameters) -> Numbers:
     """First moment of what link i carries, m_i c_i + d_i times all mass beyond it, (n,) [kg m]."""
     return p.mass * p.center_of_mass + (suffix_sum(p.mass) - p.mass) * p.joint_spacing
+
+
+def coupling_times(vector: Numbers, p: Parameters) -> Numbers:
+    """A times a vector, (n,): by sums along the arm, n operations and no matrix."""
+    moment, d = mass_moments(p), p.joint_spacing
+    outboard = suffix_sum(p.mass) - p.mass
+    beyond, before = suffix_sum(moment * vector) - moment * vector, np.cumsum(d * vector) - d * vector
+    return (p.mass * p.center_of_mass**2 + outboard * d**2) * vector + d * beyond + moment * before

@@ -1,0 +1,162 @@
+"""`continuum simulate`: let a bent arm go, or pull its cables, and see how it moves."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.cli.tables import print_pairs
+from continuum.errors import InvalidValueError
+
+if TYPE_CHECKING:
+    from continuum.dynamics.model import Model
+    from continuum.dynamics.tensions import Tensions
+    from continuum.dynamics.trajectory import Trajectory
+
+_RELEASE_DURATION = 1.6
+"""Duration [s] where nothing says one: that of the thesis's release tests."""
+
+_MOST_SAMPLES = 10_000_000
+
+
+def add_to(commands: Any) -> None:
+    """Add this subcommand to the parser's."""
+    parser = commands.add_parser(
+        "simulate", help="how an arm moves when it is let go or pulled", description=__doc__,
+        epilog="Exit codes: 0 done, 1 the integration failed, 2 wrong usage, file or value.",
+    )  # fmt: skip
+    parser.add_argument(
+        "--model", metavar="FILE.yaml", default="lamecc_prototype.yaml",
+        help="model file, or one that comes with the library; default %(default)s",
+    )  # fmt: skip
+    parser.add_argument(
+        "--release", metavar="DEG", default="0",
+        help="bend in which the arm starts at rest: in total, the same at every joint, or q1,q2,.. of each joint",
+    )  # fmt: skip
+    parser.add_argument(
+        "--pulled", action="store_true",
+        help="the total bend of --release is held by one cable, which is cut: not the same at every joint",
+    )  # fmt: skip
+    parser.add_argument("--tensions", metavar="FILE.csv", help="cable tensions over time: columns t_s,u1_N,u2_N")
+    parser.add_argument(
+        "--duration", metavar="S", type=float,
+        help=f"[s]; default to the end of the tensions, or {_RELEASE_DURATION:g}",
+    )  # fmt: skip
+    parser.add_argument("--rate", metavar="HZ", type=float, default=120.0, help="samples a second; default %(default)g")
+    parser.add_argument(
+        "--integrator", choices=("esdirk", "bdf"), default="esdirk",
+        help="esdirk is the fast one, bdf the thesis's; default %(default)s",
+    )  # fmt: skip
+    parser.add_argument("--csv", metavar="OUT.csv", help="write time, joint angles and rates, and tensions there")
+    parser.add_argument("--picture", metavar="OUT.png", help="draw them, and the arm")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Simulate, print a summary, and write what was asked for; 1 where the integration fails."""
+    # Here, so that the other commands need neither CasADi and numba nor the time to load them and Matplotlib.
+    from continuum.dynamics.model_file import load_model
+    from continuum.dynamics.tensions import slack
+    from continuum.dynamics.trajectory import SimulationStatus
+    from continuum.recordings.motion_table import write_motion_table
+    from continuum.recordings.tension_table import read_tension_table
+
+    model = load_model(options.model)
+    posture = release_posture(options.release, model.n_joints)
+    if options.pulled:
+        posture = _pulled(model, posture)
+    tensions = slack() if options.tensions is None else read_tension_table(options.tensions)
+    times = _times(options, tensions)
+    began = time.perf_counter()
+    motion = _simulate(model, posture, times, tensions, options.integrator)
+    _show(motion, time.perf_counter() - began)
+    if motion.status is not SimulationStatus.COMPLETE:
+        return 1
+    if options.csv is not None:
+        write_motion_table(motion, tensions, options.csv)
+    if options.picture is not None:
+        from continuum.recordings.motion_figure import write_motion_figure
+
+        write_motion_figure(motion, tensions, model.parameters, options.picture)
+    written = [path for path in (options.csv, options.picture) if path is not None]
+    print(f"written: {', '.join(written)}" if written else "nothing written; --csv and --picture name files")
+    return 0
+
+
+def release_posture(text: str, n_joints: int) -> Array:
+    """Joint angles (n_joints,) [rad] of a total bend in degrees, or of one angle for each joint, as ``10,12.5,..``.
+
+    Raises:
+        InvalidValueError: another number of angles, no numbers, or more than half a turn in a joint.
+    """
+    try:
+        degrees = np.array([float(part) for part in text.split(",")])
+    except ValueError:
+        degrees = np.array([math.nan])
+    if degrees.size == 1:
+        degrees = np.repeat(degrees / n_joints, n_joints)
+    if degrees.size != n_joints or not np.all(np.abs(degrees) <= 180):
+        allowed = f"a total bend, or {n_joints} joint angles with commas between them, up to 180 degrees a joint"
+        raise InvalidValueError("--release", text, allowed)
+    return np.radians(degrees)
+
+
+def _pulled(model: Model, posture: Array) -> Array:
+    """Joint angles (n_joints,) [rad] in which one cable holds the same total bend; tells its tension."""
+    from continuum.dynamics.pulled_posture import pulled_posture
+
+    held = pulled_posture(model, float(posture.sum()))
+    angles = ", ".join(f"{angle:.2f}" for angle in np.degrees(held.theta))
+    print_pairs([("held by", f"{held.tension.max():.2f} N"), ("joint angles", f"{angles} degrees")])
+    return held.theta
+
+
+def _times(options: argparse.Namespace, tensions: Tensions) -> Array:
+    """Output times from the tensions' first instant on, 0 where that is later [s]."""
+    for name in ("duration", "rate"):
+        value = getattr(options, name)
+        if value is not None and not 0 < value < math.inf:
+            raise InvalidValueError(f"--{name}", value, f"a number > 0 [{'s' if name == 'duration' else 'Hz'}]")
+    begin = min(0.0, float(tensions.times[0]))
+    lasts = float(tensions.times[-1]) - begin
+    duration = options.duration or (lasts if lasts > 0 else _RELEASE_DURATION)
+    samples = duration * options.rate
+    if not 1 <= samples + 1e-6 <= _MOST_SAMPLES:
+        raise InvalidValueError("--duration times --rate", samples, f"1 to {_MOST_SAMPLES} samples")
+    return begin + np.arange(int(samples + 1e-6) + 1) / float(options.rate)
+
+
+def _simulate(model: Model, posture: Array, times: Array, tensions: Tensions, integrator: str) -> Trajectory:
+    if integrator == "bdf":
+        from continuum.dynamics.compiled.equations import CompiledEquations
+        from continuum.dynamics.integration.scipy_bdf import simulate_bdf
+
+        return simulate_bdf(model, posture, times, tensions, equations=CompiledEquations(model))
+    from continuum.dynamics.simulator import Simulator
+
+    return Simulator(model).run(posture, times, tensions)
+
+
+def _show(motion: Trajectory, took: float) -> None:
+    bend = np.degrees(motion.theta.sum(axis=1))
+    pairs = [
+        ("integration", motion.status.value),
+        ("simulated", f"{motion.times[-1] - motion.times[0]:g} s, {motion.times.size} samples, in {took:.2f} s"),
+    ]
+    if np.all(np.isfinite(motion.states)):
+        speed = np.degrees(np.abs(motion.theta_rate))
+        when, joint = np.unravel_index(int(np.argmax(speed)), speed.shape)
+        pairs += [
+            ("bend in total", f"{bend[0]:.2f} degrees at first, {bend[-1]:.2f} at last, {_range(bend)}"),
+            ("fastest joint", f"joint {joint + 1}, {speed.max():.0f} degrees/s at {motion.times[when]:.3f} s"),
+        ]
+    print_pairs(pairs)
+
+
+def _range(values: Array) -> str:
+    return f"between {values.min():.2f} and {values.max():.2f}"

@@ -1,0 +1,60 @@
+"""One step of an ESDIRK method: its stages, and their exact slopes."""
+
+from __future__ import annotations
+
+from continuum.dynamics.integration.compiled_loops import compiled
+from continuum.dynamics.integration.input_tensions import tensions_at
+from continuum.dynamics.integration.stage_newton import solve_stage
+from continuum.dynamics.integration.stage_slopes import stage_slopes
+
+
+@compiled
+def first_stage(problem, method, work, t, x, slope):  # type: ignore[no-untyped-def]
+    """Rates at ``t`` and their slopes, with which the first step begins; whether there are any."""
+    n = problem.n_joints
+    v = work.rates[0, n:]
+    tensions_at(t, problem.input_times, problem.inputs, work.u)
+    if not solve_stage(problem, method, work, x, v, 0.0, False):
+        return False
+    work.rates[0, :n] = x[n : 2 * n]
+    return slope.shape[1] == 0 or stage_slopes(problem, work, slope, 0.0, work.rate_slopes[0])
+
+
+@compiled
+def solve_stages(problem, method, work, t, x, step):  # type: ignore[no-untyped-def]
+    """States and rates of every stage of the step from ``x`` at ``t``; whether all were solved."""
+    n = problem.n_joints
+    for i in range(1, method.c.size):
+        _stage_base(work.base, x, step, method.a[i, :i], work.rates)
+        v = work.rates[i, n:]
+        v[:] = work.rates[i - 1, n:]
+        tensions_at(t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
+        if not solve_stage(problem, method, work, work.base, v, step * method.a[i, i], i > 1):
+            return False
+        work.states[i] = work.packed[: x.size]
+        work.rates[i, :n] = work.states[i, n : 2 * n]
+    return True
+
+
+@compiled
+def slopes_of_stages(problem, method, work, t, step, slope):  # type: ignore[no-untyped-def]
+    """Slopes at the end of a step whose stages are solved, in place of those at its start; whether there are any."""
+    n, n_x = problem.n_joints, slope.shape[0]
+    for i in range(1, method.c.size):
+        _stage_base(work.base_slope, slope, step, method.a[i, :i], work.rate_slopes)
+        work.packed[:n_x] = work.states[i]
+        work.packed[n_x : n_x + work.pivots.size] = work.rates[i, n:]
+        tensions_at(t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
+        if not stage_slopes(problem, work, work.base_slope, step * method.a[i, i], work.rate_slopes[i]):
+            return False
+    slope[:] = work.base_slope + step * method.a[-1, -1] * work.rate_slopes[-1]  # the last stage is the result
+    return True
+
+
+@compiled
+def _stage_base(base, x, step, weights, rates):  # type: ignore[no-untyped-def]
+    """x + step sum_j weights_j rates_j over the stages before one; of states or of their slopes."""
+    base[:] = x
+    for j in range(weights.size):
+        if weights[j] != 0.0:
+            base += step * weights[j] * rates[j]

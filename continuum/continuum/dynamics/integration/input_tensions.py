@@ -1,0 +1,19 @@
+"""Tensions of the cables at an instant, for compiled loops."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.dynamics.integration.compiled_loops import compiled
+
+
+@compiled
+def tensions_at(t, times, values, u):  # type: ignore[no-untyped-def]
+    """Write into ``u`` the tensions at ``t``: linear between the rows, held before the first and after the last."""
+    last = times.size - 1
+    k = min(max(np.searchsorted(times, t, side="right") - 1, 0), last)
+    part = 0.0
+    if k < last and t > times[k]:
+        part = (t - times[k]) / (times[k + 1] - times[k])
+    for j in range(values.shape[1]):
+        u[j] = (1 - part) * values[k, j] + part * values[min(k + 1, last), j]

@@ -1,0 +1,90 @@
+"""What the compiled loops are given, and the arrays that they use again at every step."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.integration.compiled_loops import compiled
+
+
+class Problem(NamedTuple):
+    """What is integrated.
+
+    Attributes:
+        residual, stage, slopes: addresses of a model's machine code; ``slopes`` is 0 where none are asked for.
+        n_joints: number of joints.
+        p: parameter values, (n_p,).
+        input_times, inputs: tensions of the cables, (rows,) [s] and (rows, n_cables) [N], as `Tensions`.
+        directions: in the parameters, by which to differentiate, (n_p, n_free); n_free may be 0.
+    """
+
+    residual: int
+    stage: int
+    slopes: int
+    n_joints: int
+    p: Array
+    input_times: Array
+    inputs: Array
+    directions: Array
+
+
+class Method(NamedTuple):
+    """How it is integrated: a Runge-Kutta method as in `Tableau`, and its tolerances as in `Tolerances`."""
+
+    a: Array
+    c: Array
+    error: Array
+    order: int
+    relative: float
+    absolute: float
+    max_step: float
+
+
+class Work(NamedTuple):
+    """Arrays for one integration: n_x states, n_v rates to be solved for, n_free quantities to differentiate by.
+
+    Attributes:
+        packed: state, rates, tensions, parameters, h g: what the equations read.
+        u: the tensions in it.
+        out: what the equations answer.
+        matrix, pivots: of Newton's method, factorised, (n_v, n_v) and (n_v,).
+        change: of the rates in one iteration, (n_v, 1).
+        base, base_slope: a stage's state but for its own rates, and its slope, (n_x,) and (n_x, n_free).
+        states, rates, rate_slopes: of every stage, (stages, n_x), (stages, n_x) and (stages, n_x, n_free).
+    """
+
+    packed: Array
+    u: Array
+    out: Array
+    matrix: Array
+    pivots: Array
+    change: Array
+    base: Array
+    base_slope: Array
+    states: Array
+    rates: Array
+    rate_slopes: Array
+
+
+@compiled
+def work_for(problem, n_x, n_free, stages):  # type: ignore[no-untyped-def]
+    """Arrays for one integration."""
+    n_v, n_u, n_p = n_x - problem.n_joints, problem.inputs.shape[1], problem.p.size
+    packed = np.zeros(n_x + n_v + n_u + n_p + 1)
+    packed[n_x + n_v + n_u : -1] = problem.p
+    return Work(
+        packed=packed,
+        u=packed[n_x + n_v : n_x + n_v + n_u],
+        out=np.zeros(n_v * (1 + n_v + n_x + n_p)),
+        matrix=np.empty((n_v, n_v)),
+        pivots=np.zeros(n_v, dtype=np.int64),
+        change=np.empty((n_v, 1)),
+        base=np.empty(n_x),
+        base_slope=np.empty((n_x, n_free)),
+        states=np.empty((stages, n_x)),
+        rates=np.zeros((stages, n_x)),
+        rate_slopes=np.zeros((stages, n_x, n_free)),
+    )

@@ -1,0 +1,48 @@
+"""Exact slopes of a solved stage by initial state and parameters: one more linear solve with the stage's own matrix."""
+
+from __future__ import annotations
+
+from continuum.dynamics.integration.call_at import call_at
+from continuum.dynamics.integration.compiled_loops import compiled
+from continuum.dynamics.integration.linear_solve import solve_factorised
+from continuum.dynamics.integration.stage_newton import factorise_stage_matrix
+
+
+@compiled
+def stage_slopes(problem, work, base_slope, hg, rate_slopes):  # type: ignore[no-untyped-def]
+    """Slopes of the rates of the stage that ``work.packed`` holds; whether there are any.
+
+    Args:
+        problem, work: see there.
+        base_slope: of the stage's state but for its own rates, (n_x, n_free).
+        hg: h g [s].
+        rate_slopes: the answer, of (theta', v), (n_x, n_free).
+    """
+    n, n_v = problem.n_joints, work.pivots.size
+    n_x, n_free = base_slope.shape
+    out, matrix, pivots, directions = work.out, work.matrix, work.pivots, problem.directions
+    work.packed[-1] = hg
+    call_at(problem.slopes, work.packed, out)
+    if not factorise_stage_matrix(out, matrix, pivots):
+        return False
+    v_slopes = rate_slopes[n:]
+    v_slopes[:] = 0.0
+    at_x = n_v + n_v * n_v
+    at_p = at_x + n_v * n_x
+    for k in range(n_x):
+        for c in range(n_free):
+            x_slope = base_slope[k, c]
+            if k < n:  # theta moves with theta' of this very stage, which moves with its base
+                x_slope += hg * base_slope[n + k, c]
+            for r in range(n_v):
+                v_slopes[r, c] -= out[at_x + n_v * k + r] * x_slope
+    for k in range(directions.shape[0]):
+        for c in range(n_free):
+            if directions[k, c] != 0.0:
+                for r in range(n_v):
+                    v_slopes[r, c] -= out[at_p + n_v * k + r] * directions[k, c]
+    solve_factorised(matrix, pivots, v_slopes)
+    for r in range(n):
+        for c in range(n_free):
+            rate_slopes[r, c] = base_slope[n + r, c] + hg * v_slopes[r, c]
+    return True

@@ -1,0 +1,1 @@
+"""An arm that is simulated interval by interval while it is commanded, for nodes and emulators; free of clocks."""

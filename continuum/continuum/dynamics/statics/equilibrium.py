@@ -1,0 +1,135 @@
+"""The posture in which gravity, springs and cables cancel at every joint, so that friction has nothing to hold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.simulation_input import finite_array
+from continuum.dynamics.statics.resting_arm import Load, RestingArm
+from continuum.errors import InvalidValueError
+
+_SOLVED = 1e-10  # torque left [N m], in units of the largest torque of the problem where that is larger
+_MOST_ITERATIONS = 50
+_SMALLEST_SHARE = 1e-3
+
+
+class EquilibriumStatus(Enum):
+    """What was found."""
+
+    STABLE = "an equilibrium to which the arm returns"
+    UNSTABLE = "an equilibrium that the arm leaves"
+    NOT_FOUND = "no equilibrium was found from there"
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """Where an arm rests.
+
+    Attributes:
+        status: unless STABLE or UNSTABLE the rest is not to be used.
+        theta: joint angles, (n,) [rad].
+        states: of effects, (n_states,).
+        stiffness: slope of what pulls the joints back, by their angles, (n, n) [N m/rad].
+        load: under which it is one.
+    """
+
+    status: EquilibriumStatus
+    theta: Array
+    states: Array
+    stiffness: Array
+    load: Load
+
+    @property
+    def unknowns(self) -> Array:
+        """Joint angles and states together, (n + n_states,)."""
+        return np.concatenate([self.theta, self.states])
+
+
+def equilibrium(arm: RestingArm, load: Load, start: Array | None = None) -> Equilibrium:
+    """Newton's method from ``start``; without, or where that fails, the load grows from nothing on relaxed springs.
+
+    Args:
+        arm: the arm.
+        load: tensions, and which way the joints bent last.
+        start: joint angles near which to look, (n,) [rad].
+
+    Raises:
+        InvalidValueError: ``start`` is not finite, or of another size.
+    """
+    y = None
+    if start is not None:
+        y = solve_pull(arm, load, arm.unknowns(_angles(start, arm.model.n_joints), load))
+    if y is None:
+        y = _grown(arm, load)
+    n = arm.model.n_joints
+    if y is None:
+        return Equilibrium(EquilibriumStatus.NOT_FOUND, np.full(n, np.nan), np.zeros(0), np.full((n, n), np.nan), load)
+    stiffness = joint_stiffness(arm.pull(y, load)[1], n)
+    stable = np.all(np.linalg.eigvals(stiffness).real > 0)
+    status = EquilibriumStatus.STABLE if stable else EquilibriumStatus.UNSTABLE
+    return Equilibrium(status, y[:n], y[n:], stiffness, load)
+
+
+def solve_pull(arm: RestingArm, load: Load, y: Array, torque: Array | None = None, share: float = 1.0) -> Array | None:
+    """Joint angles and states in which the arm pulls with ``torque`` (n,) [N m], zero without; None: not found.
+
+    Newton's method with steps shortened until they help. States of effects that rest anywhere (a bristle, say) stay
+    near where they are: of all steps the smallest.
+    """
+    wanted = np.zeros(y.size)
+    if torque is not None:
+        wanted[: torque.size] = torque
+    pull, slope = arm.pull(y, load, share)
+    enough = _SOLVED * max(1.0, float(np.abs(pull).max()))
+    for _ in range(_MOST_ITERATIONS):
+        size = float(np.abs(pull - wanted).max())
+        if size <= enough:
+            return y
+        if not (np.isfinite(size) and np.all(np.isfinite(slope))):
+            return None
+        step, part = np.linalg.lstsq(slope, wanted - pull, rcond=1e-12)[0], 1.0
+        part = min(part, 0.5 / max(float(np.abs(step).max()), 1e-300))  # rad: half a turn is another branch
+        while part > 1e-4:
+            tried, tried_slope = arm.pull(y + part * step, load, share)
+            if float(np.abs(tried - wanted).max()) < size:
+                break
+            part /= 2
+        else:
+            return None
+        y, pull, slope = y + part * step, tried, tried_slope
+    return None
+
+
+def joint_stiffness(slope: Array, n: int) -> Array:
+    """Slope of the joints' torques alone, the states of effects following, (n, n)."""
+    if slope.shape[0] == n:
+        return slope
+    following = -np.linalg.lstsq(slope[n:, n:], slope[n:, :n], rcond=1e-12)[0]
+    return np.asarray(slope[:n, :n] + slope[:n, n:] @ following)
+
+
+def _grown(arm: RestingArm, load: Load) -> Array | None:
+    """The equilibrium that relaxed springs lead to as gravity and tensions grow; None where the path ends."""
+    y = arm.unknowns(np.asarray(arm.model.parameters.rest_angle, dtype=float), load)
+    share, step = 0.0, 1.0
+    while share < 1.0:
+        found = solve_pull(arm, load, y, share=min(share + step, 1.0))
+        if found is None:
+            step /= 2
+            if step < _SMALLEST_SHARE:
+                return None
+            continue
+        y, share, step = found, min(share + step, 1.0), 2 * step
+    return y
+
+
+def _angles(given: Array, n: int) -> Array:
+    allowed = f"{n} finite joint angles [rad]"
+    theta = finite_array("start", given, allowed)
+    if theta.shape != (n,):
+        raise InvalidValueError("start", given, allowed)
+    return theta

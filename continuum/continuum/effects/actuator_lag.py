@@ -1,0 +1,32 @@
+"""Motors that follow their command late: lag T' = u - T, of each cable, T what pulls.
+
+Motors under current control follow within 1 to 5 ms; geared servos and drives over a bus within 20 to 100 ms. The lag
+is never below 1e-5 s, of which nothing is seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+from continuum.dynamics.effect import Own
+from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.planar.instant import Instant
+from continuum.effects.parts.cable_states import LEAST_LAG, CableStates
+
+
+class ActuatorLag(CableStates):
+    """A first-order lag of the tensions."""
+
+    name = "actuator_lag"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "lag": Parameter("t_a", "s", 0.0, 1.0, False, "time constant of the motors", 0.0, 0.03)
+    }
+    source = "Franklin, Powell and Emami-Naeini, Feedback Control of Dynamic Systems, ch. 3 (first-order lag)"
+    in_words = "The motors pull later than they are told."
+    looks_like = "Every answer to a change of pull comes late by the same time; what moves freely is as it should be."
+    experiment = "Step the command with the arm held still and record the tension at the base of the cable."
+
+    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+        return (own["lag"] + LEAST_LAG) * state_rate - (now.u - state)

@@ -1,0 +1,30 @@
+"""A sensor's angle is off by a constant, of its own in every recording: theta + offset.
+
+How a sensor sits on its disc, and where it takes zero when switched on: some degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.reading import Reading
+
+
+class AngleOffset(Effect):
+    """Zero of the angle sensors."""
+
+    name = "angle_offset"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "offset": Parameter("o", "rad", -1.0, 1.0, True, "added to a joint's measured angle", 0.0, 0.03, True)
+    }
+    source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3 and 4"
+    in_words = "A sensor shows a wrong angle from the start, by the same amount all the time."
+    looks_like = "Measured and simulated angle run side by side, and the rates agree; the gap differs from run to run."
+    experiment = "Measure the resting angle with a protractor, or restart the sensors and release again."
+
+    def measure(self, seen: Reading, own: Own) -> Reading:
+        return replace(seen, theta=seen.theta + own["offset"])

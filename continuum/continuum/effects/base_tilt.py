@@ -1,0 +1,33 @@
+"""The arm does not hang as the model has it: beta + angle.
+
+2 degrees of the base plate are 1 mm under one edge of 30 mm; they turn an arm of 1.1 kg, whose weight has a moment of
+1.1 N m about the first joint when level, by 0.04 N m: its dry friction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.parameters import Parameter, Parameters
+
+
+class BaseTilt(Effect):
+    """beta of Eq. 12's gravity."""
+
+    name = "base_tilt"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "angle": Parameter("beta_e", "rad", -1.0, 1.0, False, "added to the hang angle", 0.0, 0.035)
+    }
+    source = "thesis Eq. 12, G; Khalil and Dombre, Modeling, Identification and Control of Robots, 2002, ch. 9"
+    in_words = "The base plate is not level, so the arm hangs askew."
+    looks_like = "All joints come to rest to one side, those near the base most, as the weight beyond them asks."
+    experiment = (
+        "Put a spirit level on the base plate; or turn the arm half a turn about its own axis and release again: "
+        "a tilt changes its side in the arm's own angles."
+    )
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        return replace(p, hang_angle=p.hang_angle + own["angle"])

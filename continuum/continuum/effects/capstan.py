@@ -1,0 +1,29 @@
+"""Cables rub on the discs more than the model has it: mu_c + friction in Eqs. 14 and 15.
+
+Cable in a drilled or bushed hole: 0.1 to 0.3. At 0.1 a cable that turns by 1 rad through the arm loses a tenth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.parameters import Parameter, Parameters
+
+
+class Capstan(Effect):
+    """mu_c of Eqs. 14 and 15."""
+
+    name = "capstan"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "friction": Parameter("mu_e", "1", 0.0, 2.0, False, "added to the friction of cables on discs", 0.0, 0.1)
+    }
+    source = "thesis Eqs. 14 and 15; Kaneko, Yamashita and Tanie, ICAR 1991 (transmission of tendon drives)"
+    in_words = "The cables rub in the holes of the discs, so that less of the pull reaches the tip."
+    looks_like = "Under pull the joints near the tip bend less than those near the base, the more the arm is bent."
+    experiment = "Pull slowly and let go slowly: the arm's bend at the same pull differs, most at the tip."
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        return replace(p, capstan_friction=p.capstan_friction + own["friction"])

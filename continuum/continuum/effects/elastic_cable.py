@@ -1,0 +1,46 @@
+"""A cable is a spring between the arm and a motor that gives way: T' = k (motor speed + lengthening speed).
+
+The motor winds with v = alpha (u - T), an admittance, alpha = 1 / (k lag); the lengthening L is the cable's way
+through the arm, which the joints stretch:
+
+  lag (T' - k g L') = u - T,      g = u^2 / (u^2 + (0.1 N)^2).
+
+Without a lag the motor makes up for every stretch at once and the tension is what it is told. g lets the drum run free
+where it is told none, so that arms without cables are what they were. A slack cable has T < 0, which does not pull:
+-T / k is its slack, wound up by the same law. The lag is never below 1e-5 s, of which nothing is seen.
+
+0.5 m of polyamide line of 0.8 mm has some 2 kN/m, of steel rope 100 kN/m; motors that hold a tension by measuring it
+take 5 to 50 ms. The arm's cables move at 0.1 m/s, so 1 kN/m and 10 ms change the tension by 1 N.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+from continuum.dynamics.effect import Own
+from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.planar.instant import Instant
+from continuum.effects.parts.cable_states import LEAST_LAG, CableStates
+from continuum.effects.parts.cables import driven, lengthening_rate
+
+
+class ElasticCable(CableStates):
+    """Springs between motors and arm."""
+
+    name = "elastic_cable"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "lag": Parameter("t_e", "s", 0.0, 1.0, False, "time in which the motor evens out a stretch", 0.0, 0.01),
+        "stiffness": Parameter("k", "N/m", 10.0, 1e6, False, "stiffness of a cable", 1e3, 1e3),
+    }
+    source = "Camarillo et al., IEEE Trans. Robotics 24, 2008, 1262-1273 (tendons); Hogan, ASME JDSMC 107, 1985"
+    in_words = "The cables stretch, and the motors even that out only after a while."
+    looks_like = "While the arm moves fast the pull is above or below the command, as the cable is drawn out or let in."
+    experiment = (
+        "Hold the arm still and step the command, then hold the command and push the arm; compare the tensions."
+    )
+
+    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+        drawn = own["stiffness"] * driven(now.u) * lengthening_rate(now.motion, now.p)
+        return (own["lag"] + LEAST_LAG) * (state_rate - drawn) - (now.u - state)

@@ -1,0 +1,32 @@
+"""A gyro reads a rate at rest, and the angle summed up from it runs away: w + bias, theta + bias (t - t_0).
+
+Of its own for every joint and recording: a bias of MEMS gyros is some 0.1 to 1 degree/s after each start; a joint has
+that of two sensors. 0.02 rad/s are 1.8 degrees after 1.6 s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.reading import Reading
+
+
+class GyroDrift(Effect):
+    """Bias of the gyros."""
+
+    name = "gyro_drift"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "bias": Parameter("b_w", "rad/s", -1.0, 1.0, True, "rate that a joint at rest shows", 0.0, 0.02, True)
+    }
+    source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3.2"
+    in_words = "A gyro drifts: the angle of a joint at rest keeps changing."
+    looks_like = "The gap between measured and simulated angle grows in proportion to time, also where the arm rests."
+    experiment = "Record the arm at rest for half a minute before and after each release."
+
+    def measure(self, seen: Reading, own: Own) -> Reading:
+        passed = (seen.times - seen.times[0])[:, None]
+        return replace(seen, theta=seen.theta + own["bias"] * passed, theta_rate=seen.theta_rate + own["bias"])

@@ -1,0 +1,31 @@
+"""Links heavier or lighter than the model has them: m (1 + mass), and I_z (1 + inertia) about the centre of mass.
+
+The thesis's own guess at what its model lacks. Drawings give masses without glue, screws, cables and connectors,
+and moments of inertia for uniform bodies: 10 % of mass and half of the inertia are soon missed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.parameters import Parameter, Parameters
+
+
+class Inertia(Effect):
+    """m and I_z of Eq. 12."""
+
+    name = "inertia"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "mass": Parameter("e_m", "1", -0.9, 10.0, True, "mass of a link by its model's, less 1", 0.0, 0.1),
+        "inertia": Parameter("e_I", "1", -0.95, 50.0, True, "own inertia of a link by its model's, less 1", 0.0, 0.5),
+    }
+    source = "thesis, discussion of Fig. 9; Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119"
+    in_words = "A link is heavier or lighter, or its mass lies further out, than in the drawings."
+    looks_like = "Swings are slower or faster and gravity pulls a joint further, in proportion to each other."
+    experiment = "Weigh the links; with a known weight added to one of them, release again and compare the two runs."
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        return replace(p, mass=p.mass * (1 + own["mass"]), inertia=p.inertia * (1 + own["inertia"]))

@@ -1,0 +1,35 @@
+"""Joints rougher or smoother than the others: tau_mu (1 + viscous) and tau_c (1 + coulomb).
+
+Two parameters, as grease and fit differ from joint to joint on their own. Friction of like joints of one machine
+commonly differs by tens of percent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.parameters import Parameter, Parameters
+
+
+class JointFriction(Effect):
+    """tau_mu and tau_c of Eq. 13, joint by joint."""
+
+    name = "joint_friction"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "viscous": Parameter("e_mu", "1", -1.0, 20.0, True, "viscous friction by its model's, less 1", 0.0, 0.5),
+        "coulomb": Parameter("e_c", "1", -1.0, 20.0, True, "Coulomb friction by its model's, less 1", 0.0, 0.5),
+    }
+    source = "thesis Eq. 13; Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, 1083-1138"
+    in_words = "A joint is tighter or looser than the others: it wants grease, or has lost its preload."
+    looks_like = "The joint's motion dies out sooner or later than its neighbours', and it sticks elsewhere."
+    experiment = "Move each joint alone by hand at a steady speed, both ways, with a force gauge."
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        return replace(
+            p,
+            viscous_friction=p.viscous_friction * (1 + own["viscous"]),
+            coulomb_friction=p.coulomb_friction * (1 + own["coulomb"]),
+        )

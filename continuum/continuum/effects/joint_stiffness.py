@@ -1,0 +1,29 @@
+"""Springs stiffer or softer from joint to joint: K (1 + excess).
+
+A coil's rate goes with the fourth power of its wire, so that 5 % of wire are 20 % of stiffness.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.parameters import Parameter, Parameters
+
+
+class JointStiffness(Effect):
+    """K of Eq. 12, joint by joint."""
+
+    name = "joint_stiffness"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "excess": Parameter("e_K", "1", -0.95, 20.0, True, "stiffness of a joint by its model's, less 1", 0.0, 0.2)
+    }
+    source = "thesis Eq. 12; Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 10 (rate of a spring)"
+    in_words = "The spring of a joint is stiffer or softer than those of the others."
+    looks_like = "The joint bends less, or more, than its neighbours for the same load, in proportion to the load."
+    experiment = "Hang known weights on the tip of the arm held level and read the angle of each joint at rest."
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        return replace(p, stiffness=p.stiffness * (1 + own["excess"]))

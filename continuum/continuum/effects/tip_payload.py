@@ -1,0 +1,46 @@
+"""A point mass M at the centre of the tip disc, b beyond the last joint.
+
+The last link's centre of mass c moves to c + (b - c) M / (m + M), its inertia about it grows by the parallel axes'
+m M / (m + M) (b - c)^2. 50 g beyond five links of 220 g add 5 % to the weight, 9 % to its moment about joint 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+import numpy as np
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.parameters import Parameter, Parameters
+
+
+class TipPayload(Effect):
+    """Mass on the last link."""
+
+    name = "tip_payload"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "mass": Parameter("M", "kg", 0.0, 10.0, False, "mass at the centre of the tip disc", 0.0, 0.05)
+    }
+    source = "Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119 (loads)"
+    in_words = "The tip carries a weight that the model does not know."
+    looks_like = "All joints swing slower and return further towards the plumb line, those near the base most."
+    experiment = (
+        "Weigh the last link with all that is fixed to it; or hang a known weight on the tip and release again."
+    )
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        m, c, beyond = p.mass[-1:], p.center_of_mass[-1:], p.half_spacing[-1:] - p.center_of_mass[-1:]
+        share = own["mass"] / (m + own["mass"])
+        return replace(
+            p,
+            mass=_with_last(p.mass, m + own["mass"]),
+            center_of_mass=_with_last(p.center_of_mass, c + beyond * share),
+            inertia=_with_last(p.inertia, p.inertia[-1:] + m * share * beyond**2),
+        )
+
+
+def _with_last(values: Numbers, last: Numbers) -> Numbers:
+    return np.concatenate([values[:-1], last])

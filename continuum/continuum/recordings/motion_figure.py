@@ -1,0 +1,85 @@
+"""A simulated motion as a picture: joint angles, joint rates, cable tensions, and the arm at a few instants."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from continuum.arrays import Array
+from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.tensions import Tensions
+from continuum.dynamics.trajectory import Trajectory
+from continuum.errors import FileError
+
+_INSTANTS = 6
+"""Postures shown."""
+
+_BESIDE: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "fontsize": 8, "frameon": False}
+"""Legends stand right of their panel."""
+
+
+def write_motion_figure(motion: Trajectory, tensions: Tensions, p: Parameters, path: str | Path) -> None:
+    """Draw the picture and write it to ``path`` (PNG or any format that Matplotlib knows by its suffix).
+
+    Raises:
+        FileError: the file cannot be written, or its format is not known.
+    """
+    figure = Figure(figsize=(12.5, 6.6), layout="constrained")
+    panels = figure.subplot_mosaic([["angles", "arm"], ["rates", "arm"], ["tensions", "arm"]], width_ratios=(1.7, 1),
+                                   height_ratios=(1.5, 1.2, 0.8))  # fmt: skip
+    colours = _shades(motion.n_joints)
+    for name, values in (("angles", motion.theta), ("rates", motion.theta_rate)):
+        for joint, column in enumerate(np.degrees(values).T):
+            panels[name].plot(motion.times, column, color=colours[joint], linewidth=1.3, label=f"joint {joint + 1}")
+    if motion.n_joints <= 12:
+        panels["angles"].legend(**_BESIDE, title="from the base", title_fontsize=8)
+    pull = np.array([tensions.at(t) for t in motion.times])
+    for cable, (colour, column) in enumerate(zip(("#202020", "#b07800"), pull.T, strict=True)):
+        panels["tensions"].plot(motion.times, column, color=colour, linewidth=1.3, label=f"cable {cable + 1}")
+    panels["tensions"].legend(**_BESIDE)
+    panels["tensions"].set_ylim(0, max(1.0, 1.15 * float(pull.max())))
+    panels["angles"].set(title="Joint angles", ylabel="[deg]")
+    panels["rates"].set(title="Joint rates", ylabel="[deg/s]")
+    panels["tensions"].set(title="Cable tensions at the base", ylabel="[N]", xlabel="time [s]")
+    for name in ("angles", "rates", "tensions"):
+        panels[name].grid(alpha=0.3)
+        panels[name].margins(x=0.01)
+    _draw_arm(panels["arm"], motion, p)
+    try:
+        figure.savefig(path, dpi=100)
+    except OSError as error:
+        raise FileError(path, f"cannot be written ({error.strerror or error})") from error
+    except ValueError as error:  # Matplotlib: a format that it does not know
+        raise FileError(path, f"cannot be drawn ({error})") from error
+
+
+def _draw_arm(axes: Axes, motion: Trajectory, p: Parameters) -> None:
+    """Joints and tip in the plane, gravity downwards, later instants darker."""
+    shown = np.unique(np.linspace(0, len(motion.times) - 1, _INSTANTS).astype(int))
+    for i, colour in zip(shown, _shades(len(shown)), strict=True):
+        points = 1e3 * backbone(motion.theta[i], p)
+        axes.plot(*points.T, "o-", color=colour, markersize=3.5, linewidth=1.6, label=f"{motion.times[i]:.2f} s")
+    axes.plot(0, 0, "ks", markersize=9)
+    axes.set(title="The arm, seen across its plane", xlabel="[mm]", ylabel="[mm], gravity downwards", aspect="equal")
+    axes.grid(alpha=0.3)
+    axes.margins(0.08)
+    axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3)
+
+
+def backbone(theta: Array, p: Parameters) -> Array:
+    """Base plate, joints and last disc of an arm in its plane, (n_joints + 2, 2) [m], the second axis upwards."""
+    link_angle = np.cumsum(theta) + p.hang_angle
+    lengths = np.concatenate([p.half_spacing[:1], p.joint_spacing[:-1], p.half_spacing[-1:]])
+    directions = np.concatenate([p.hang_angle, link_angle])
+    steps = lengths[:, None] * np.stack([np.sin(directions), -np.cos(directions)], axis=1)
+    return np.asarray(np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)]))
+
+
+def _shades(n: int) -> Array:
+    """Colours from light to dark, (n, 3)."""
+    share = np.linspace(0, 1, max(n, 2))[:n, None]
+    return np.asarray((1 - share) * np.array([0.55, 0.78, 0.95]) + share * np.array([0.05, 0.12, 0.45]))

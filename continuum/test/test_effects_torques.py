@@ -1,0 +1,143 @@
+"""Friction, drag and springs beyond Eq. 12: work, forces, and the limits in which they are something known."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from continuum_laws.differences import differences
+from dynamics_laws import active, moving, prototype_model
+from effects_laws import LOOSE, N, effect_of, instants, torque_of
+from scipy.integrate import solve_ivp
+
+from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.planar.eq13_joint_friction import joint_friction
+from continuum.dynamics.planar.instant import Instant
+from continuum.effects.load_friction import joint_force
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("load_friction", {"radius": 0.01}),
+        ("quadratic_drag", {"drag": 2.0}),
+        ("sensor_cable", {"stiffness": 0.0, "viscous": 0.02, "dry": 0.03}),
+    ],
+)
+def test_what_only_takes_energy_never_gives_any(name: str, values: dict[str, float]) -> None:
+    taken = [torque_of(name, now, **values) @ now.motion.theta_rate for now in instants(3, 200, np.array([8.0, 3.0]))]
+    assert min(taken) >= 0
+    assert max(taken) > 1e-3
+
+
+@pytest.mark.parametrize("changed", [{"viscous": -1.0, "coulomb": 4.0}, {"viscous": 3.0, "coulomb": -1.0}])
+def test_changed_joint_friction_takes_energy_still(changed: dict[str, float]) -> None:
+    one = active(effect_of("joint_friction"), N, **changed)
+    for now in instants(4):
+        p, w = one.effect.change_parameters(now.p, one.values), now.motion.theta_rate
+        assert np.all(joint_friction(w, p) * w >= 0)
+
+
+def test_drag_takes_the_power_of_each_links_speed_across() -> None:
+    for now in instants(5):
+        move, p = now.motion, now.p
+
+        def discs(theta: np.ndarray, p: Parameters = p) -> np.ndarray:
+            phi = np.cumsum(theta)
+            side = np.stack([np.sin(phi), np.cos(phi)], axis=1)
+            steps = p.joint_spacing[:, None] * side
+            return np.cumsum(steps, axis=0) - steps + p.half_spacing[:, None] * side
+
+        velocity = np.einsum("ijk,k->ij", differences(discs, move.theta), move.theta_rate)
+        across = np.cos(move.link_angle) * velocity[:, 0] - np.sin(move.link_angle) * velocity[:, 1]
+        power = np.sum(0.7 * across**2 * np.sqrt(across**2 + 1e-6))
+        assert torque_of("quadratic_drag", now, drag=0.7) @ move.theta_rate == pytest.approx(power, rel=1e-6)
+
+
+def test_a_joint_carries_what_its_links_need() -> None:
+    """Newton's law of the mass beyond, at joint rates that do not change, and the cables' pull on it."""
+    pull = np.array([8.0, 3.0])
+    for now in instants(6, 8):
+        move, p = now.motion, replace(now.p, capstan_friction=np.zeros(1))
+
+        def masses(t: np.ndarray, move=move, p=p) -> np.ndarray:
+            phi = np.cumsum(move.theta + t * move.theta_rate)
+            side = np.stack([np.sin(phi), np.cos(phi)], axis=1)
+            steps = p.joint_spacing[:, None] * side
+            return np.cumsum(steps, axis=0) - steps + p.center_of_mass[:, None] * side
+
+        second = differences(lambda t: differences(masses, t, 1e-3)[..., 0], [0.0], 1e-3)[..., 0]
+        down = p.gravity * np.array([-np.sin(p.hang_angle[0]), np.cos(p.hang_angle[0])])
+        needed = np.cumsum((p.mass[:, None] * (second - down))[::-1], axis=0)[::-1]
+        np.testing.assert_allclose(joint_force(replace(now, p=p)), needed, rtol=1e-5, atol=1e-4)
+        half = np.cumsum(move.theta) - move.theta / 2
+        pressed = joint_force(replace(now, u=pull, p=p)) - joint_force(replace(now, p=p))
+        np.testing.assert_allclose(pressed, 11.0 * np.stack([np.sin(half), np.cos(half)], axis=1), atol=1e-12)
+
+
+def test_hanging_still_the_first_joint_carries_the_arm() -> None:
+    now = Instant(moving(np.zeros(N), np.zeros(N)), LOOSE, prototype_model(N).parameters)
+    weight = 9.81 * 0.22257 * np.arange(N, 0, -1)
+    np.testing.assert_allclose(joint_force(now), np.stack([0 * weight, -weight], axis=1), atol=1e-12)
+
+
+def test_within_the_gap_a_spring_does_not_act_and_beyond_it_acts_from_its_edge() -> None:
+    p = replace(prototype_model(N).parameters, rest_angle=np.full(N, 0.1))
+    for angle, acting in ((0.0, 0.0), (0.02, 0.0), (-0.02, 0.0), (0.3, 0.25), (-0.3, -0.25)):
+        now = Instant(moving(np.full(N, 0.1 + angle), np.zeros(N)), LOOSE, p)
+        spring = p.stiffness * angle + torque_of("backlash", now, gap=0.05)
+        np.testing.assert_allclose(spring, p.stiffness * acting, atol=6e-4)
+
+
+def test_a_cubic_spring_and_a_sensor_cable_where_they_act() -> None:
+    theta, w = np.array([0.3, -0.2, 0.1, 0.0, 0.4]), np.array([2.0, 1.0, 0.0, -1.0, 0.0])
+    now = Instant(moving(theta, w), LOOSE, replace(prototype_model(N).parameters, rest_angle=np.full(N, 0.1)))
+    np.testing.assert_allclose(torque_of("hardening_spring", now, cubic=3.0), 3 * (theta - 0.1) ** 3)
+    held = torque_of("sensor_cable", now, stiffness=0.5, viscous=0.1, dry=0.03)
+    np.testing.assert_allclose(held, [0.5 * 0.3 + 0.1 * 2.0 + 0.03, 0, 0, 0, 0])
+
+
+def slid(turn: Callable[[float], float], times: np.ndarray, angle: float) -> tuple[np.ndarray, Parameters]:
+    """State of one joint that turns at a given rate."""
+    p = prototype_model(1).parameters
+    one = active(effect_of("presliding"), angle=angle)
+
+    def rate(t: float, s: np.ndarray) -> np.ndarray:
+        now = Instant(moving(np.zeros(1), np.array([turn(t)])), LOOSE, p)
+        still = one.effect.state_balance(now, one.values, s, np.zeros(1))
+        return -still / (one.effect.state_balance(now, one.values, s, np.ones(1)) - still)
+
+    found = solve_ivp(rate, (times[0], times[-1]), [0.0], "BDF", times, rtol=1e-9, atol=1e-10, max_step=0.01)
+    return found.y[0], p
+
+
+def test_sliding_steadily_the_friction_is_that_of_eq_13() -> None:
+    for w in (-3.0, -0.05, 0.01, 0.3, 2.0):
+        s, p = slid(lambda t, w=w: w, np.array([0.0, 0.5 / abs(w)]), 0.02)
+        now = Instant(moving(np.zeros(1), np.array([w])), LOOSE, p)
+        np.testing.assert_allclose(torque_of("presliding", now, s[-1:], angle=0.02), 0, atol=1e-7)
+
+
+def test_a_stuck_joint_is_a_spring_at_first_and_loses_at_every_turn() -> None:
+    angle, times = 0.02, np.linspace(0, 1, 1001)
+    turn = 0.5 * angle * 2 * np.pi
+    s, _ = slid(lambda t: turn * np.cos(2 * np.pi * t), times, angle)
+    way = turn / (2 * np.pi) * np.sin(2 * np.pi * times)
+    assert s[20] == pytest.approx(way[20] / angle, rel=0.06)
+    assert np.trapezoid(s * turn * np.cos(2 * np.pi * times), times) > 0.02 * angle
+    assert abs(s[500]) > 0.1  # back where it began, but not the friction
+
+
+def test_presliding_friction_stores_and_takes_but_never_makes_energy() -> None:
+    random = np.random.default_rng(8)
+    for angle in (0.005, 0.05):
+        a, b = random.normal(size=6), random.uniform(2, 40, 6)
+        times = np.linspace(0, 1, 4001)
+        turn = lambda t, a=a, b=b: float(np.sum(a * np.sin(b * t)))  # noqa: E731
+        s, _ = slid(turn, times, angle)
+        w = np.array([turn(t) for t in times])
+        power = s * w
+        work = np.concatenate([[0.0], np.cumsum((power[1:] + power[:-1]) / 2 * np.diff(times))])
+        lost = work - (angle + 1e-5) * s**2 / 2
+        assert np.diff(lost).min() > -1e-5
+        assert lost[-1] > 0.1

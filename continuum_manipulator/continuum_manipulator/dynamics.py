@@ -1,0 +1,223 @@
+"""Node of a simulated arm: tension commands in, joint and cable states out, in real time or by ``/clock``."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.time import Time
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+
+from continuum import joint_names
+from continuum.dynamics.live.live_arm import INTEGRATORS, LiveArm
+from continuum.dynamics.live.tension_follower import TensionFollower, TensionLimits
+from continuum.dynamics.model_file import load_model
+from continuum.dynamics.planar.cables import SIDES
+from continuum.dynamics.trajectory import SimulationStatus
+from continuum.errors import InvalidValueError
+from continuum.parameter_spec import ParameterSpec
+from continuum_manipulator.load_meter import LoadMeter, Mark
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
+from continuum_manipulator.nodekit.tension_commands import read_tensions
+from continuum_manipulator.pace import Pace
+from continuum_manipulator.postures import checked_posture, initial_posture
+from continuum_msgs.msg import CableStates
+from continuum_msgs.srv import ResetArm
+
+BEHIND = 0.1
+"""Lag that is told [s]."""
+
+CATCH_UP_PERIOD = 0.001
+"""Seconds, by the machine's clock, between two goes while the simulation is behind: others are served in between."""
+
+
+LIMITS = ("max_tension", "max_tension_rate", "command_timeout", "slack_time")
+"""Parameters that make the `TensionLimits`, in its order."""
+
+
+class DynamicsNode(CheckedNode):
+    """``cable_tension_cmd`` to ``joint_states`` and ``cable_states``, by integrating a model file.
+
+    Simulated time is ROS time and has no gaps: where the machine is too slow it lags behind, which is told, and
+    catches up. Commands above ``max_tension`` mean ``max_tension``; bad ones are dropped, the one before holds. When
+    no good command came for ``command_timeout``, tension falls linearly, to slack after ``slack_time``. The service
+    ``~/release`` drops all tension at once, ``~/reset`` sets a posture; commands that come afterwards pull again.
+    """
+
+    NAME = "dynamics"
+    PARAMETERS = (
+        ParameterSpec("model", str, "model file, or the name of one that comes with the library",
+                      default="lamecc_prototype.yaml"),
+        ParameterSpec("section", str, "name of the section, with which those of joints and cables begin",
+                      default="section_1"),
+        ParameterSpec("rate", float, "states a second", "Hz", 1.0, 2000.0, default=120.0),
+        ParameterSpec("integrator", str, "bdf is SciPy's, with the thesis's settings; esdirk is the fast one",
+                      choices=tuple(INTEGRATORS), default="bdf"),
+        ParameterSpec("initial_bend", float, "total bend at the start, the same at every joint", "rad", -100.0, 100.0,
+                      default=0.0),
+        ParameterSpec("initial_angles", float, "joint angles at the start from base to tip, in the place of a bend",
+                      "rad", -np.pi, np.pi, is_list=True, default=[]),
+        ParameterSpec("max_tension", float, "largest tension of a cable", "N", 0.0, 1e4, default=30.0),
+        ParameterSpec("max_tension_rate", float, "fastest change of tension that commands make", "N/s", 0.0, 1e6,
+                      lower_open=True, default=100.0),
+        ParameterSpec("command_timeout", float, "age up to which a tension command holds", "s", 0.02, 3600.0,
+                      default=0.5),
+        ParameterSpec("slack_time", float, "time from there until the cables are slack", "s", 1e-3, 3600.0,
+                      default=0.5),
+    )  # fmt: skip
+
+    def __init__(self) -> None:
+        super().__init__()
+        section = str(self.values["section"])
+        joint_names.check_section(section)
+        model = load_model(self.values["model"])
+        self._n_joints = model.n_joints
+        self._posture = initial_posture(model.n_joints, self.values)
+        self._arm = LiveArm(model, self._posture, self.values["integrator"])
+        self._joints = [
+            joint_names.phi_joint(section),
+            *joint_names.theta_joints(section, model.n_joints),
+            joint_names.phi_back_joint(section),
+        ]
+        self._cables = list(joint_names.cable_names(section, len(SIDES)))
+        limits = TensionLimits(*(self.values[name] for name in LIMITS))
+        self._tensions = TensionFollower(limits, len(SIDES))
+        self._pace: Pace | None = None  # until there is a time
+        self._by_clock = bool(self.get_parameter("use_sim_time").value)
+        self._failure: SimulationStatus | None = None
+        self._meter = LoadMeter()
+        self.diagnostics.values |= {
+            "integrator": lambda: self.values["integrator"],
+            "real-time factor": lambda: f"{self._meter.real_time_factor:.3f}",
+            "load of one core": lambda: f"{self._meter.load:.3f}",
+            "lag [s]": lambda: f"{self._lag():.3f}",
+            "cables": self._cables_in_words,
+        }
+        self._publish_joints = self.offer(JointState, "joint_states")
+        self._publish_cables = self.offer(CableStates, "cable_states")
+        self.listen(CableStates, "cable_tension_cmd", self._on_command)
+        self.create_service(Trigger, "~/release", self._release)
+        self.create_service(ResetArm, "~/reset", self._reset)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)  # the clock of a timer by ROS time may leap over it, or back
+        self._timer = self.create_timer(1.0 / self.values["rate"], self._keep_pace, clock=steady)
+        self._catch_up = self.create_timer(CATCH_UP_PERIOD, self._go, clock=steady)
+        self._catch_up.cancel()
+
+    def _now(self) -> int:
+        """ROS time [ns], 0 until simulated time begins."""
+        return self.get_clock().now().nanoseconds
+
+    def _lag(self) -> float:
+        return 0.0 if self._pace is None else self._pace.lag(self._now())
+
+    def _keep_pace(self) -> None:
+        """Simulate what is due, and say so if what was due has not been simulated."""
+        now = self._now()
+        if now == 0:
+            return
+        if self._pace is None:
+            self._pace = Pace(self.values["rate"], self.values["command_timeout"] / 4, now)
+            self._publish()
+            return
+        if self._pace.went_back(now):
+            back = (self._pace.seen - now) / NANOSECONDS
+            self.diagnostics.warnings.note("time went back", f"by {back:.3f} s; the arm goes on from its posture")
+            self._pace.begin(now)
+            self._meter.restart()
+            self._tensions.forget_time()
+        if self._failure is not None:
+            detail = f"{self._failure.value}; the arm stands still until {self.get_name()}/reset"
+            self.diagnostics.warnings.note("integration failed", detail)
+            return
+        lag = self._pace.lag(self._pace.seen if self._by_clock else now)  # /clock may take large steps
+        if lag > BEHIND:
+            self.diagnostics.warnings.note("behind", f"{lag:.3f} s; no time is skipped")
+        self._go()
+
+    def _go(self) -> None:
+        """Simulate and publish the instants that are due, a limited number; the rest soon, after commands that wait."""
+        now = self._now()
+        for number in self._pace.due(now):
+            if self._failure is None:
+                self._advance(number)
+        self._meter.mark(Mark(time.monotonic(), time.process_time(), self._pace.seconds(self._pace.last)))
+        if self._pace.lag(now) > 0.0 and self._failure is None:
+            self._catch_up.reset()
+        else:
+            self._catch_up.cancel()
+
+    def _advance(self, number: int) -> None:
+        """Simulate up to an instant, and publish it."""
+        begin, before = self._pace.last, self._tensions.abandoned
+        duration = (self._pace.reach(number) - begin) / NANOSECONDS
+        interval = self._tensions.move_on(self._pace.seconds(begin), duration)
+        if self._tensions.abandoned and not before:
+            timeout, slack = self.values["command_timeout"], self.values["slack_time"]
+            self.diagnostics.warnings.note(
+                "tension commands stopped", f"none for {timeout:g} s; the cables are slack in {slack:g} s"
+            )
+        status = self._arm.advance(interval)
+        if status is SimulationStatus.COMPLETE:
+            self._publish()
+        else:
+            self._failure = status
+
+    def _publish(self) -> None:
+        """Publish the state at the last instant simulated. Joints have no motors, so only cables have an effort."""
+        stamp = Time(nanoseconds=self._pace.last).to_msg()
+        joints = JointState(name=self._joints)
+        joints.header.stamp = stamp
+        joints.position = [0.0, *self._arm.angles, 0.0]  # positive bends are towards phi = 0
+        joints.velocity = [0.0, *self._arm.rates, 0.0]
+        cables = CableStates(section=CableStates.WHOLE_ARM, name=self._cables)
+        cables.header.stamp = stamp
+        cables.position = self._arm.cable_lengths
+        cables.velocity = self._arm.cable_rates
+        cables.effort = self._tensions.tension
+        self._publish_joints(joints)
+        self._publish_cables(cables)
+
+    def _on_command(self, message: CableStates) -> None:
+        now = self._now()
+        wanted = read_tensions(message, self._cables, now, self.values["command_timeout"])
+        if self._pace is None:
+            return  # within the first period
+        most = self.values["max_tension"]
+        for name, tension in zip(self._cables, wanted, strict=True):
+            if tension > most:
+                self.diagnostics.warnings.note(
+                    "tension limited", f"{name}: {tension:g} N commanded, max_tension is {most:g} N"
+                )
+        self._tensions.command(wanted, self._pace.seconds(min(now, nanoseconds(message.header.stamp))))
+
+    def _release(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self._tensions.release()
+        response.success, response.message = True, "all cables are slack"
+        return response
+
+    def _reset(self, request: ResetArm.Request, response: ResetArm.Response) -> ResetArm.Response:
+        try:
+            posture = (
+                checked_posture("position", request.position, self._n_joints) if request.position else self._posture
+            )
+        except InvalidValueError as error:
+            response.message = str(error)
+            return response
+        self._arm.place(posture)
+        self._tensions.release()
+        self._failure = None
+        response.success = True
+        response.message = "at rest, cables slack"
+        if self._pace is not None:
+            self._pace.begin(self._now())
+            self._meter.restart()
+        return response
+
+    def _cables_in_words(self) -> str:
+        if self._tensions.abandoned:
+            return "commands stopped"
+        return "tight" if np.any(self._tensions.tension > 0) else "slack"

@@ -1,0 +1,109 @@
+"""The dynamics node by ``/clock``, with other models, and where the integration fails."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from harness import NodeProcess, Probe, ended_in_any_case
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+
+from continuum.dynamics.model_file import load_model, save_model
+from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
+from continuum_msgs.msg import CableStates
+from continuum_msgs.srv import ResetArm
+
+pytestmark = pytest.mark.ros
+
+PERIOD = NANOSECONDS / 120
+MODEL = load_model("lamecc_prototype.yaml")
+
+
+@pytest.fixture
+def probe(domain):
+    with Probe(domain) as probe:
+        yield probe
+
+
+class SimulatedTime:
+    """Says ``/clock``."""
+
+    def __init__(self, probe: Probe) -> None:
+        self._publisher = probe.speaker(Clock, "/clock", qos=10)
+        self._probe = probe
+        self.now = 1000 * NANOSECONDS
+
+    def step(self, seconds: float) -> None:
+        self.now += round(seconds * NANOSECONDS)
+        clock = Clock()
+        clock.clock.sec, clock.clock.nanosec = divmod(self.now, NANOSECONDS)
+        self._publisher.publish(clock)
+
+    def step_until(self, seconds: float, condition: Callable[[], object]) -> None:
+        self._probe.wait_until(lambda: (self.step(seconds), condition())[1], "it, by simulated time")
+
+
+def dynamics(domain: int, **parameters) -> NodeProcess:
+    return NodeProcess("continuum_manipulator", "dynamics", domain, parameters={"integrator": "esdirk", **parameters})
+
+
+def stamps(joints) -> np.ndarray:
+    return np.array([nanoseconds(message.header.stamp) for message in joints])
+
+
+def test_simulated_time_sets_the_pace(domain, probe):
+    """It runs ten times as fast, stands still, leaps forward, which leaves no gap, and goes back, which is told."""
+    joints = probe.hear(JointState, "joint_states")
+    with ended_in_any_case(dynamics(domain, use_sim_time=True, initial_bend=1.5)) as (node,):
+        probe.wait_for_nodes("dynamics")
+        clock = SimulatedTime(probe)
+        clock.step_until(0.1, lambda: len(joints) > 60)
+        probe.listen_until_quiet()
+        stood = len(joints)
+        assert clock.now - 2 * PERIOD <= stamps(joints)[-1] <= clock.now
+        probe.listen_until_quiet(0.5)
+        assert len(joints) == stood
+        clock.step(5.0)
+        probe.wait_until(lambda: stamps(joints)[-1] >= clock.now - 2 * PERIOD, "the end of the leap")
+        assert np.all(np.abs(np.diff(stamps(joints)) - PERIOD) <= 1)
+        assert abs(sum(joints[-1].position)) < 0.1 < 1.0 < sum(joints[0].position)  # released at the first instant
+        back = clock.now - 400 * NANOSECONDS
+        clock.step(-500.0)
+        node.wait_for_line("time went back: by 500.000 s; the arm goes on from its posture")
+        clock.step_until(0.02, lambda: stamps(joints)[-1] < back)
+        assert node.stop() == 0
+
+
+def test_a_model_file_of_another_arm_is_simulated(domain, probe, tmp_path):
+    """Bent by its springs' rest angles alone, as its file says."""
+    save_model(MODEL.with_values({"rest_angle": 0.1, "gravity": 0.0}), tmp_path / "found.yaml")
+    joints = probe.hear(JointState, "joint_states")
+    angles = {"model": tmp_path / "found.yaml", "initial_angles": "[0.1, 0.1, 0.1, 0.1, 0.1]", "section": "elbow"}
+    with ended_in_any_case(dynamics(domain, **angles)) as (node,):
+        probe.wait_until(lambda: len(joints) > 30, lambda: f"states; {node.stderr}")
+        assert joints[-1].name[1] == "elbow_theta_1"
+        np.testing.assert_allclose(joints[-1].position[1:-1], 0.1, atol=1e-9)
+        assert node.stop() == 0
+
+
+def test_a_failed_integration_is_told_and_ends_with_a_reset(domain, probe, tmp_path):
+    wild = {"hole_radius": 10.0, "half_spacing": 10.0, "capstan_friction": 2.0, "cable_slope": 1e6}
+    save_model(MODEL.with_values(wild), tmp_path / "wild.yaml")
+    joints = probe.hear(JointState, "joint_states")
+    limits = {"max_tension": 1e4, "max_tension_rate": 1e6}
+    with ended_in_any_case(dynamics(domain, model=tmp_path / "wild.yaml", **limits)) as (node,):
+        say = probe.speaker(CableStates, "cable_tension_cmd").publish
+        reset = probe.node.create_client(ResetArm, "dynamics/reset")
+        probe.wait_until(lambda: len(joints) > 10 and reset.service_is_ready(), lambda: f"states; {node.stderr}")
+        command = CableStates(name=["section_1_cable_1", "section_1_cable_2"], effort=[1e4, 0.0])
+        command.header.stamp = probe.node.get_clock().now().to_msg()
+        say(command)
+        node.wait_for_line("integration failed: no step was small enough")
+        probe.listen_until_quiet()
+        stood = len(joints)
+        assert np.all(np.isfinite(joints[-1].position))
+        answer = reset.call_async(ResetArm.Request())
+        probe.wait_until(lambda: answer.done() and len(joints) > stood + 10, "states after the reset")
+        assert answer.result().success
+        assert node.stderr.count("integration failed") <= 2  # at once, and summed up
+        assert node.stop() == 0

@@ -1,0 +1,1 @@
+"""The thesis's published results of its dynamic model, made again: `make reproduction`."""

@@ -1,0 +1,33 @@
+"""`make reproduction`: the thesis's dynamic results made again, docs/reproduction.md and its pictures."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+from tools.reproduction.bend import bend_by_one_cable
+from tools.reproduction.figures import draw_bend, draw_release
+from tools.reproduction.page import page
+from tools.reproduction.release import over_all, reproduce_release
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, default=Path("docs"), help="folder of the page; default %(default)s")
+    folder: Path = parser.parse_args().out
+    release, bend = reproduce_release(), bend_by_one_cable()
+    as_released = bend_by_one_cable(float(np.abs(release.published.theta[0]).sum()))
+    (folder / "pictures").mkdir(parents=True, exist_ok=True)
+    draw_release(release, folder / "pictures" / "reproduction_release.png")
+    draw_bend(bend, folder / "pictures" / "reproduction_bend.png")
+    (folder / "reproduction.md").write_text(page(release, bend, as_released), encoding="utf-8")
+    for name, run in (("from rest", release.from_rest), ("initial rates free", release.thrown)):
+        each = release.distance(run)
+        print(f"{name}: {over_all(each):.3f} deg rms over all joints, {each.max():.3f} deg the worst joint")
+    print(f"90 degrees by {bend.tension:.1f} N: {np.degrees(bend.pulled).round(1)} deg; written: {folder}")
+
+
+if __name__ == "__main__":
+    main()
