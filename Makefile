@@ -8,7 +8,7 @@ IN_WORKSPACE := source install/setup.bash &&
 .PHONY: help setup demo test reproduction bench-dynamics bench-ik check format lock clean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 setup: ## make .venv, install pinned versions, build the workspace; does nothing where nothing changed
 	@PYTHON="$(PYTHON)" sh tools/setup/run.sh
@@ -23,7 +23,9 @@ reproduction: setup ## make the thesis's dynamic results again: docs/reproductio
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.reproduction $(ARGS)
 
 bench-dynamics: setup ## measure the integrators against each other: docs/numerics.md (about 10 minutes)
-	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.bench_dynamics $(ARGS)
+	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/bench_dynamics/extra \
+	  -r tools/bench_dynamics/requirements.txt || echo "scikit-sundae cannot be installed and is left out"
+	@$(IN_WORKSPACE) python3 -m tools.bench_dynamics $(ARGS)
 
 bench-ik: setup ## measure the inverse kinematics against its rivals: docs/ik-benchmark.md (about 10 minutes)
 	@$(IN_WORKSPACE) python3 -m tools.bench_ik $(ARGS)

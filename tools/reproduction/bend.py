@@ -10,13 +10,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from continuum.arrays import Array
 from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
+from continuum.dynamics.pulled_posture import pulled_posture
 from continuum.dynamics.simulator import Simulator
-from continuum.dynamics.statics.equilibrium import Equilibrium, EquilibriumStatus, equilibrium
+from continuum.dynamics.statics.equilibrium import Equilibrium, equilibrium
 from continuum.dynamics.statics.resting_arm import Load, RestingArm
 from continuum.dynamics.statics.sticking_zone import StickingZone, sticking_zone
 from continuum.dynamics.tensions import Tensions
@@ -62,22 +62,15 @@ def bend_by_one_cable(total: float = TOTAL_BEND) -> Bend:
         raise RuntimeError(f"the slow pull failed: {run.status.value}")
     at = np.interp(total, run.theta.sum(axis=1), times)
     pulled = np.array([np.interp(at, times, joint) for joint in run.theta.T])
-    arm = RestingArm(model)
-    resting = _rest(arm, brentq(lambda u: _rest(arm, u).theta.sum() - total, 0.0, most, xtol=1e-9))
+    arm, held = RestingArm(model), pulled_posture(model, total)
+    resting = equilibrium(arm, Load(held.tension, approach=1), held.theta)
     return Bend(model, pulled, float(pull.at(float(at))[0]), resting, sticking_zone(arm, resting))
 
 
 def joint_positions(theta: Array, half_spacing: float) -> Array:
-    """Base, joints and tip in the plane of bending, (n + 2, 2) [m]: x towards positive angles, z along the straight arm."""
+    """Base, joints and tip in the plane of bending, (n + 2, 2) [m]: x towards positive angles, z away from the base."""
     lengths = np.full(theta.size + 1, 2 * half_spacing)
     lengths[[0, -1]] = half_spacing
     angles = np.concatenate([[0.0], np.cumsum(theta)])
     links = lengths[:, None] * np.stack([np.sin(angles), np.cos(angles)], axis=1)
     return np.concatenate([np.zeros((1, 2)), np.cumsum(links, axis=0)])
-
-
-def _rest(arm: RestingArm, tension: float) -> Equilibrium:
-    found = equilibrium(arm, Load(np.array([tension, 0.0]), approach=1))
-    if found.status is not EquilibriumStatus.STABLE:
-        raise RuntimeError(f"no stable equilibrium at {tension:g} N: {found.status.value}")
-    return found

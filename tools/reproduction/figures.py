@@ -30,7 +30,7 @@ def draw_release(release: Release, path: Path) -> None:
         angle.set_ylabel(f"joint {joint + 1} [deg]")
         for panel in (angle, error):
             panel.grid(alpha=0.3)
-    axes[0, 0].legend(ncols=2, fontsize="small", loc="upper right")
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=4, loc="outside upper center")
     axes[0, 1].set_title("ours less the author's [deg]", fontsize="medium")
     for panel in axes[-1]:
         panel.set_xlabel("t [s]")

@@ -8,7 +8,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from tools.reproduction.bend import CAPSTAN_FRICTION, Bend, joint_positions
-from tools.reproduction.release import TABLE_4_VELOCITY, Release, over_all
+from tools.reproduction.release import TABLE_4_POSITION, TABLE_4_VELOCITY, Release, over_all
 
 
 def page(release: Release, bend: Bend, as_released: Bend) -> str:
@@ -35,46 +35,48 @@ def page(release: Release, bend: Bend, as_released: Bend) -> str:
     outside = np.flatnonzero((inside < as_released.zone.lower) | (inside > as_released.zone.upper)) + 1
     b = float(bend.model.parameters.half_spacing[0])
     even_tip, pulled_tip = (1e3 * joint_positions(theta, b)[-1] for theta in (bend.even, bend.pulled))
+    joints = _cells(f"joint {i}" for i in range(1, n + 1))
+    rates = ", ".join(f"{x:.0f}" for x in np.degrees(release.thrown.theta_rate[0]))
+    his = release.velocity_nrmse(release.published.theta)
     return f"""# The thesis's dynamic model, reproduced
 
 Made by `make reproduction`, which writes every figure here. Model: `lamecc_prototype.yaml`, Tables 1 and 3.
 
 ## Repetition 7: our Eq. 12 beside the author's
 
-`data/rep7` holds what the author published of one release test, read off his animation: the measured joint angles, and his
-own simulation of them. Ours starts from the first row of his, at the thesis's tolerances. He does not print the initial
-rates; his arm already moves in the second row. So there are two runs: from rest, and with the five initial rates free, found by
-least squares with the exact sensitivities of the trajectory. Nothing else is fitted.
+`data/rep7` holds what the author published of one release test, read off his animation: the measured joint angles, and
+his own simulation of them. Ours starts from the first row of his, at the thesis's tolerances. He does not print the
+initial rates; his arm already moves in the second row. So there are two runs: from rest, and with the five initial
+rates free, found by least squares with the exact sensitivities of the trajectory. Nothing else is fitted.
 
-| root mean square distance to his simulation [deg] | {_cells(f"joint {i}" for i in range(1, n + 1))} | all |
+| root mean square distance to his simulation [deg] | {joints} | all |
 |---|{"---|" * (n + 1)}
 | from rest | {_cells(f"{x:.2f}" for x in rest)} | {over_all(rest):.2f} |
 | initial rates free | {_cells(f"{x:.3f}" for x in thrown)} | {over_all(thrown):.3f} |
 
-The initial rates found: {", ".join(f"{x:.0f}" for x in np.degrees(release.thrown.theta_rate[0]))} deg/s. Goals: 0.9 degrees
-from rest, 0.2 with the rates free. What is left is of the size of the readings' errors (0.01 to 0.1 degrees) and of k_v, which the thesis
-does not print.
+The initial rates found: {rates} deg/s. Goals: 0.9 degrees from rest, 0.2 with the rates free. What is left then is
+partly the reading of the plot (0.01 to 0.1 degrees), partly k_v, which the thesis does not print.
 
 ![Joint angles of repetition 7](pictures/reproduction_release.png)
 
-Against the measurement (Eq. 19: error by the measured standard deviation, mean over the joints; rates are slopes of local
-cubics through seven samples, for all signals alike):
+Against the measurement (Eq. 19: error by the measured standard deviation, mean over the joints; rates are slopes of
+local cubics through seven samples, for all signals alike):
 
 | simulation | NRMSE of velocity | NRMSE of position |
 |---|---|---|
-| Table 4, row 7 | {TABLE_4_VELOCITY:.3f} | 0.581 |
+| Table 4, row 7 | {TABLE_4_VELOCITY:.3f} | {TABLE_4_POSITION:.3f} |
 {nrmse}
 
-The thesis's 0.63 of velocity was computed from the gyros' rates, which were not published; from the angles his own
-simulation gives {release.velocity_nrmse(release.published.theta):.2f}. For position the thesis does not say how it normalised: by Eq. 19's rule his own simulation does
-not give what his table prints, so that column shows only that ours and his are alike.
+The thesis's {TABLE_4_VELOCITY:.2f} of velocity was computed from the gyros' rates, which were not published; from the
+angles his own simulation gives {his:.2f}. How it normalised positions the thesis does not say: by Eq. 19's rule his own
+simulation does not give what his table prints, so that column shows only that ours and his are alike.
 
 ## Chapter 4.3: 90 degrees of total bend by one cable
 
-The arm hangs, mu_c = {CAPSTAN_FRICTION:g}, and cable 1 is pulled slowly until the joints' angles add up to 90 degrees: {bend.tension:.1f} N. The
-thesis shows this as Fig. 10 and prints no numbers.
+The arm hangs, mu_c = {CAPSTAN_FRICTION:g}, and cable 1 is pulled slowly until the joints' angles add up to 90 degrees:
+{bend.tension:.1f} N. The thesis shows this as Fig. 10 and prints no numbers.
 
-| joint angle [deg] | {_cells(f"joint {i}" for i in range(1, n + 1))} |
+| joint angle [deg] | {joints} |
 |---|{"---|" * n}
 | constant curvature | {_cells(_degrees(bend.even))} |
 | dynamic model, pulled slowly | {_cells(_degrees(bend.pulled))} |
@@ -83,22 +85,22 @@ thesis shows this as Fig. 10 and prints no numbers.
 | largest | {_cells(_degrees(bend.zone.upper))} |
 
 The last two rows are each joint's extremes over all postures in which no joint is pulled by more than its break-away
-torque of {bend.zone.break_away[0]:.3f} N m; they are not reached together. The dynamic model bends less near the base, which carries the weight of all
-links beyond it, than near the tip. Its tip is {np.linalg.norm(even_tip - pulled_tip):.0f} mm from that of constant curvature.
+torque of {bend.zone.break_away[0]:.3f} N m; they are not reached together. The dynamic model bends less near the base,
+which carries the weight of all links beyond it, than near the tip, in spite of what the cable loses on the way. Its tip
+is {np.linalg.norm(even_tip - pulled_tip):.0f} mm from that of constant curvature.
 
 ![Joint angles and backbone at 90 degrees](pictures/reproduction_bend.png)
 
-Fig. 10's measured angles were not published, but repetition 7 was released from such a posture: the first row of `data/rep7`,
-{released.sum():.1f} degrees in total, to the other side. The same pull to that bend:
+Fig. 10's measured angles were not published, but repetition 7 was released from such a posture: the first row of the
+author's simulation, {released.sum():.1f} degrees in total, to the other side. The same pull to that bend:
 
-| joint angle [deg] | {_cells(f"joint {i}" for i in range(1, n + 1))} | distance, rms |
+| joint angle [deg] | {joints} | distance, rms |
 |---|{"---|" * (n + 1)}
 | repetition 7, where it is let go | {_cells(f"{x:.1f}" for x in released)} | |
 | constant curvature | {_cells(_degrees(as_released.even))} | {_apart(as_released.even, inside):.1f} |
 | dynamic model, pulled slowly | {_cells(_degrees(as_released.pulled))} | {_apart(as_released.pulled, inside):.1f} |
 
-So the dynamic model is the closer one, as the thesis says, though not by much: the springs or the friction of the real joints
-differ from one to the next{_outside(outside)}.
+The dynamic model is the closer one, as the thesis says. {_outside(outside)}
 """
 
 
@@ -116,6 +118,6 @@ def _apart(one: Array, other: Array) -> float:
 
 def _outside(joints: Array) -> str:
     if joints.size == 0:
-        return ", and dry friction alone could hold the difference"
+        return "What is left, dry friction alone could hold in the model."
     names = " and ".join(str(joint) for joint in joints)
-    return f" (joint {names} is outside of what dry friction could hold in the model)"
+    return f"What is left is more than dry friction could hold in the model at joint {names}."

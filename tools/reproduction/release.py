@@ -17,7 +17,7 @@ from continuum.identification.recording import Recording
 from continuum.identification.recording_csv import read_recording_csv
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "rep7"
-TABLE_4_VELOCITY = 0.63264  # the thesis's NRMSE of velocity of repetition 7
+TABLE_4_POSITION, TABLE_4_VELOCITY = 0.58105, 0.63264  # the thesis's NRMSE of repetition 7
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ it has states of its own, their values; it is traced with symbols like the rest 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -17,9 +17,7 @@ from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.planar.motion import Motion
-
-if TYPE_CHECKING:
-    from continuum.dynamics.reading import Reading
+from continuum.dynamics.reading import Reading
 
 Own = Mapping[str, Numbers]
 

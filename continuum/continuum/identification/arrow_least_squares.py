@@ -1,8 +1,9 @@
-"""Least squares with unknowns shared by all runs and unknowns of each: the normal matrix has the shape of an arrow.
+"""Least squares with unknowns shared by all windows and unknowns of each: the normal matrix has the shape of an arrow.
 
-Levenberg and Marquardt's method. Eliminating each run's own unknowns (Schur complement) leaves a system in the shared
-ones, so that the cost grows with the number of runs only linearly. Every unknown has a prior, which keeps the system
-regular where the data say nothing, and the shared ones have bounds.
+Levenberg and Marquardt's method. Eliminating each window's own unknowns (Schur complement) leaves a system in the shared
+ones, so that the cost grows with the number of windows only linearly. Every unknown has a prior, which keeps the system
+regular where the data say nothing; the shared ones have bounds. Few windows in which nothing fits, where something knocked
+or stuck, shall not decide: beyond what noise explains, a window's misfit counts by its logarithm (Student's distribution).
 """
 
 from __future__ import annotations
@@ -15,10 +16,11 @@ import numpy as np
 
 from continuum.arrays import Array
 
-_ENOUGH = 0.02  # of log-likelihood: a smaller expected gain is not worth a step
-_ENOUGH_OF_COST = 2e-4
-_LEAST_DAMPING = 1e-4
-_MOST_ITERATIONS = 40
+_ENOUGH = 0.05  # of log-likelihood: a smaller expected gain is not worth a step
+_ENOUGH_OF_COST = 1e-4
+_LEAST_DAMPING, _MOST_DAMPING = 1e-5, 1e5
+_MOST_ITERATIONS = 30
+_HEAVY_TAIL = 4.0  # misfit per error up to which noise is nearly normal
 
 
 class FitStatus(Enum):
@@ -30,40 +32,34 @@ class FitStatus(Enum):
 
 
 @dataclass(frozen=True)
-class RunPart:
-    """One run at one point: errors (m,), and their slopes by shared (m, k) and own unknowns (m, j)."""
+class Part:
+    """One window at one point: errors (m,), and their slopes by shared (m, k) and own unknowns (m, j)."""
 
     errors: Array
     by_shared: Array
     by_own: Array
 
 
-type Evaluate = Callable[[Array, Sequence[Array]], list[RunPart] | None]
-"""All runs at given shared and own unknowns; None where they cannot be simulated."""
+type Evaluate = Callable[[Array, Sequence[Array]], list[Part] | None]
+"""All windows at given shared and own unknowns; None where they cannot be simulated."""
 
 
 @dataclass(frozen=True)
 class Unknowns:
-    """Start, prior (normal around 0 in the shared, around the start in the own ones) and bounds.
+    """Where the unknowns are, their prior (normal around 0) and bounds.
 
     Attributes:
-        shared, shared_spread, lower, upper: (k,).
-        own, own_spread: one (j,) for each run.
+        shared, spread, lower, upper: (k,).
+        own: one (j,) for each window.
+        own_spread: (j,).
     """
 
     shared: Array
-    shared_spread: Array
+    spread: Array
     lower: Array
     upper: Array
     own: Sequence[Array]
-    own_spread: Sequence[Array]
-
-    def cost(self, parts: Sequence[RunPart], shared: Array, own: Sequence[Array]) -> float:
-        """Half the sum of squares: minus the logarithm of likelihood and prior."""
-        total = float(np.sum((shared / self.shared_spread) ** 2))
-        for part, mine, start, spread in zip(parts, own, self.own, self.own_spread, strict=True):
-            total += float(part.errors @ part.errors) + float(np.sum(((mine - start) / spread) ** 2))
-        return total / 2
+    own_spread: Array
 
 
 @dataclass(frozen=True)
@@ -73,90 +69,105 @@ class Solution:
     Attributes:
         status: how the search ended.
         shared, own: the unknowns.
-        parts: every run there.
-        cost: see `Unknowns.cost`.
-        evaluations: how often all runs were simulated.
+        parts: every window there.
+        cost: minus the logarithm of likelihood and prior.
+        evaluations: how often all windows were simulated.
     """
 
     status: FitStatus
     shared: Array
     own: Sequence[Array]
-    parts: Sequence[RunPart]
+    parts: Sequence[Part]
     cost: float
     evaluations: int
 
 
-def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, own_start: Sequence[Array] | None = None) -> Solution:
-    """Search from the start of the unknowns, or of the own ones from elsewhere."""
-    shared, own = unknowns.shared, list(unknowns.own if own_start is None else own_start)
+def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns) -> Solution:
+    """Search from where the unknowns are."""
+    shared, own = unknowns.shared, list(unknowns.own)
     parts = evaluate(shared, own)
     if parts is None:
         return Solution(FitStatus.NO_SIMULATION, shared, own, [], np.inf, 1)
-    cost, damping, evaluations = unknowns.cost(parts, shared, own), 1e-2, 1
+    cost, damping, evaluations = _cost(unknowns, parts, shared, own), 1e-2, 1
     for _ in range(_MOST_ITERATIONS):
-        step, own_steps, gain = damped_step(unknowns, parts, shared, own, damping)
+        step, own_steps, gain = _damped_step(unknowns, parts, shared, own, damping)
         enough = max(_ENOUGH, _ENOUGH_OF_COST * cost)
         if gain < enough and damping <= 1.0:
             return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
         there = np.clip(shared + step, unknowns.lower, unknowns.upper)
         own_there = [mine + change for mine, change in zip(own, own_steps, strict=True)]
         tried, evaluations = evaluate(there, own_there), evaluations + 1
-        new = np.inf if tried is None else unknowns.cost(tried, there, own_there)
-        if tried is not None and new < cost:
-            good = (cost - new) > 0.5 * gain
-            settled = cost - new < enough and gain < 20 * enough
-            shared, own, parts, cost = there, own_there, tried, new
-            damping = max(damping * (0.1 if good else 0.5), _LEAST_DAMPING)
-            if settled:
-                return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
-        else:
+        new = np.inf if tried is None else _cost(unknowns, tried, there, own_there)
+        if tried is None or new >= cost:
             damping *= 8
-            if damping > 1e6:  # no way down is left: noise of the integration decides
+            if damping > _MOST_DAMPING:  # no way down is left: kinks of sticking decide
                 return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
+            continue
+        damping = max(damping * (0.1 if cost - new > 0.5 * gain else 0.5), _LEAST_DAMPING)
+        settled = cost - new < enough and gain < 20 * enough
+        shared, own, parts, cost = there, own_there, tried, new
+        if settled:
+            return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
     return Solution(FitStatus.NO_CONVERGENCE, shared, own, parts, cost, evaluations)
 
 
-def damped_step(
-    unknowns: Unknowns, parts: Sequence[RunPart], shared: Array, own: Sequence[Array], damping: float
+def misfit_of(part: Part) -> float:
+    """Twice the negative log-likelihood of a window, but for a constant: its squared errors while noise explains them."""
+    m, s = part.errors.size, float(part.errors @ part.errors)
+    return m * (_HEAVY_TAIL + 1) * float(np.log1p(s / (_HEAVY_TAIL * m)))
+
+
+def weight_of(part: Part) -> float:
+    """Weight of a window's squared errors, the slope of `misfit_of`: 1 where they are those of noise, less beyond."""
+    m, s = part.errors.size, float(part.errors @ part.errors)
+    return (_HEAVY_TAIL + 1) / (_HEAVY_TAIL + s / m)
+
+
+def shared_information(unknowns: Unknowns, parts: Sequence[Part]) -> Array:
+    """Fisher information of the shared unknowns with prior, each window's own unknowns eliminated, (k, k)."""
+    matrix = np.diag(unknowns.spread**-2.0)
+    for part in parts:
+        matrix = matrix + part.by_shared.T @ reduced(part, unknowns.own_spread) * weight_of(part)
+    return (matrix + matrix.T) / 2
+
+
+def reduced(part: Part, own_spread: Array) -> Array:
+    """Slopes of a window's errors by the shared unknowns, (m, k), less what its own unknowns can make good."""
+    own = part.by_own.T @ part.by_own + np.diag(own_spread**-2.0)
+    return part.by_shared - part.by_own @ np.linalg.solve(own, part.by_own.T @ part.by_shared)
+
+
+def _cost(unknowns: Unknowns, parts: Sequence[Part], shared: Array, own: Sequence[Array]) -> float:
+    priors = sum(float(np.sum((mine / unknowns.own_spread) ** 2)) for mine in own)
+    return (sum(misfit_of(part) for part in parts) + priors + float(np.sum((shared / unknowns.spread) ** 2))) / 2
+
+
+def _damped_step(
+    unknowns: Unknowns, parts: Sequence[Part], shared: Array, own: Sequence[Array], damping: float
 ) -> tuple[Array, list[Array], float]:
     """Steps of shared and own unknowns, and the gain that the linear model expects of them."""
-    gradient, matrix, runs = _normal_equations(unknowns, parts, shared, own)
+    gradient, matrix = shared / unknowns.spread**2, np.diag(unknowns.spread**-2.0)
+    windows, prior = [], np.diag(unknowns.own_spread**-2.0)
+    for part, mine in zip(parts, own, strict=True):
+        weight = weight_of(part)
+        slopes = np.hstack([part.by_shared, part.by_own])
+        square, pull, k = weight * slopes.T @ slopes, weight * slopes.T @ part.errors, shared.size
+        gradient, matrix = gradient + pull[:k], matrix + square[:k, :k]
+        windows.append((pull[k:] + mine / unknowns.own_spread**2, square[:k, k:], square[k:, k:] + prior))
     free = ~(((shared <= unknowns.lower) & (gradient > 0)) | ((shared >= unknowns.upper) & (gradient < 0)))
     schur, right = matrix + damping * np.diag(np.diag(matrix)), -gradient
     inner = []
-    for g, B, C in runs:
-        solved = np.linalg.solve(C + damping * np.diag(np.diag(C)), np.column_stack([g, B.T]))
+    for g, coupling, square in windows:
+        damped = square + damping * np.diag(np.diag(square))
+        solved = np.linalg.solve(damped, np.column_stack([g, coupling.T]))
         inner.append((solved[:, 0], solved[:, 1:]))
-        right = right + B @ solved[:, 0]
-        schur = schur - B @ solved[:, 1:]
+        right, schur = right + coupling @ solved[:, 0], schur - coupling @ solved[:, 1:]
     step = np.zeros(shared.size)
     if np.any(free):
         step[free] = np.linalg.solve(schur[np.ix_(free, free)], right[free])
     step = np.clip(shared + step, unknowns.lower, unknowns.upper) - shared
     own_steps = [-at_once - through @ step for at_once, through in inner]
     gain = -gradient @ step - step @ matrix @ step / 2
-    for (g, B, C), change in zip(runs, own_steps, strict=True):
-        gain -= g @ change + change @ C @ change / 2 + step @ B @ change
+    for (g, coupling, square), change in zip(windows, own_steps, strict=True):
+        gain -= g @ change + change @ square @ change / 2 + step @ coupling @ change
     return step, own_steps, float(gain)
-
-
-def shared_information(unknowns: Unknowns, parts: Sequence[RunPart]) -> Array:
-    """Fisher information of the shared unknowns with prior, each run's own unknowns eliminated, (k, k)."""
-    _, matrix, runs = _normal_equations(unknowns, parts, unknowns.shared, unknowns.own)
-    for _, B, C in runs:
-        matrix = matrix - B @ np.linalg.solve(C, B.T)
-    return matrix
-
-
-def _normal_equations(
-    unknowns: Unknowns, parts: Sequence[RunPart], shared: Array, own: Sequence[Array]
-) -> tuple[Array, Array, list[tuple[Array, Array, Array]]]:
-    """Gradient (k,) and matrix (k, k) of the shared unknowns; of each run its gradient, coupling and matrix."""
-    gradient, matrix = shared / unknowns.shared_spread**2, np.diag(unknowns.shared_spread**-2.0)
-    runs = []
-    for part, mine, start, spread in zip(parts, own, unknowns.own, unknowns.own_spread, strict=True):
-        by_shared, by_own = part.by_shared, part.by_own
-        gradient, matrix = gradient + by_shared.T @ part.errors, matrix + by_shared.T @ by_shared
-        pull = by_own.T @ part.errors + (mine - start) / spread**2
-        runs.append((pull, by_shared.T @ by_own, by_own.T @ by_own + np.diag(spread**-2.0)))
-    return gradient, matrix, runs

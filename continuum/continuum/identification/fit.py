@@ -1,4 +1,4 @@
-"""Fit a model to recordings: free simulation, exact slopes, every run's initial state among the unknowns."""
+"""Fit a model to recordings: windows simulated with exact slopes, every window's first state among the unknowns."""
 
 from __future__ import annotations
 
@@ -10,20 +10,24 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.model import Model
-from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.values import parameter_slots, with_vector
 from continuum.identification.arrow_least_squares import (
     FitStatus,
-    RunPart,
+    Part,
     Unknowns,
     arrow_least_squares,
+    misfit_of,
     shared_information,
 )
-from continuum.identification.free import Free, FreeSpace, is_per_recording
+from continuum.identification.free import Free, FreeSpace
 from continuum.identification.noise import Noise
 from continuum.identification.recording import Recording
-from continuum.identification.run_residual import Errors, RunResidual
+from continuum.identification.window_residual import WindowResidual
+from continuum.identification.window_settling import settled
+from continuum.identification.windows import usual_length
+
+_ROUNDS = 2  # of all windows settled by themselves, then all unknowns together
 
 THESIS_PARAMETERS = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
 """What the thesis identified (chapter 3.3), each common to all joints."""
@@ -35,25 +39,23 @@ class Fit:
 
     Attributes:
         status: how the fit ended; unless CONVERGED the rest is the best that was found.
+        simulator: of the model, its values at the origin.
+        space: the shared unknowns.
         runs: residuals of the recordings.
-        unknowns: prior and bounds; its start is where the fit ended.
-        parts: errors and slopes of every run where the fit ended.
+        unknowns: where the fit ended, prior and bounds.
+        parts: errors and slopes of every window there, run after run.
         cost: minus the logarithm of likelihood and prior.
-        simulations: how many runs were simulated, those with slopes counted once.
+        simulations: how many runs were simulated with slopes.
     """
 
     status: FitStatus
     simulator: Simulator
-    runs: Sequence[RunResidual]
+    space: FreeSpace
+    runs: Sequence[WindowResidual]
     unknowns: Unknowns
-    parts: Sequence[RunPart]
+    parts: Sequence[Part]
     cost: float
     simulations: int
-
-    @property
-    def free(self) -> tuple[Free, ...]:
-        """The shared unknowns."""
-        return self.runs[0].shared.unknowns
 
     @property
     def coordinates(self) -> Array:
@@ -62,40 +64,29 @@ class Fit:
 
     @cached_property
     def model(self) -> Model:
-        """The model with its shared values fitted; what belongs to single recordings is left at its origin."""
-        return with_vector(self.simulator.model, self.runs[0].shared.values(self.coordinates))
+        """The model with its common values fitted; what belongs to single recordings is left out."""
+        return with_vector(self.simulator.model, self.space.common_values(self.coordinates))
 
     @property
-    def misfits(self) -> Array:
-        """Sum of the squared errors of each run in units of the noise, (n_runs,)."""
-        return np.array([float(part.errors @ part.errors) for part in self.parts])
+    def misfits(self) -> list[Array]:
+        """Misfit of each window of each run; of a right model about the number of its errors."""
+        found = iter(self.parts)
+        return [np.array([misfit_of(next(found)) for _ in run.rows]) for run in self.runs]
+
+    @property
+    def n_errors(self) -> int:
+        """How many numbers were measured."""
+        return sum(part.errors.size for part in self.parts)
 
     @cached_property
     def information(self) -> Array:
         """Fisher information of the shared coordinates, (k, k), with prior."""
         return shared_information(self.unknowns, self.parts)
 
-    def errors(self, run: int) -> Errors:
-        """Errors of one run by time and joint."""
-        residual = self.runs[run]
-        flat, shape = self.parts[run].errors, residual.recording.theta.shape
-        size = residual.recording.theta.size
-        return Errors(flat[:size].reshape(shape), flat[size:].reshape(shape) if flat.size > size else None)
-
-    def simulated(self, run: int) -> Reading | None:
-        """What the sensors would read in one run."""
-        return self.runs[run].simulate(self.coordinates, self.unknowns.own[run])
-
     def value(self, unknown: Free) -> float:
-        """Fitted value of a shared unknown, in its parameter's unit."""
+        """Fitted value of an unknown that all recordings share, in its parameter's unit."""
         slot = parameter_slots(self.model)[unknown.name]
-        values = self.runs[0].shared.values(self.coordinates)[slot]
-        return float(values[unknown.joint or 0])
-
-    @property
-    def standard_deviations(self) -> Array:
-        """Of the shared unknowns in their own units, (k,), if all errors are noise; else see `bootstrap`."""
-        return self.runs[0].shared.scale * np.sqrt(np.diag(np.linalg.inv(self.information)))
+        return float(self.space.common_values(self.coordinates)[slot][unknown.joint or 0])
 
 
 def fit(
@@ -104,52 +95,51 @@ def fit(
     noise: Noise,
     free: Sequence[Free],
     start: Array | None = None,
-    own: Sequence[Array] | None = None,
-    restart: float | None = None,
+    length: float | None = 0.0,
 ) -> Fit:
-    """Fit the unknowns ``free`` of a model, and the initial state of every recording.
+    """Fit the unknowns ``free`` of a model, and the first state of every window.
 
     Args:
         simulator: of the model; its values are the centre of the prior.
         recordings: what was measured, at least one.
         noise: of the sensors.
-        free: unknowns; those of parameters that differ by recording get a value in each.
-        start: coordinates of the shared ones to start from, (k,); the model's own values without.
-        own: coordinates of each recording's own unknowns to start from.
-        restart: time after which runs begin anew from a state of their own [s]; never without.
+        free: unknowns.
+        start: coordinates to start from, (k,); the model's own values without.
+        length: of the windows [s]; 0 for the usual one, None for one window a run.
 
     Raises:
         InvalidValueError: an unknown that the model does not have.
     """
-    model = simulator.model
-    shared = FreeSpace(model, [unknown for unknown in free if not is_per_recording(model, unknown)])
-    mine = FreeSpace(model, [unknown for unknown in free if is_per_recording(model, unknown)])
-    runs = [RunResidual(simulator, recording, noise, shared, mine, restart) for recording in recordings]
-    begin = np.zeros(len(shared.unknowns)) if start is None else shared.clipped(start)
-    unknowns = Unknowns(
-        begin,
-        shared.spread,
-        shared.lower,
-        shared.upper,
-        [run.start for run in runs],
-        [run.spread for run in runs],
-    )
+    space = FreeSpace(simulator.model, free)
+    runs = [
+        WindowResidual(simulator, recording, i, noise, space, usual_length(recording) if length == 0.0 else length)
+        for i, recording in enumerate(recordings)
+    ]
+    own = [coordinates for run in runs for coordinates in run.start]
+    begin = np.zeros(len(space.unknowns)) if start is None else space.clipped(start)
+    unknowns = Unknowns(begin, space.spread, space.lower, space.upper, own, runs[0].spread)
 
-    def evaluate(at: Array, owns: Sequence[Array]) -> list[RunPart] | None:
-        parts: list[RunPart] = []
-        for run, coordinates in zip(runs, owns, strict=True):
-            part = run.part(at, coordinates)
-            if part is None:
+    def evaluate(shared: Array, owns: Sequence[Array]) -> list[Part] | None:
+        parts: list[Part] = []
+        for run in runs:
+            found = run.parts(shared, owns[len(parts) : len(parts) + len(run.rows)])
+            if found is None:
                 return None
-            parts.append(part)
+            parts += found
         return parts
 
-    found = arrow_least_squares(evaluate, unknowns, own)
-    ended = replace(unknowns, shared=found.shared, own=list(found.own))
-    return Fit(found.status, simulator, runs, ended, found.parts, found.cost, found.evaluations * len(runs))
+    simulations = 0
+    for _ in range(_ROUNDS):
+        unknowns = replace(unknowns, own=_settled(runs, unknowns))
+        found = arrow_least_squares(evaluate, unknowns)
+        unknowns = replace(unknowns, shared=found.shared, own=list(found.own))
+        simulations += (found.evaluations + 1) * len(runs)
+    ended = unknowns
+    return Fit(found.status, simulator, space, runs, ended, found.parts, found.cost, simulations)
 
 
-def predict(fitted: Fit, recordings: Sequence[Recording], noise: Noise) -> Fit:
-    """The fitted model on other recordings: only what belongs to each, its initial state above all, is fitted."""
-    simulator = fitted.simulator.around(fitted.model)
-    return fit(simulator, recordings, noise, fitted.runs[0].own.unknowns)
+def _settled(runs: Sequence[WindowResidual], unknowns: Unknowns) -> list[Array]:
+    own: list[Array] = []
+    for run in runs:
+        own += settled(run, unknowns.shared, unknowns.own[len(own) : len(own) + len(run.rows)], unknowns.own_spread)
+    return own

@@ -23,15 +23,18 @@ class Free:
     Attributes:
         name: of the parameter, as in `Model.values`.
         joint: whose value alone moves, from 0; None moves those of all joints by the same amount.
+        recording: whose value alone moves, from 0; None moves that of all recordings.
         tolerance: prior standard deviation relative to the model's value, where parts are known to be alike; else wide.
     """
 
     name: str
     joint: int | None = None
+    recording: int | None = None
     tolerance: float | None = None
 
     def __str__(self) -> str:
-        return self.name if self.joint is None else f"{self.name}[{self.joint + 1}]"
+        where = "" if self.joint is None else f"[{self.joint + 1}]"
+        return self.name + where + ("" if self.recording is None else f" of run {self.recording + 1}")
 
 
 class FreeSpace:
@@ -77,9 +80,14 @@ class FreeSpace:
             self.lower[i] = (meaning.lower - values.min()) / self.scale[i]
             self.upper[i] = (meaning.upper - values.max()) / self.scale[i]
 
-    def values(self, coordinates: Array) -> Array:
-        """All values of the model, (n_p,), at coordinates (n_free,)."""
-        return self.origin + self.directions @ coordinates
+    def directions_of(self, recording: int) -> Array:
+        """Directions as one recording sees them, (n_p, n_free): what belongs to another moves nothing."""
+        mine = [unknown.recording in (None, recording) for unknown in self.unknowns]
+        return self.directions * np.array(mine, dtype=float).reshape(1, -1)
+
+    def common_values(self, coordinates: Array) -> Array:
+        """All values of the model, (n_p,), at coordinates (n_free,); what belongs to single recordings is left out."""
+        return self.origin + self.directions_of(-1) @ coordinates
 
     def clipped(self, coordinates: Array) -> Array:
         """Coordinates within the bounds."""
@@ -89,7 +97,3 @@ class FreeSpace:
         """What was added to each unknown's parameter, in its own unit, (n_free,)."""
         return self.scale * coordinates
 
-
-def is_per_recording(model: Model, unknown: Free) -> bool:
-    """Whether each recording has its own value."""
-    return model.meanings()[unknown.name].per_recording

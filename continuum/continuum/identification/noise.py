@@ -57,31 +57,17 @@ class Channel:
     walk: float = 0.0
     ramp: float = 0.0
 
-    def whitener(self, times: Array) -> Whitener:
-        """What turns errors sampled at ``times`` into independent ones of unit variance."""
+    def in_time(self, times: Array) -> Array:
+        """Covariance of the errors sampled at ``times``, in units of the white part, (n_times, n_times)."""
         apart, since = np.abs(times[:, None] - times[None, :]), times - times[0]
-        in_time = np.eye(times.size) + self.slow * np.exp(-apart / self.slow_time)
-        in_time += self.walk * np.minimum(since[:, None], since[None, :]) + self.ramp * np.outer(since, since)
-        return Whitener(np.linalg.cholesky(in_time), np.linalg.cholesky(self.joints))
+        walk = self.walk * np.minimum(since[:, None], since[None, :])
+        slow = self.slow * np.exp(-apart / self.slow_time)
+        return np.asarray(np.eye(times.size) + slow + walk + self.ramp * np.outer(since, since))
 
     @property
     def white(self) -> Array:
         """Standard deviation of the white part at each joint, (n_joints,) [rad or rad/s]."""
         return np.sqrt(np.diag(self.joints))
-
-
-@dataclass(frozen=True)
-class Whitener:
-    """Cholesky factors of the covariance in time and over the joints."""
-
-    in_time: Array
-    over_joints: Array
-
-    def __call__(self, errors: Array) -> Array:
-        """Errors (n_times, n_joints, ...) made independent, same shape [1]."""
-        flat = errors.reshape(errors.shape[0], -1)
-        by_time = solve_triangular(self.in_time, flat, lower=True).reshape(errors.shape)
-        return np.einsum("ij,tj...->ti...", np.linalg.inv(self.over_joints), by_time)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,219 @@
+"""One recording simulated window by window, less what was measured, in units of the noise; with exact slopes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.effect import Effect
+from continuum.dynamics.measuring import readings
+from continuum.dynamics.reading import Reading
+from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.trajectory import SimulationStatus, Trajectory
+from continuum.dynamics.values import with_vector
+from continuum.identification.arrow_least_squares import Part
+from continuum.identification.free import FreeSpace
+from continuum.identification.noise import Noise
+from continuum.identification.recording import Recording
+from continuum.identification.windows import whitener, window_rows
+
+_ANGLE_UNIT, _RATE_UNIT = np.deg2rad(1.0), 0.1  # of the coordinates of a window's first state [rad, rad/s]
+_ANGLE_SPREAD, _RATE_SPREAD = 10.0, 20.0  # prior of these coordinates
+_NUDGE = 1e-5  # of a sensor's parameter, in units of its coordinate
+
+
+@dataclass(frozen=True)
+class Memory:
+    """States of the effects between two windows, (n_states,), and their slopes by the shared unknowns, (n_states, k)."""
+
+    states: Array
+    slopes: Array
+
+
+@dataclass(frozen=True)
+class WindowAt:
+    """One window at one first state: errors and slopes there, and what it hands on to the next window."""
+
+    own: Array
+    part: Part
+    memory: Memory
+
+
+class WindowResidual:
+    """The residual of one recording as a function of the shared unknowns and of each window's own.
+
+    A window's own unknowns are the joints' angles and rates where it begins, (2 n,). States of effects run on from window
+    to window, with their slopes; their own beginning is that of an arm at rest.
+
+    Args:
+        simulator: of the model.
+        recording: what was measured.
+        number: of the recording in its dataset, from 0.
+        noise: of the sensors.
+        space: the shared unknowns.
+        length: of the windows [s]; None for one window, a free run.
+    """
+
+    def __init__(
+        self,
+        simulator: Simulator,
+        recording: Recording,
+        number: int,
+        noise: Noise,
+        space: FreeSpace,
+        length: float | None,
+    ) -> None:
+        self.recording, self.space = recording, space
+        self._directions = space.directions_of(number)
+        self._simulator, self._model = simulator, simulator.model
+        self.rows = window_rows(recording, length)
+        n = self._model.n_joints
+        self._unit = np.concatenate([np.full(n, _ANGLE_UNIT), np.full(n, _RATE_UNIT)])
+        self.spread = np.concatenate([np.full(n, _ANGLE_SPREAD), np.full(n, _RATE_SPREAD)])
+        self._measured = [first_state(recording, rows.start) for rows in self.rows]
+        self._whiten = [whitener(noise, recording, rows) for rows in self.rows]
+        self._senses = any(type(a.effect).measure is not Effect.measure for a in self._model.effects)
+
+    @property
+    def start(self) -> list[Array]:
+        """Coordinates of the windows' own unknowns before any fit: as measured."""
+        return [np.zeros(self._unit.size) for _ in self.rows]
+
+    def parts(self, shared: Array, own: Sequence[Array]) -> list[Part] | None:
+        """Errors and slopes of every window; None where the model cannot be simulated."""
+        memory, found = self.first_memory(shared, own[0]), []
+        for window, mine in enumerate(own):
+            at = self.window(window, shared, mine, memory)
+            if at is None:
+                return None
+            memory = at.memory
+            found.append(at.part)
+        return found
+
+    def window(self, window: int, shared: Array, own: Array, memory: Memory) -> WindowAt | None:
+        """One window whose effects' states begin as the window before left them."""
+        k, extra = shared.size, memory.states
+        p = self.space.origin + self._directions @ shared
+        free = np.hstack([self._directions, np.zeros((p.size, own.size))])
+        slope0 = np.zeros((own.size + extra.size, free.shape[1]))
+        slope0[: own.size, k:] = np.diag(self._unit)
+        slope0[own.size :, :k] = memory.slopes
+        run = self._run(window, p, own, extra, free, slope0)
+        if run is None or not np.all(np.isfinite(run.slopes)):
+            return None
+        rows = self.rows[window]
+        run, end, end_slope = _shortened(run, rows.stop - rows.start)
+        seen = readings(with_vector(self._model, p), run)
+        jacobian = self._whiten[window](*self._reading_slopes(p, run, seen, free))
+        part = Part(self._errors(window, seen), jacobian[:, :k], jacobian[:, k:])
+        return WindowAt(own, part, Memory(end[own.size :], end_slope[own.size :, :k]))
+
+    def still(self, window: int, slow: float) -> Array:
+        """Coordinates of a first state in which joints slower than ``slow`` [rad/s] rest, (2 n,)."""
+        n = self._model.n_joints
+        rate = self._measured[window][n:]
+        return np.concatenate([np.zeros(n), np.where(np.abs(rate) < slow, -rate / _RATE_UNIT, 0.0)])
+
+    def simulate(self, shared: Array, own: Sequence[Array]) -> Reading | None:
+        """What the sensors would read, window after window; None where the model cannot be simulated."""
+        p = self.space.origin + self._directions @ shared
+        extra = self.first_memory(shared, own[0]).states
+        seen = []
+        for window, rows in enumerate(self.rows):
+            run = self._run(window, p, own[window], extra)
+            if run is None:
+                return None
+            run, end, _ = _shortened(run, rows.stop - rows.start)
+            extra = end[self._unit.size :]
+            seen.append(readings(with_vector(self._model, p), run))
+        return Reading(*(np.concatenate([getattr(s, name) for s in seen]) for name in ("times", "theta", "theta_rate")))
+
+    def _memories(self, shared: Array, own: Sequence[Array]) -> Iterator[_Memory | None]:
+        """States of the effects where each window begins; the caller takes one, computes, and asks for the next."""
+        memory: _Memory | None = self._first_memory(shared, own[0])
+        for window, mine in enumerate(own):
+            yield memory
+            if self._model.n_states and memory is not None and window + 1 < len(own):
+                at = self._part(window, shared, mine, memory)
+                memory = None if at is None else at.memory
+
+    def _run(
+        self,
+        window: int,
+        p: Array,
+        own: Array,
+        extra: Array,
+        free: Array | None = None,
+        slope0: Array | None = None,
+    ) -> Trajectory | None:
+        """One window and the first sample after it, where the states of effects are handed on."""
+        rows, times = self.rows[window], self.recording.times
+        x0 = np.concatenate([self._measured[window] + self._unit * own, extra])
+        to = min(rows.stop + 1, times.size)
+        run = self._simulator.run(x0, times[rows.start : to], self.recording.pull, p, free, slope0)
+        return run if run.status is SimulationStatus.COMPLETE else None
+
+    def first_memory(self, shared: Array, own: Array) -> Memory:
+        """States of the effects at the first sample, as in an arm at rest."""
+        if not self._model.n_states:
+            return Memory(np.zeros(0), np.zeros((0, shared.size)))
+        n = self._model.n_joints
+        theta = (self._measured[0] + self._unit * own)[:n]
+        u = self.recording.pull.at(self.recording.times[0])
+
+        def states(values: Array) -> Array:
+            model = with_vector(self._model, values)
+            return np.concatenate([a.effect.initial_state(theta, u, a.values, model.parameters) for a in model.effects])
+
+        p = self.space.origin + self._directions @ shared
+        begin = states(p)
+        slopes = [(states(p + _NUDGE * column) - begin) / _NUDGE for column in self._directions.T]
+        return Memory(begin, np.stack(slopes, axis=1) if slopes else np.zeros((begin.size, 0)))
+
+    def _reading_slopes(self, p: Array, run: Trajectory, seen: Reading, free: Array) -> tuple[Array, Array]:
+        """Change of angles and rates as the sensors read them by one unit of each unknown, (n_times, n, columns) each."""
+        n = run.n_joints
+        angle, rate = run.slopes[:, :n].copy(), run.slopes[:, n : 2 * n].copy()
+        if not self._senses:
+            return angle, rate
+        model = with_vector(self._model, p)
+        for column in range(free.shape[1]):
+            # measuring is affine in the motion, so that one whole slope may be added to it
+            moved = readings(model, _moved(run, run.slopes[:, :, column]))
+            nudged = seen
+            if np.any(free[:, column]):
+                nudged = readings(with_vector(self._model, p + _NUDGE * free[:, column]), run)
+            angle[:, :, column] = moved.theta - seen.theta + (nudged.theta - seen.theta) / _NUDGE
+            rate[:, :, column] = moved.theta_rate - seen.theta_rate + (nudged.theta_rate - seen.theta_rate) / _NUDGE
+        return angle, rate
+
+    def _errors(self, window: int, seen: Reading) -> Array:
+        rows, rate = self.rows[window], self.recording.theta_rate
+        measured = seen.theta_rate if rate is None else rate[rows]
+        return self._whiten[window](seen.theta - self.recording.theta[rows], seen.theta_rate - measured)
+
+
+def first_state(recording: Recording, row: int) -> Array:
+    """Joint angles and rates measured at one sample, (2 n,) [rad, rad/s]; rates by a parabola where they were not."""
+    if recording.theta_rate is not None:
+        return np.concatenate([recording.theta[row], recording.theta_rate[row]])
+    first = max(0, min(row - 3, recording.times.size - 7)) if row else 0
+    rows = slice(first, first + 7)
+    t = recording.times[rows] - recording.times[row]
+    rate = np.polynomial.polynomial.polyfit(t, recording.theta[rows], min(2, t.size - 1))[1]
+    return np.concatenate([recording.theta[row], rate])
+
+
+def _shortened(run: Trajectory, rows: int) -> tuple[Trajectory, Array, Array]:
+    """The run without the sample after its window; state and slopes at that sample."""
+    cut = Trajectory(
+        run.status, run.times[:rows], run.states[:rows], run.n_joints, run.steps, run.refused, run.slopes[:rows]
+    )
+    return cut, run.states[-1], run.slopes[-1]
+
+
+def _moved(run: Trajectory, by: Array) -> Trajectory:
+    return Trajectory(run.status, run.times, run.states + by, run.n_joints, run.steps, run.refused, run.slopes)

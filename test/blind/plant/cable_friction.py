@@ -1,0 +1,34 @@
+"""Dry friction of the cables at the discs: a Coulomb law with stiction, not the belt formula.
+
+At disc k a cable turns by phi_k = |theta_k + theta_k+1| / 2 (at the base plate |theta_1| / 2). A cable with the mean
+tension T there presses on the hole's edge with N = 2 T sin(phi_k / 2), and mu_c N is the most that the edge can hold,
+or what sliding costs. The sliding is that of the cable beyond the disc, so the friction acts on a tendon from disc k
+to the tip.
+"""
+
+import numpy as np
+
+from blind.plant.parameters import JOINTS
+
+LEAST = 1e-9  # friction must be positive for its rows to stay where they are among the constraints [N]
+NEIGHBOURS = np.eye(JOINTS) + np.eye(JOINTS, k=-1)  # adds each joint's angle and that of the one before
+UP_TO = np.triu(np.ones((JOINTS, JOINTS)), 1) + 0.5 * np.eye(JOINTS)  # sums friction up to the middle of each disc
+
+
+def friction_limits(angle: np.ndarray, pull: np.ndarray, force: np.ndarray, mu: float) -> np.ndarray:
+    """Largest friction at each disc (2, 5) [N].
+
+    Args:
+        angle: of the joints (5,) [rad].
+        pull: tensions at the base (2,) [N].
+        force: friction at the discs one step ago (2, 5) [N], positive where it lengthens the cable beyond.
+        mu: coefficient of friction.
+    """
+    mean = pull[:, None] - force @ UP_TO
+    return np.maximum(2 * mu * np.sin(np.abs(NEIGHBOURS @ angle) / 4) * mean, LEAST)
+
+
+def belt_like_ratio(angle: np.ndarray, mu: float) -> np.ndarray:
+    """Tension beyond each disc over tension at the base (5,) while the cable is pulled in: closed form of the law."""
+    h = mu * np.sin(np.abs(NEIGHBOURS @ angle) / 4)
+    return np.cumprod((1 - h) / (1 + h))

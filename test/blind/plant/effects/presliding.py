@@ -1,0 +1,42 @@
+"""Joints that give a little before they slip."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from blind.plant.effect import Effect
+from blind.plant.parameters import JOINTS
+
+if TYPE_CHECKING:
+    from blind.plant.machine import Machine
+
+ELEMENTS = 10
+
+
+class Presliding(Effect):
+    """Dry friction as Jenkins elements in parallel (Iwan's model): equal springs that slip one after another.
+
+    Element j of 10 holds f_j = clip(f_j + k dtheta, +-k x_j), with x_j spread evenly from 0.1 to 1.9 times the amount
+    x_s [rad], and k such that all together slip at the joint's dry friction. The engine's own friction is off.
+    """
+
+    name, unit, sizes = "presliding", "rad", (0.004, 0.012, 0.035)
+
+    def act(self, machine: "Machine") -> Callable[[], None]:
+        hinge = machine.hinge
+        share = np.linspace(0.1, 1.9, ELEMENTS) / ELEMENTS  # of the friction that each element holds; sums up to 1
+        force = np.zeros((JOINTS, ELEMENTS))
+        before = machine.data.qpos[hinge].copy()
+
+        def slip() -> None:
+            nonlocal force, before
+            now = machine.data.qpos[hinge].copy()
+            stiffness = machine.coulomb / (self.amount * ELEMENTS)
+            limit = machine.coulomb[:, None] * share
+            force = np.clip(force + (stiffness * (now - before))[:, None], -limit, limit)
+            before = now
+            machine.torque[hinge] -= force.sum(axis=1)
+            machine.coulomb[:] = 0.0
+
+        return slip

@@ -1,0 +1,1 @@
+"""The integrators measured against each other: `make bench-dynamics`."""

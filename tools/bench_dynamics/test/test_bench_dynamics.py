@@ -1,0 +1,65 @@
+"""The benchmark compares integrators of one and the same Eq. 12, and keeps what it may not write over."""
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+from continuum.dynamics.compiled.equations import CompiledEquations
+from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.planar.eq18_state_space import numpy_state_space
+from tools.bench_dynamics.growth import Size, exponent
+from tools.bench_dynamics.lean_rates import lean_rates
+from tools.bench_dynamics.orders import convergence, slope_error
+from tools.bench_dynamics.rivals import BASELINE, Rival, rivals
+from tools.bench_dynamics.scene import Scene, longer_arm, prototype_release
+
+
+@lru_cache
+def scene() -> Scene:
+    return prototype_release(0.2)
+
+
+@lru_cache
+def all_rivals() -> tuple[Rival, ...]:
+    return tuple(rivals(scene()))
+
+
+@pytest.mark.parametrize("n", [1, 5, 8])
+def test_the_baselines_rates_are_those_of_the_library(n: int) -> None:
+    model, random = longer_arm(n, 0.1).model, np.random.default_rng(n)
+    lean, whole = lean_rates(model.parameters), numpy_state_space(model)
+    for _ in range(5):
+        x = random.uniform(-1, 1, 2 * n)
+        np.testing.assert_allclose(lean(0.0, x), whole(x, np.zeros(2)), rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(CompiledEquations(model).rates(x, np.zeros(2)), lean(0.0, x), rtol=1e-8, atol=1e-8)
+
+
+def test_every_rival_finds_the_converged_solution() -> None:
+    """At the thesis's tolerances, within the 0.05 degrees that the fast path is granted."""
+    exact = scene().converged()
+    assert all_rivals()[0].name == BASELINE
+    assert len(all_rivals()) >= 5
+    for rival in all_rivals():
+        error = np.degrees(np.abs(rival.run() - exact).max())
+        assert 1e-6 < error < 0.05, rival.name
+
+
+def test_rivals_with_sensitivities_find_the_same_with_them() -> None:
+    for rival in all_rivals():
+        if rival.with_slopes is not None:
+            np.testing.assert_allclose(rival.with_slopes(), rival.run(), rtol=0, atol=1e-4)
+
+
+def test_orders_of_convergence_are_three_and_four() -> None:
+    for method, order in zip(convergence(), (3, 4), strict=True):
+        np.testing.assert_allclose(method.orders, order, rtol=0, atol=0.3)
+
+
+def test_sensitivities_come_to_those_of_neighbouring_runs() -> None:
+    assert slope_error(scene(), Tolerances(1e-6, 1e-7, 0.01)) < 1e-3
+
+
+def test_the_exponent_of_a_power_is_the_power() -> None:
+    sizes = [Size(n, 0.0, 3e-5 * n**2.5, 1.0) for n in (5, 10, 20)]
+    assert exponent(sizes) == pytest.approx(2.5)
