@@ -28,7 +28,7 @@ from continuum.kinematics.section.chord import chord_length
 from continuum.kinematics.section.eq04_pose import rotation_entries
 from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
 
-_LARGEST_BEND = 0.97 * math.pi  # towards 180 degrees the legs grow without bound
+LARGEST_BEND = 0.97 * math.pi  # towards 180 degrees the legs grow without bound
 
 
 def solve_fabrikc(
@@ -89,7 +89,7 @@ def fabrikc(
             return iteration, distance, angle
         _backward(arm, target, joints, tangents)
         _forward(arm, target, joints, tangents)
-        _configuration_from_tangents(arm, tangents, trial)
+        configuration_from_tangents(arm, tangents, trial)
         trial_distance, trial_angle = miss(arm, target, trial, error, bases, tips)
         if trial_distance + target.weight * trial_angle < distance + target.weight * angle:
             w[:] = trial
@@ -150,7 +150,7 @@ def _bends(tangents: Array) -> Array:
     bends = np.empty(len(tangents))
     before = _base_axis()
     for i in range(len(tangents)):
-        bends[i] = min(_angle(before, tangents[i]), _LARGEST_BEND)
+        bends[i] = min(_angle(before, tangents[i]), LARGEST_BEND)
         before = tangents[i]
     return bends
 
@@ -158,7 +158,7 @@ def _bends(tangents: Array) -> Array:
 @compiled
 def _bend_within(free: Array, fixed: Array, bend_limit: float) -> tuple[Array, float]:
     """The unit vector ``free``, turned towards ``fixed`` if the section cannot bend so far, and the bend [rad]."""
-    limit = min(bend_limit, _LARGEST_BEND)
+    limit = min(bend_limit, LARGEST_BEND)
     theta = _angle(fixed, free)
     if theta <= limit:
         return free, theta
@@ -166,8 +166,8 @@ def _bend_within(free: Array, fixed: Array, bend_limit: float) -> tuple[Array, f
     return math.cos(limit) * fixed + math.sin(limit) * across, limit
 
 
-@merged
-def _configuration_from_tangents(arm: ArmArrays, tangents: Array, w: Array) -> None:
+@compiled
+def configuration_from_tangents(arm: ArmArrays, tangents: Array, w: Array) -> None:
     """Fill ``w`` (2 n_sections,) [rad] of the arm whose sections end with the tangents (n_sections, 3)."""
     rotation = IDENTITY
     for i in range(len(arm.b)):

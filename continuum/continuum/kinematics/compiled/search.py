@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from continuum.arrays import Array
@@ -9,7 +11,9 @@ from continuum.kinematics.compiled.arm_arrays import ArmArrays
 from continuum.kinematics.compiled.descent import descend
 from continuum.kinematics.compiled.equations import argument, compiled, merged
 from continuum.kinematics.compiled.task import TargetArrays
-from continuum.kinematics.fabrikc import fabrikc
+from continuum.kinematics.compiled.two_sections import MOST_CANDIDATES, fill_candidates
+from continuum.kinematics.fabrikc import LARGEST_BEND, fabrikc
+from continuum.kinematics.ik_target import POSITION
 from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
 
 _FABRIKC_PASSES = argument(1)
@@ -40,6 +44,12 @@ def _point_at(arm: ArmArrays, position: Array, w: Array) -> None:
 
 
 @compiled
+def n_ends(postures: Array) -> int:
+    """How many descents there may be."""
+    return 2 + MOST_CANDIDATES + len(postures)
+
+
+@compiled
 def search(
     arm: ArmArrays, target: TargetArrays, w: Array, is_warm: bool, tolerance: float, postures: Array, ends: Array
 ) -> tuple[int, float, float, bool]:
@@ -48,7 +58,7 @@ def search(
     One pass of FABRIKc before a descent puts it on the right side of the arm's folds; for a single section Eq. 5 is the
     answer. A warm start, which is near the answer, is tried without either first.
 
-    ``ends`` (2 + n_postures, 1 + 2 n_sections) receives where the descents ended that did not arrive, each row the
+    ``ends`` (n_ends(postures), 1 + 2 n_sections) receives where the descents ended that did not arrive, each row the
     squared error [m2] and the configuration; it tells the search for the nearest pose where to begin.
 
     Returns:
@@ -57,16 +67,23 @@ def search(
     begin = w.copy()
     iterations = 0
     first = 0 if is_warm else 1
-    for k in range(first, 2 + len(postures)):
+    n_candidates, candidates = 0, np.empty((MOST_CANDIDATES, 4))
+    for k in range(first, len(ends)):
+        if k == 2 and len(arm.b) == 2 and target.n_rows > POSITION:
+            n_candidates = fill_candidates(arm, target, candidates)
         if k < 2:
             w[:] = begin
+        elif k < 2 + n_candidates:
+            w[:] = candidates[k - 2]
+        elif k < 2 + n_candidates + len(postures):
+            w[:] = postures[k - 2 - n_candidates]
+            for i in range(len(w)):
+                w[i] *= arm.bend_limit[i // 2]
         else:
-            for i in range(len(arm.b)):
-                w[2 * i] = arm.bend_limit[i] * postures[k - 2, 2 * i]
-                w[2 * i + 1] = arm.bend_limit[i] * postures[k - 2, 2 * i + 1]
+            break
         if k == 1 and len(arm.b) == 1:
             _point_at(arm, target.position, w)
-        elif k > 0:
+        elif (k == 1 or k >= 2 + n_candidates) and _has_legs(w):
             fabrikc(arm, target, w, tolerance, _FABRIKC_PASSES)
         spent, distance, angle, solved = descend(arm, target, w, tolerance, _MAX_ITERATIONS, _DAMPING)
         iterations += spent
@@ -77,3 +94,12 @@ def search(
         ends[k, 0] = distance * distance + (target.weight * angle) ** 2
         ends[k, 1:] = w
     return iterations, distance, angle, solved
+
+
+@merged
+def _has_legs(w: Array) -> bool:
+    """Whether every section of ``w`` (2 n_sections,) [rad] is bent so little that FABRIKc can see it as two legs."""
+    for i in range(len(w) // 2):
+        if math.hypot(w[2 * i], w[2 * i + 1]) > LARGEST_BEND:
+            return False
+    return True

@@ -12,7 +12,7 @@ from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, CONTACT, ArmArr
 from continuum.kinematics.compiled.equations import argument, entry_point, merged
 from continuum.kinematics.compiled.nearest import nearest_of
 from continuum.kinematics.compiled.redundancy import slide_towards
-from continuum.kinematics.compiled.search import search
+from continuum.kinematics.compiled.search import n_ends, search
 from continuum.kinematics.compiled.task import TargetArrays, evaluate, target_of
 from continuum.kinematics.ik_result import IkStatus
 
@@ -45,7 +45,7 @@ def answer(
         Status, iterations, distance [m] and angle [rad].
     """
     begin = w.copy()
-    ends = np.empty((2 + len(postures), 1 + len(w)))
+    ends = np.empty((n_ends(postures), 1 + len(w)))
     iterations, distance, angle, solved = search(arm, target, w, is_warm, tolerance, postures, ends)
     error, jacobian = np.empty(target.n_rows), np.empty((6, len(w)))
     if solved:
