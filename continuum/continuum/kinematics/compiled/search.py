@@ -25,6 +25,8 @@ def start_postures(n_sections: int, count: int) -> Array:
     """Postures (count, 2 n_sections) to start from, in parts of the bend limit: a low-discrepancy sequence, no chance.
 
     Roberts's generalisation of the golden ratio: with g the root of g^(d+1) = g + 1, coordinate j moves on by g^-j.
+    In every third posture all sections stand at their limit, and in every third about half of them: an answer in such a
+    corner of what is allowed is hardly found from elsewhere.
     """
     d = 2 * n_sections
     g = 2.0
@@ -32,6 +34,9 @@ def start_postures(n_sections: int, count: int) -> Array:
         g = (1.0 + g) ** (1.0 / (d + 1.0))
     points = (0.5 + np.arange(1, count + 1)[:, None] * g ** -np.arange(1.0, d + 1.0)) % 1.0
     bend, azimuth = points[:, 0::2], 2.0 * np.pi * points[:, 1::2]
+    turn = np.arange(count) % 3
+    bend[turn == 2] = 1.0
+    bend[(turn == 1)[:, None] & ((np.arange(count)[:, None] * points[0, 0::2]) % 1.0 < 0.5)] = 1.0
     return np.stack([bend * np.cos(azimuth), bend * np.sin(azimuth)], axis=-1).reshape(count, d)
 
 
@@ -51,12 +56,21 @@ def n_ends(postures: Array) -> int:
 
 @compiled
 def search(
-    arm: ArmArrays, target: TargetArrays, w: Array, is_warm: bool, tolerance: float, postures: Array, ends: Array
+    arm: ArmArrays,
+    target: TargetArrays,
+    w: Array,
+    is_warm: bool,
+    tolerance: float,
+    postures: Array,
+    searched: Array,
+    ends: Array,
 ) -> tuple[int, float, float, bool]:
     """Solve from ``w`` (2 n_sections,) [rad], then from the start postures in turn; ``w`` is the answer.
 
     One pass of FABRIKc before a descent puts it on the right side of the arm's folds; for a single section Eq. 5 is the
     answer. A warm start, which is near the answer, is tried without either first.
+
+    ``searched`` (n_sections,) are bends [rad] within which a search has failed; zero, if this is the first.
 
     ``ends`` (n_ends(postures), 1 + 2 n_sections) receives where the descents ended that did not arrive, each row the
     squared error [m2] and the configuration; it tells the search for the nearest pose where to begin.
@@ -76,9 +90,7 @@ def search(
         elif k < 2 + n_candidates:
             w[:] = candidates[k - 2]
         elif k < 2 + n_candidates + len(postures):
-            w[:] = postures[k - 2 - n_candidates]
-            for i in range(len(w)):
-                w[i] *= arm.bend_limit[i // 2]
+            _stand(arm, postures[k - 2 - n_candidates], searched, k % len(arm.b), w)
         else:
             break
         if k == 1 and len(arm.b) == 1:
@@ -94,6 +106,16 @@ def search(
         ends[k, 0] = distance * distance + (target.weight * angle) ** 2
         ends[k, 1:] = w
     return iterations, distance, angle, solved
+
+
+@merged
+def _stand(arm: ArmArrays, posture: Array, searched: Array, beyond: int, w: Array) -> None:
+    """Fill ``w`` with a ``posture``; section ``beyond`` bends more than was ``searched`` already."""
+    for i in range(len(searched)):
+        part = math.hypot(posture[2 * i], posture[2 * i + 1])
+        least = searched[i] if i == beyond else 0.0
+        bend = least + part * (arm.bend_limit[i] - least)
+        w[2 * i], w[2 * i + 1] = bend / part * posture[2 * i], bend / part * posture[2 * i + 1]
 
 
 @merged

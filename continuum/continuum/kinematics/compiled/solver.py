@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -25,7 +26,8 @@ _SOLVED, _LIMIT_REACHED = int(IkStatus.SOLVED), int(IkStatus.LIMIT_REACHED)
 _UNREACHABLE, _NO_CONVERGENCE = int(IkStatus.UNREACHABLE), int(IkStatus.NO_CONVERGENCE)
 _COLD, _WARM = argument(False), argument(True)
 _N_NEIGHBOURHOODS = 12  # in which the least bent answer is looked for
-_N_NEAREST = 4  # descents from which the nearest pose is looked for
+_N_NEAREST = 4  # descents from which the nearest pose is looked for, ...
+_RESTARTS_PER_NEAREST = 16  # ... and one more for so many
 
 
 @merged
@@ -44,36 +46,49 @@ def answer(
     Returns:
         Status, iterations, distance [m] and angle [rad].
     """
-    begin = w.copy()
+    begin, nothing = w.copy(), np.zeros(len(arm.b))
     ends = np.empty((n_ends(postures), 1 + len(w)))
-    iterations, distance, angle, solved = search(arm, target, w, is_warm, tolerance, postures, ends)
+    iterations, distance, angle, solved = search(arm, target, w, is_warm, tolerance, postures, nothing, ends)
     error, jacobian = np.empty(target.n_rows), np.empty((6, len(w)))
-    if solved:
-        if objective == FIRST:
-            return _SOLVED, iterations, distance, angle
-        if objective == NEAR_START:
-            iterations += slide_towards(arm, target, w, begin, tolerance)
-        else:
-            iterations += _least_bent(arm, target, w, tolerance, postures, ends)
+    status = _SOLVED
+    if not solved:
+        spent, settled = nearest_of(arm, target, ends, w, _N_NEAREST + len(postures) // _RESTARTS_PER_NEAREST)
+        iterations += spent
         distance, angle = evaluate(arm, target, w, error, jacobian)
+        if distance > tolerance or angle > tolerance:
+            status = _UNREACHABLE if settled else _NO_CONVERGENCE
+            beyond = w.copy()
+            spent, _, _, within_reach = search(
+                unlimited, target, beyond, _WARM, tolerance, postures, arm.bend_limit, ends
+            )
+            iterations += spent
+            if within_reach:
+                status = _LIMIT_REACHED
+                if _obeys_limits(arm, beyond):
+                    status = _SOLVED
+                    w[:] = beyond
+    if status == _SOLVED and objective == NEAR_START:
+        iterations += slide_towards(arm, target, w, begin, tolerance)
+    elif status == _SOLVED and objective == LEAST_BENDING:
+        iterations += _least_bent(arm, target, w, tolerance, postures, ends)
+    elif solved:
         return _SOLVED, iterations, distance, angle
-    spent, settled = nearest_of(arm, target, ends, w, _N_NEAREST)
-    iterations += spent
     distance, angle = evaluate(arm, target, w, error, jacobian)
-    if distance <= tolerance and angle <= tolerance:
-        return _SOLVED, iterations, distance, angle
-    beyond = w.copy()
-    spent, _, _, within_reach = search(unlimited, target, beyond, _WARM, tolerance, postures, ends)
-    iterations += spent
-    if within_reach:
-        return _LIMIT_REACHED, iterations, distance, angle
-    return _UNREACHABLE if settled else _NO_CONVERGENCE, iterations, distance, angle
+    return status, iterations, distance, angle
+
+
+@merged
+def _obeys_limits(arm: ArmArrays, w: Array) -> bool:
+    for i in range(len(arm.b)):
+        if math.hypot(w[2 * i], w[2 * i + 1]) > arm.bend_limit[i]:
+            return False
+    return True
 
 
 @merged
 def _least_bent(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, postures: Array, ends: Array) -> int:
     """Move ``w``, which solves the target, in place to the least bent answer of several neighbourhoods; iterations."""
-    straight = np.zeros_like(w)
+    straight, nothing = np.zeros_like(w), np.zeros(len(arm.b))
     iterations = slide_towards(arm, target, w, straight, tolerance)
     if len(w) <= target.n_rows:
         return iterations
@@ -81,7 +96,7 @@ def _least_bent(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float
         other = straight.copy()
         for i in range(len(other)):
             other[i] = arm.bend_limit[i // 2] * postures[k, i]
-        spent, _, _, solved = search(arm, target, other, _COLD, tolerance, postures[:0], ends)
+        spent, _, _, solved = search(arm, target, other, _COLD, tolerance, postures[:0], nothing, ends)
         iterations += spent
         if solved:
             iterations += slide_towards(arm, target, other, straight, tolerance)
