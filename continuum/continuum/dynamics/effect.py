@@ -8,14 +8,18 @@ it has states of its own, their values; it is traced with symbols like the rest 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.planar.motion import Motion
+
+if TYPE_CHECKING:
+    from continuum.dynamics.reading import Reading
 
 Own = Mapping[str, Numbers]
 
@@ -25,11 +29,23 @@ class Effect:
 
     Class attributes:
         name: as model files and verdicts print it.
-        parameters: the effect's own, by name; at their defaults the effect is absent.
+        parameters: the effect's own, by name; at their defaults the effect is absent. An effect with states may need a
+            parameter above zero for its equations to have a solution: its default is then a value too small to see.
+        source: where the equation is from.
+        in_words: what is the matter with the arm, one sentence for a mechanic.
+        looks_like: what it does to the data, one sentence.
+        experiment: what to measure so that it stands out from what resembles it, one sentence.
+        state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's units;
+            0 where it is certain.
     """
 
     name: ClassVar[str]
     parameters: ClassVar[Mapping[str, Parameter]] = {}
+    source: ClassVar[str] = ""
+    in_words: ClassVar[str] = ""
+    looks_like: ClassVar[str] = ""
+    experiment: ClassVar[str] = ""
+    state_spread: ClassVar[float] = 0.0
 
     def n_states(self, n_joints: int) -> int:
         """Number of states that the effect adds."""
@@ -54,3 +70,18 @@ class Effect:
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         """Zero when the effect's states obey their equations, (n_states,)."""
         return state_rate
+
+    def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
+        """The effect's states in an arm that rests, (n_states,).
+
+        Args:
+            theta: joint angles, (n,) [rad].
+            u: commanded tension of each cable, (n_cables,) [N].
+            own: the effect's own parameters, numbers.
+            p: parameters of Eq. 12, numbers.
+        """
+        return np.zeros(self.n_states(theta.size))
+
+    def measure(self, seen: Reading, own: Own) -> Reading:
+        """What the sensors make of what they see; affine in the motion."""
+        return seen

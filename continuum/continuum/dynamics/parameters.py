@@ -24,6 +24,8 @@ class Parameter:
         per_joint: may differ from joint to joint; else one number for the section.
         meaning: one sentence.
         default: used where a model file leaves it out; None makes it required.
+        typical: size that it has where it matters, the scale of fits; without, the model's own value is.
+        per_recording: differs from recording to recording, as a sensor's offset after each start.
     """
 
     symbol: str
@@ -33,6 +35,8 @@ class Parameter:
     per_joint: bool
     meaning: str
     default: float | None = None
+    typical: float | None = None
+    per_recording: bool = False
 
     @property
     def allowed(self) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
 
 from continuum.arrays import Array
@@ -34,6 +36,12 @@ class Simulator:
         self.tolerances = tolerances or Tolerances()
         self._tableau = tableau or third_order()
         self.equations = CompiledEquations(model)
+
+    def around(self, model: Model) -> Simulator:
+        """The same compiled equations with another model's values; it must have the same effects."""
+        other = copy(self)
+        other.model = model
+        return other
 
     def run(
         self,

@@ -31,3 +31,8 @@ def shared_directions(model: Model, names: Sequence[str]) -> Array:
     for column, name in enumerate(names):
         directions[slots[name], column] = 1.0
     return directions
+
+
+def with_vector(model: Model, values: Array) -> Model:
+    """The model around a vector of all its values; unchecked."""
+    return model.built_from({name: values[slot] for name, slot in parameter_slots(model).items()})

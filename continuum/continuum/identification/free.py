@@ -1,0 +1,91 @@
+"""Which parameters a fit may move: of all joints or of one, common to all recordings or each one's own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.model import Model
+from continuum.dynamics.values import parameter_slots, parameter_vector
+from continuum.errors import InvalidValueError
+
+_BASELINE_SPREAD = 1.0  # prior standard deviation of a parameter of Eq. 12, in units of its nominal value
+_EFFECT_SPREAD = 3.0  # of an effect's parameter, in units of its typical size
+
+
+@dataclass(frozen=True)
+class Free:
+    """One unknown.
+
+    Attributes:
+        name: of the parameter, as in `Model.values`.
+        joint: whose value alone moves, from 0; None moves those of all joints by the same amount.
+    """
+
+    name: str
+    joint: int | None = None
+
+    def __str__(self) -> str:
+        return self.name if self.joint is None else f"{self.name}[{self.joint + 1}]"
+
+
+class FreeSpace:
+    """Unknowns as coordinates around a model's values: values = origin + directions (scale * coordinates).
+
+    Args:
+        model: its values are the origin.
+        unknowns: what may move.
+
+    Attributes:
+        origin: all values of the model, (n_p,).
+        directions: change of them by one unit of each coordinate, (n_p, n_free).
+        scale: one unit of each coordinate in the parameter's own unit, (n_free,).
+        lower, upper: bounds of the coordinates, (n_free,).
+        spread: prior standard deviation of the coordinates around 0, (n_free,).
+
+    Raises:
+        InvalidValueError: a parameter that the model does not have, or a joint that it does not have.
+    """
+
+    def __init__(self, model: Model, unknowns: Sequence[Free]) -> None:
+        slots, meanings = parameter_slots(model), model.meanings()
+        self.unknowns = tuple(unknowns)
+        self.origin = parameter_vector(model)
+        k = len(self.unknowns)
+        self.directions, self.scale = np.zeros((self.origin.size, k)), np.zeros(k)
+        self.lower, self.upper, self.spread = np.zeros(k), np.zeros(k), np.zeros(k)
+        for i, unknown in enumerate(self.unknowns):
+            if unknown.name not in slots:
+                raise InvalidValueError("free parameter", unknown.name, "one of " + ", ".join(slots))
+            meaning, slot = meanings[unknown.name], slots[unknown.name]
+            at = np.arange(slot.start, slot.stop)
+            if unknown.joint is not None:
+                if not 0 <= unknown.joint < at.size:
+                    raise InvalidValueError(f"joint of {unknown.name}", unknown.joint + 1, f"1 to {at.size}")
+                at = at[unknown.joint : unknown.joint + 1]
+            values = self.origin[at]
+            self.scale[i] = meaning.typical or max(np.max(np.abs(values)), 1e-3 * (meaning.upper - meaning.lower))
+            self.directions[at, i] = self.scale[i]
+            self.lower[i] = (meaning.lower - values.min()) / self.scale[i]
+            self.upper[i] = (meaning.upper - values.max()) / self.scale[i]
+            self.spread[i] = _BASELINE_SPREAD if meaning.typical is None else _EFFECT_SPREAD
+
+    def values(self, coordinates: Array) -> Array:
+        """All values of the model, (n_p,), at coordinates (n_free,)."""
+        return self.origin + self.directions @ coordinates
+
+    def clipped(self, coordinates: Array) -> Array:
+        """Coordinates within the bounds."""
+        return np.clip(coordinates, self.lower, self.upper)
+
+    def amounts(self, coordinates: Array) -> Array:
+        """What was added to each unknown's parameter, in its own unit, (n_free,)."""
+        return self.scale * coordinates
+
+
+def is_per_recording(model: Model, unknown: Free) -> bool:
+    """Whether each recording has its own value."""
+    return model.meanings()[unknown.name].per_recording

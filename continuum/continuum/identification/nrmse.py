@@ -1,0 +1,54 @@
+"""Thesis Eq. 19: root mean square error by the measured standard deviation, mean over the joints."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.reading import Reading
+from continuum.identification.recording import Recording
+
+
+def nrmse(simulated: Array, measured: Array) -> float:
+    """Eq. 19 of one run; joints that never move do not count.
+
+    Args:
+        simulated, measured: (n_times, n_joints), of one unit.
+    """
+    return float(np.mean(nrmse_by_joint(simulated, measured)))
+
+
+def nrmse_by_joint(simulated: Array, measured: Array) -> Array:
+    """The terms of the mean, (n_moving_joints,)."""
+    spread = np.std(measured, axis=0)
+    moving = spread > 0
+    error = np.sqrt(np.mean((simulated - measured) ** 2, axis=0))
+    return np.asarray(error[moving] / spread[moving])
+
+
+def position_nrmse(seen: Reading, recording: Recording) -> float:
+    """Eq. 19 of the joint angles."""
+    return nrmse(seen.theta, recording.theta)
+
+
+def rate_nrmse(seen: Reading, recording: Recording) -> float:
+    """Eq. 19 of the joint rates; where none were measured, of those that the measured angles make."""
+    return nrmse(seen.theta_rate, measured_rates(recording))
+
+
+def measured_rates(recording: Recording) -> Array:
+    """Joint rates, (n_times, n_joints) [rad/s]: measured, or slopes of the angles by local cubics of seven samples."""
+    if recording.theta_rate is not None:
+        return recording.theta_rate
+    return np.stack([_local_slopes(recording.times, column) for column in recording.theta.T], axis=1)
+
+
+def _local_slopes(times: Array, signal: Array, half: int = 3) -> Array:
+    """Slope of the cubic that fits the samples around each one best (Savitzky and Golay 1964), times as they are."""
+    slopes = np.empty(times.size)
+    for i in range(times.size):
+        first = min(max(i - half, 0), times.size - 2 * half - 1)
+        rows = slice(first, first + 2 * half + 1)
+        fitted = np.polynomial.polynomial.polyfit(times[rows] - times[i], signal[rows], 3)
+        slopes[i] = fitted[1]
+    return slopes

@@ -1,0 +1,64 @@
+"""What was measured in one run of the arm."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.tensions import Tensions, slack
+from continuum.errors import InvalidValueError
+
+
+@dataclass(frozen=True)
+class Recording:
+    """One run.
+
+    Attributes:
+        name: of the run, for reports.
+        times: of the samples, rising, (n_times,) [s].
+        theta: joint angles, (n_times, n_joints) [rad].
+        theta_rate: joint rates, (n_times, n_joints) [rad/s]; None where they were not measured.
+        tensions: of the cables, commanded or measured at the base; slack where there are none.
+        notes: what was repaired while reading, one sentence each.
+    """
+
+    name: str
+    times: Array
+    theta: Array
+    theta_rate: Array | None = None
+    tensions: Tensions | None = None
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        shape = (self.times.size, self.theta.shape[-1])
+        for what, array, wanted in (
+            ("times", self.times, shape[:1]),
+            ("theta", self.theta, shape),
+            ("theta_rate", self.theta_rate, shape),
+        ):
+            if array is not None and (array.shape != wanted or not np.all(np.isfinite(array))):
+                raise InvalidValueError(f"{self.name}: {what}", array, f"finite numbers, {wanted}")
+        if np.any(np.diff(self.times) <= 0):
+            raise InvalidValueError(f"{self.name}: times", self.times, "rising")
+
+    @property
+    def n_joints(self) -> int:
+        """Number of joints."""
+        return self.theta.shape[1]
+
+    @property
+    def pull(self) -> Tensions:
+        """Tensions of the cables over time."""
+        return self.tensions or slack()
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether a cable ever pulls."""
+        return self.tensions is not None and bool(np.any(self.tensions.values > 0))
+
+    def rows(self, chosen: slice) -> Recording:
+        """A part of the run, its tensions kept."""
+        rate = None if self.theta_rate is None else self.theta_rate[chosen]
+        return replace(self, times=self.times[chosen], theta=self.theta[chosen], theta_rate=rate)

@@ -1,0 +1,100 @@
+"""Recordings from CSV: `t_s`, `q1_deg` or `q1_rad` .., optional `dq1_deg_s` or `dq1_rad_s` .., `u1_N`, `u2_N`.
+
+Cable 1 bends the arm towards positive angles. What is damaged is repaired where nothing is invented by it, and
+told; else refused, and told which row of the file (the header is row 1) is the matter.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.tensions import Tensions
+from continuum.errors import FileError
+from continuum.identification.recording import Recording
+from continuum.identification.recording_checks import checked
+
+_COLUMN = re.compile(r"(?P<kind>q|dq|u)(?P<number>[1-9]\d?)_(?P<unit>deg_s|rad_s|deg|rad|N)")
+_UNITS = {"q": {"deg": np.pi / 180, "rad": 1.0}, "dq": {"deg_s": np.pi / 180, "rad_s": 1.0}, "u": {"N": 1.0}}
+
+
+def read_recording_csv(path: str | Path) -> Recording:
+    """Read one run; the file's name without its ending becomes the run's.
+
+    Raises:
+        FileError: the file cannot be read, has other columns, or is damaged beyond repair.
+    """
+    path = Path(path)
+    header, table = _numbers(path)
+    columns = {name: table[:, i] for i, name in enumerate(header)}
+    if "t_s" not in columns:
+        raise FileError(path, f"has no column t_s; it has {', '.join(header)}")
+    theta = _block(path, columns, "q")
+    if theta is None:
+        raise FileError(path, f"has no joint angles q1_deg .. or q1_rad ..; it has {', '.join(header)}")
+    rate, pull = _block(path, columns, "dq"), _block(path, columns, "u")
+    if rate is not None and rate.shape != theta.shape:
+        raise FileError(path, f"has {theta.shape[1]} joint angles but {rate.shape[1]} joint rates")
+    if pull is not None and pull.shape[1] != 2:
+        raise FileError(path, f"has tensions of {pull.shape[1]} cables; a planar section has u1_N and u2_N")
+    good = checked(path, columns["t_s"], theta, rate, pull)
+    times, theta = columns["t_s"][good.rows], theta[good.rows]
+    tensions = None if pull is None else Tensions(times, pull[good.rows])
+    return Recording(path.stem, times, theta, None if rate is None else rate[good.rows], tensions, good.notes)
+
+
+def _numbers(path: Path) -> tuple[list[str], Array]:
+    """Header and numbers, (rows, columns); an empty cell is NaN."""
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            lines = list(csv.reader(file))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise FileError(path, f"cannot be read as CSV ({error})") from error
+    if not lines:
+        raise FileError(path, "is empty")
+    header = [name.strip() for name in lines[0]]
+    for name in header:
+        if header.count(name) > 1:
+            raise FileError(path, f"has the column {name!r} twice")
+    table = np.full((len(lines) - 1, len(header)), np.nan)
+    for row, cells in enumerate(lines[1:]):
+        if not any(cell.strip() for cell in cells):
+            continue  # a blank line; the checks see it as a row without values
+        if len(cells) != len(header):
+            raise FileError(path, f"row {row + 2} has {len(cells)} cells, the header {len(header)}")
+        for column, cell in enumerate(cells):
+            table[row, column] = _number(path, row + 2, header[column], cell.strip())
+    return header, table
+
+
+def _number(path: Path, row: int, column: str, cell: str) -> float:
+    if not cell:
+        return float("nan")
+    try:
+        return float(cell)
+    except ValueError as error:
+        raise FileError(path, f"row {row}, column {column}: {cell!r} is no number") from error
+
+
+def _block(path: Path, columns: dict[str, Array], kind: str) -> Array | None:
+    """All columns of a kind in SI units, (rows, n); None where there are none."""
+    found: dict[int, Array] = {}
+    for name, values in columns.items():
+        match = _COLUMN.fullmatch(name)
+        if match is None or match["kind"] != kind:
+            continue
+        unit, number = _UNITS[kind].get(match["unit"]), int(match["number"])
+        if unit is None:
+            raise FileError(path, f"has the column {name}; allowed units of {kind}: {', '.join(_UNITS[kind])}")
+        if number in found:
+            raise FileError(path, f"has {kind}{number} twice, in two units")
+        found[number] = values * unit
+    if not found:
+        return None
+    if sorted(found) != list(range(1, len(found) + 1)):
+        raise FileError(path, f"has {kind} of {sorted(found)}: numbers must run from 1 without a gap")
+    return np.stack([found[number] for number in sorted(found)], axis=1)

@@ -1,0 +1,119 @@
+"""The thesis's own way: a particle swarm (Gomes 2016, Table 2) that lowers Eq. 19 of the joint rates.
+
+Kept as the reference that a fit by slopes is compared with. Every run starts at rest from its first measured angles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.reading import Reading
+from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.trajectory import SimulationStatus
+from continuum.identification.free import FreeSpace
+from continuum.identification.nrmse import rate_nrmse
+from continuum.identification.recording import Recording
+
+
+@dataclass(frozen=True)
+class SwarmSettings:
+    """Table 2 of the thesis.
+
+    Attributes:
+        particles, iterations: how many.
+        objective_tolerance: least gain of the best particle that counts as one.
+        spread_tolerance: coefficient of variation of the particles below which the swarm has met.
+        cognitive, social: pull towards a particle's own best and the swarm's best place.
+        momentum: part of the speed that is kept.
+        constriction: factor against divergence.
+    """
+
+    particles: int = 20
+    iterations: int = 40
+    objective_tolerance: float = 0.001
+    spread_tolerance: float = 0.0001
+    cognitive: float = 3.0
+    social: float = 2.0
+    momentum: float = 0.1
+    constriction: float = 0.1146
+
+
+@dataclass(frozen=True)
+class SwarmResult:
+    """The best place.
+
+    Attributes:
+        coordinates: of the unknowns, (k,).
+        objective: Eq. 19 there, mean over the runs.
+        simulations: how many runs were simulated.
+    """
+
+    coordinates: Array
+    objective: float
+    simulations: int
+
+
+def swarm_identification(
+    simulator: Simulator,
+    recordings: Sequence[Recording],
+    space: FreeSpace,
+    random: np.random.Generator,
+    settings: SwarmSettings | None = None,
+) -> SwarmResult:
+    """Identify the unknowns of ``space`` within a factor of three of their origin, and within their bounds."""
+    settings = settings or SwarmSettings()
+    simulations = 0
+
+    def objective(coordinates: Array) -> float:
+        nonlocal simulations
+        simulations += len(recordings)
+        return float(np.mean([_run_objective(simulator, run, space.values(coordinates)) for run in recordings]))
+
+    place, best = particle_swarm(
+        objective, np.maximum(space.lower, -0.95), np.minimum(space.upper, 2.0), random, settings
+    )
+    return SwarmResult(place, best, simulations)
+
+
+def particle_swarm(
+    objective: Callable[[Array], float],
+    lower: Array,
+    upper: Array,
+    random: np.random.Generator,
+    settings: SwarmSettings,
+) -> tuple[Array, float]:
+    """Lowest place (k,) found within bounds, and the objective there.
+
+    Speeds are v = chi (w v + l1 r1 (own best - x) + l2 r2 (swarm's best - x)) with r1, r2 drawn anew each time.
+    """
+    place = random.uniform(lower, upper, (settings.particles, lower.size))
+    speed = np.zeros_like(place)
+    own_place, own_best = place.copy(), np.array([objective(x) for x in place])
+    before = np.inf
+    for _ in range(settings.iterations):
+        leader = int(np.argmin(own_best))
+        spread = np.std(place, axis=0) / np.maximum(np.abs(np.mean(place, axis=0)), 1e-12)
+        if before - own_best[leader] < settings.objective_tolerance and np.all(spread < settings.spread_tolerance):
+            break
+        before = own_best[leader]
+        r1, r2 = random.random((2, *place.shape))
+        pull = settings.cognitive * r1 * (own_place - place) + settings.social * r2 * (own_place[leader] - place)
+        speed = settings.constriction * (settings.momentum * speed + pull)
+        place = np.clip(place + speed, lower, upper)
+        found = np.array([objective(x) for x in place])
+        better = found < own_best
+        own_place[better], own_best[better] = place[better], found[better]
+    leader = int(np.argmin(own_best))
+    return own_place[leader], float(own_best[leader])
+
+
+def _run_objective(simulator: Simulator, recording: Recording, values: Array) -> float:
+    start = np.concatenate([recording.theta[0], np.zeros(recording.n_joints)])
+    run = simulator.run(start, recording.times, recording.pull, values)
+    if run.status is not SimulationStatus.COMPLETE:
+        return float("inf")
+    return rate_nrmse(Reading(run.times, run.theta, run.theta_rate), recording)
