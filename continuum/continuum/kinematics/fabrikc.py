@@ -19,9 +19,9 @@ from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, ArmArrays, arm_table, arrays_of
 from continuum.kinematics.compiled.equations import compiled, entry_point, merged
 from continuum.kinematics.compiled.limits import pull_within
-from continuum.kinematics.compiled.task import TargetArrays, miss, radian_in_metres, target_of
+from continuum.kinematics.compiled.task import FAR, TargetArrays, distance_to, miss, radian_in_metres, target_of
 from continuum.kinematics.ik_result import IkResult, IkStatus
-from continuum.kinematics.ik_settings import checked_count, checked_tolerance
+from continuum.kinematics.ik_settings import checked_arm, checked_count, checked_tolerance
 from continuum.kinematics.ik_target import POSITION, Target, configuration_of
 from continuum.kinematics.rigid import IDENTITY, product, turned_about_z
 from continuum.kinematics.section.chord import chord_length
@@ -53,7 +53,7 @@ def solve_fabrikc(
         InvalidValueError: malformed target or start. A hard target is no error: see the result's status.
     """
     target, tolerance = Target(position, direction), checked_tolerance(tolerance)
-    w = configuration_of(arm, start).reshape(-1)
+    w = configuration_of(checked_arm(arm), start).reshape(-1)
     iterations, distance, angle = _fabrikc(
         arm_table(arm),
         radian_in_metres(arm),
@@ -213,7 +213,11 @@ def _base_axis() -> Array:
 def _build(digest: str) -> Callable[..., Any]:
     def run(table: Array, weight: float, row: Array, w: Array, tolerance: float, max_iterations: int) -> Any:
         _ = digest
-        return fabrikc(arrays_of(table, table[BEND_LIMIT]), target_of(row, weight), w, tolerance, max_iterations)
+        arm, target = arrays_of(table, table[BEND_LIMIT]), target_of(row, weight)
+        iterations, distance, angle = fabrikc(arm, target, w, tolerance, max_iterations)
+        if distance > 0.5 * FAR * weight:
+            distance = distance_to(arm, w, row)
+        return iterations, distance, angle
 
     return run
 

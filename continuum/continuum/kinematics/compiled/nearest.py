@@ -152,9 +152,10 @@ def _hessian(
 
 @merged
 def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tries: int) -> tuple[int, bool]:
-    """The nearest pose that descents find from the first of ``ends`` and the ``n_tries`` best of different ones; fills ``w``.
+    """The nearest pose that descents find from the first of ``ends`` and the ``n_tries`` best; fills ``w``.
 
-    The first end, that of a warm start, wins over others that are no nearer: a moving arm stays where it is.
+    Of ends that are alike one is tried. The first, that of a warm start, wins over others that are no nearer: a moving
+    arm stays where it is.
 
     Returns:
         Iterations, and whether the answer is a minimum.

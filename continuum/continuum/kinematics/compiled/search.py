@@ -10,6 +10,7 @@ from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
 from continuum.kinematics.compiled.descent import descend
 from continuum.kinematics.compiled.equations import argument, compiled, merged
+from continuum.kinematics.compiled.limits import is_within
 from continuum.kinematics.compiled.task import TargetArrays
 from continuum.kinematics.compiled.two_sections import MOST_CANDIDATES, fill_candidates
 from continuum.kinematics.fabrikc import LARGEST_BEND, fabrikc
@@ -32,11 +33,10 @@ def start_postures(n_sections: int, count: int) -> Array:
     g = 2.0
     for _ in range(60):
         g = (1.0 + g) ** (1.0 / (d + 1.0))
-    points = (0.5 + np.arange(1, count + 1)[:, None] * g ** -np.arange(1.0, d + 1.0)) % 1.0
+    numbers, strides = np.arange(1, count + 1)[:, None], g ** -np.arange(1.0, d + 1.0)
+    points = (0.5 + numbers * strides) % 1.0
     bend, azimuth = points[:, 0::2], 2.0 * np.pi * points[:, 1::2]
-    turn = np.arange(count) % 3
-    bend[turn == 2] = 1.0
-    bend[(turn == 1)[:, None] & ((np.arange(count)[:, None] * points[0, 0::2]) % 1.0 < 0.5)] = 1.0
+    bend[(numbers % 3 == 0) | ((numbers % 3 == 2) & (bend < 0.5))] = 1.0
     return np.stack([bend * np.cos(azimuth), bend * np.sin(azimuth)], axis=-1).reshape(count, d)
 
 
@@ -78,7 +78,7 @@ def search(
     Returns:
         Iterations of all descents, distance [m], angle [rad], and whether the target is solved.
     """
-    begin = w.copy()
+    begin, legs = w.copy(), np.full(len(arm.b), LARGEST_BEND)
     iterations = 0
     first = 0 if is_warm else 1
     n_candidates, candidates = 0, np.empty((MOST_CANDIDATES, 4))
@@ -95,7 +95,7 @@ def search(
             break
         if k == 1 and len(arm.b) == 1:
             _point_at(arm, target.position, w)
-        elif (k == 1 or k >= 2 + n_candidates) and _has_legs(w):
+        elif (k == 1 or k >= 2 + n_candidates) and is_within(w, legs):
             fabrikc(arm, target, w, tolerance, _FABRIKC_PASSES)
         spent, distance, angle, solved = descend(arm, target, w, tolerance, _MAX_ITERATIONS, _DAMPING)
         iterations += spent
@@ -116,12 +116,3 @@ def _stand(arm: ArmArrays, posture: Array, searched: Array, beyond: int, w: Arra
         least = searched[i] if i == beyond else 0.0
         bend = least + part * (arm.bend_limit[i] - least)
         w[2 * i], w[2 * i + 1] = bend / part * posture[2 * i], bend / part * posture[2 * i + 1]
-
-
-@merged
-def _has_legs(w: Array) -> bool:
-    """Whether every section of ``w`` (2 n_sections,) [rad] is bent so little that FABRIKc can see it as two legs."""
-    for i in range(len(w) // 2):
-        if math.hypot(w[2 * i], w[2 * i + 1]) > LARGEST_BEND:
-            return False
-    return True

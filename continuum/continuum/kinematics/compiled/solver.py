@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -11,14 +10,15 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, CONTACT, ArmArrays, arrays_of
 from continuum.kinematics.compiled.equations import argument, entry_point, merged
+from continuum.kinematics.compiled.limits import is_within
 from continuum.kinematics.compiled.nearest import nearest_of
 from continuum.kinematics.compiled.redundancy import slide_towards
 from continuum.kinematics.compiled.search import n_ends, search
-from continuum.kinematics.compiled.task import TargetArrays, evaluate, target_of
+from continuum.kinematics.compiled.task import FAR, TargetArrays, distance_to, evaluate, target_of
 from continuum.kinematics.ik_result import IkStatus
 
-FIRST, NEAR_START, LEAST_BENDING = 0, 1, 2
-"""What the redundancy is used for."""
+FIRST, NEAR_START, LEAST_BENDING, LESS_BENDING = 0, 1, 2, 3
+"""What the redundancy is used for; the last is the least bending near the start alone."""
 COLD, WARM, FOLLOW = 0, 1, 2
 """Starts: away from the answer; near the answer; each target from the answer to the one before."""
 
@@ -64,11 +64,13 @@ def answer(
             iterations += spent
             if within_reach:
                 status = _LIMIT_REACHED
-                if _obeys_limits(arm, beyond):
+                if is_within(beyond, arm.bend_limit):
                     status = _SOLVED
                     w[:] = beyond
     if status == _SOLVED and objective == NEAR_START:
         iterations += slide_towards(arm, target, w, begin, tolerance)
+    elif status == _SOLVED and objective == LESS_BENDING:
+        iterations += slide_towards(arm, target, w, np.zeros_like(w), tolerance)
     elif status == _SOLVED and objective == LEAST_BENDING:
         iterations += _least_bent(arm, target, w, tolerance, postures, ends)
     elif solved:
@@ -78,19 +80,11 @@ def answer(
 
 
 @merged
-def _obeys_limits(arm: ArmArrays, w: Array) -> bool:
-    for i in range(len(arm.b)):
-        if math.hypot(w[2 * i], w[2 * i + 1]) > arm.bend_limit[i]:
-            return False
-    return True
-
-
-@merged
 def _least_bent(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, postures: Array, ends: Array) -> int:
     """Move ``w``, which solves the target, in place to the least bent answer of several neighbourhoods; iterations."""
     straight, nothing = np.zeros_like(w), np.zeros(len(arm.b))
     iterations = slide_towards(arm, target, w, straight, tolerance)
-    if len(w) <= target.n_rows:
+    if len(arm.b) == 1:
         return iterations
     for k in range(min(_N_NEIGHBOURHOODS, len(postures))):
         other = straight.copy()
@@ -121,11 +115,16 @@ def _build(digest: str) -> Callable[..., Any]:
         arm, unlimited = arrays_of(table, table[BEND_LIMIT]), arrays_of(table, table[CONTACT])
         for k in range(len(rows)):
             target = target_of(rows[k], weight)
+            wish = objective
             if start == FOLLOW and k > 0:
                 w[k] = w[k - 1]
+                if objective == LEAST_BENDING:
+                    wish = LESS_BENDING  # no other neighbourhoods, so that the motion has no jumps
             status, iterations, distance, angle = answer(
-                arm, unlimited, target, w[k], start != COLD, tolerance, objective, postures
+                arm, unlimited, target, w[k], start != COLD, tolerance, wish, postures
             )
+            if distance > 0.5 * FAR * weight:
+                distance = distance_to(arm, w[k], rows[k])
             numbers[k, 0], numbers[k, 1], numbers[k, 2], numbers[k, 3] = status, iterations, distance, angle
 
     return run
