@@ -1,4 +1,4 @@
-"""Sections bent beyond half a turn, targets in the corners of the limits, targets very far away: found and told right."""
+"""Bends beyond half a turn, targets in the corners of the limits, targets very far away: found and told right."""
 
 import numpy as np
 import pytest
