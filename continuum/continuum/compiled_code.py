@@ -9,6 +9,7 @@ What was compiled is kept beside the sources. Where that folder is read-only it 
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 from collections.abc import Callable
@@ -16,7 +17,9 @@ from pathlib import Path
 from typing import Any
 
 import numba
-from numba.core import caching
+from numba.core import caching as numba_caching
+
+caching: Any = numba_caching  # numba has types in some places alone
 
 compiled = numba.njit(error_model="numpy")
 """Compiles a function that is called from compiled code alone; not cached by itself."""
@@ -34,11 +37,10 @@ def sources_digest(*folders: Path) -> str:
 def entry_point(build: Callable[[str], Callable[..., Any]], digest: str) -> Callable[..., Any]:
     """Compile, once and cached on disk, the function that ``build`` makes around the ``digest`` of its sources."""
     function: Callable[..., Any] = compiled(build(digest))
-    if isinstance(function, numba.core.registry.CPUDispatcher):  # not where numba is switched off
-        try:
-            function._cache = _Cache(function.py_func)
-        except RuntimeError:  # no folder to be written: compiled anew in every program
-            return function
+    if hasattr(function, "py_func"):  # not where numba is switched off
+        with contextlib.suppress(RuntimeError):  # no folder can be written: compiled anew in every program
+            dispatcher: Any = function
+            dispatcher._cache = _Cache(dispatcher.py_func)
     return function
 
 
@@ -49,7 +51,8 @@ class _Installed(caching.InTreeCacheLocator):  # type: ignore[misc]
     def from_function(cls, py_func: Any, py_file: str) -> Any:
         """The locator, or None where nothing was compiled."""
         found = cls(py_func, py_file)
-        return found if any(Path(found.get_cache_path()).glob(f"{Path(py_file).stem}.*.nbi")) else None
+        there = Path(found.get_cache_path())
+        return found if any(there.glob(f"{Path(py_file).stem}.*.nbi")) else None
 
 
 class _OfUser(caching.InTreeCacheLocator):  # type: ignore[misc]
@@ -62,7 +65,7 @@ class _OfUser(caching.InTreeCacheLocator):  # type: ignore[misc]
 
 
 class _Folders(caching.CompileResultCacheImpl):  # type: ignore[misc]
-    _locator_classes = (caching.UserProvidedCacheLocator, caching.InTreeCacheLocator, _Installed, _OfUser)
+    _locator_classes = [caching.UserProvidedCacheLocator, caching.InTreeCacheLocator, _Installed, _OfUser]  # noqa: RUF012
 
 
 class _Cache(caching.FunctionCache):  # type: ignore[misc]

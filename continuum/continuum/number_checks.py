@@ -15,12 +15,13 @@ def finite_array(name: str, given: object, allowed: str) -> Array:
         InvalidValueError: it holds what is no number, or is not finite; the name tells the row where there are many.
     """
     try:
-        array = np.asarray(given)
+        array = np.array(given, order="C")
     except (TypeError, ValueError, OverflowError):  # rows of different lengths, say
         raise InvalidValueError(name, given, allowed) from None
     if array.dtype.kind not in "iuf" or (isinstance(given, list | tuple) and _holds_a_truth_value(given)):
         raise InvalidValueError(name, given, allowed)
-    array = np.array(array, dtype=float, order="C")
+    if array.dtype != np.float64:
+        array = array.astype(float)
     if not np.isfinite(array).all():
         if array.ndim > 1 and len(array) > 1:
             row = int(np.argmin(np.isfinite(array).reshape(len(array), -1).all(axis=1)))

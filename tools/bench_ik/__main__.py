@@ -108,12 +108,13 @@ def page(
     """The page of results."""
     return f"""# Inverse kinematics benchmark
 
-Made by `make bench-ik` (`--targets {options.targets} --rivals {options.rivals} --slowest {options.slowest}
---seed {options.seed}`). Targets are tip positions and directions of random postures, {n} for every row,
-{options.targets} for every start and tolerance; sections are the prototype's (Table 1: five joints, b = 19.25 mm), turned
-by 30 degrees each, with bend limits of 180 degrees. A target counts as solved when the solver says so, the forward
-kinematics says so, and no section is bent beyond its limit. Times are processor time of single Python calls, the making
-of the target and its checks included, on one core of a shared two-core machine: read them as ratios within the page.
+Made by `make bench-ik` (`--targets {options.targets} --rivals {options.rivals}
+--slowest {options.slowest} --seed {options.seed}`). Targets are tip positions and directions of random postures, {n}
+for every row, {options.targets} for every start and tolerance; sections are the prototype's (Table 1: five joints,
+b = 19.25 mm), turned by 30 degrees each, with bend limits of 180 degrees. A target counts as solved when the solver
+says so, the forward kinematics says so, and no section is bent beyond its limit. Times are processor time of single
+Python calls, the making of the target and its checks included, on one core of a shared two-core machine that others
+used at the same time: read them as ratios within the page.
 
 ## Goals
 
@@ -125,10 +126,10 @@ of the target and its checks included, on one core of a shared two-core machine:
 
 ## Rivals, tolerance 1e-6, from the straight arm
 
-The slow ones answer the first of the same targets, as many as stated; of fewer than 300 no p99 is told. All stop at the
-same tolerance. SciPy's Levenberg-Marquardt (MINPACK) takes no more unknowns than equations, so it ends at three sections.
-FABRIKc's legs grow without bound towards 180 degrees, so it bends a section by no more than 0.97 of that, and no target
-beyond can be reached by it alone. The others know no bend limits: what they bend beyond does not count as solved.
+The slow ones answer the first of the same targets, as many as stated; of fewer than 300 no p99 is told. All stop at
+the same tolerance. SciPy's Levenberg-Marquardt (MINPACK) takes no more unknowns than equations, so it ends at three
+sections. FABRIKc's legs grow without bound towards 180 degrees, so it bends a section by no more than 0.97 of that, and
+what lies beyond it cannot reach alone. The others know no bend limits: what they bend beyond does not count as solved.
 
 {chr(10).join(rivals)}
 

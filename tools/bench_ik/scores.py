@@ -19,13 +19,12 @@ from tools.bench_ik.rivals import Rival
 from tools.bench_ik.sample import Sample, arrived, each_target
 from trajectory_generator.from_parameters import trajectory_from_mapping
 
-
 _FEWEST_FOR_P99 = 300  # targets
 
 
 @dataclass(frozen=True)
 class Score:
-    """What a solver did: part solved, processor time per target [us] and iterations, each median and 99th percentile."""
+    """What a solver did: part solved, processor time per target [us] and iterations, with 99th percentiles."""
 
     solved: float
     n: int
@@ -37,7 +36,8 @@ class Score:
     def cells(self) -> str:
         n_failed = round((1.0 - self.solved) * self.n)
         if self.n < _FEWEST_FOR_P99:
-            return f"{100 * self.solved:.1f} % ({n_failed} of {self.n} not) | {self.median:.1f} | | {self.iterations:.0f} |"
+            part = f"{100 * self.solved:.1f} % ({n_failed} of {self.n} not)"
+            return f"{part} | {self.median:.1f} | | {self.iterations:.0f} |"
         part = f"{100 * self.solved:.3f} %" + (f" ({n_failed} of {self.n} not)" if n_failed else "")
         return f"{part} | {self.median:.1f} | {self.p99:.1f} | {self.iterations:.0f} | {self.iterations_p99:.0f}"
 

@@ -186,6 +186,7 @@ def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tr
 def _is_like(end: Array, other: Array) -> bool:
     """Whether two ends of descents, each a squared error and a configuration, lead to one pose or to its like."""
     difference = abs(end[0] - other[0])
-    if difference > _ALIKE * end[0]:
-        return False
-    return difference <= _EQUAL * end[0] or np.max(np.abs(end[1:] - other[1:])) < _BESIDE
+    way = 0.0
+    for k in range(1, len(end)):
+        way = max(way, abs(end[k] - other[k]))
+    return difference <= _EQUAL * end[0] or (difference <= _ALIKE * end[0] and way < _BESIDE)
