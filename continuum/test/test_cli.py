@@ -1,5 +1,6 @@
 """The command `continuum`: what it prints, its exit codes, and its mistakes told in one line."""
 
+import json
 import os
 import re
 import shutil
@@ -11,6 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from recorded_runs import ARM, arm_file, run, tips, write
+from scipy.spatial.transform import Rotation
 
 from continuum.arm import load_arm
 from continuum.cli import main
@@ -84,7 +86,7 @@ def test_help_of_a_command(capsys: Captured, command: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [(), ("nonsense",), ("info",), ("solve", THREE, "1", "x", "0"), ("solve", THREE, "1")]
+    "words", [(), ("nonsense",), ("info",), ("solve", THREE, "1", "x", "0"), ("solve", THREE, "1"), ("solve", THREE)]
 )
 def test_wrong_usage(capsys: Captured, words: tuple[str, ...]) -> None:
     assert code(*words) == 2
@@ -153,6 +155,54 @@ def test_negative_numbers_may_have_exponents(capsys: Captured) -> None:
     assert capsys.readouterr().out == with_exponents
 
 
+def test_solve_turns_the_tip_all_the_way(capsys: Captured) -> None:
+    arm = load_arm(THREE)
+    pose = arm_pose(np.array([[0.3, 0.5], [-0.4, 0.2], [0.1, 0.6]]), arm)
+    quaternion = Rotation.from_matrix(pose[:3, :3]).as_quat()
+    assert code("solve", THREE, *pose[:3, 3], "--quaternion", *quaternion, "--json") == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["status"] == "SOLVED"
+    np.testing.assert_allclose(arm_pose(np.array(answer["configuration"]), arm), pose, atol=3e-6)
+
+
+def test_solve_answers_a_file_of_targets(capsys: Captured, tmp_path: Path) -> None:
+    file = tmp_path / "targets.csv"
+    file.write_text("# x, y, z [m]\n0.1, 0.0, 0.4\n0.0, 0.0, 3.0  # too far\n\n")
+    assert code("solve", THREE, "--targets", file, "--json") == 1
+    answers = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [answer["status"] for answer in answers] == ["SOLVED", "UNREACHABLE"]
+    file.write_text("0.1 0 0.4 0 0 1\n")
+    assert code("solve", THREE, "--targets", file) == 0
+    assert "degrees off its direction" in capsys.readouterr().out
+
+
+def test_solve_stays_near_a_start_and_bends_little(capsys: Captured) -> None:
+    arm = load_arm(THREE)
+    start = [50.0, 10.0, 60.0, -40.0, 55.0, 90.0]
+    w = allen_from_jones(np.radians(start[1::2]), np.radians(start[0::2]))
+    point, found = arm_pose(w, arm)[:3, 3], {}
+    for objective in ("near_start", "least_bending"):
+        assert code("solve", THREE, *point, "--start", *start, "--objective", objective, "--json") == 0
+        found[objective] = np.array(json.loads(capsys.readouterr().out)["configuration"])
+    np.testing.assert_allclose(found["near_start"], w, atol=1e-5)
+    assert np.linalg.norm(found["least_bending"]) < 0.99 * np.linalg.norm(w)
+
+
+def test_millimetres_are_suspected(capsys: Captured) -> None:
+    assert code("solve", THREE, 100, 0, 400) == 1
+    assert "millimetres?" in capsys.readouterr().out
+    assert code("solve", THREE, 0, 0, 2) == 1
+    assert "millimetres?" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("text", ["", "1 2\n", "1 2 3\n1 2 3 4 5 6\n", "a b c\n"])
+def test_a_file_without_targets_is_refused(capsys: Captured, tmp_path: Path, text: str) -> None:
+    file = tmp_path / "targets.txt"
+    file.write_text(text)
+    assert refused(capsys, "solve", THREE, "--targets", file).startswith(f"{file}: holds no targets")
+    assert "cannot be read" in refused(capsys, "solve", THREE, "--targets", tmp_path)
+
+
 def test_a_target_out_of_reach_is_no(capsys: Captured) -> None:
     assert code("solve", THREE, 0, 0, 2) == 1
     output = capsys.readouterr().out
@@ -169,6 +219,10 @@ def test_a_target_out_of_reach_is_no(capsys: Captured) -> None:
         ((0, 0, 0.3, "--direction", 0, 0, 0), "direction is [0.0, 0.0, 0.0]"),
         ((0, 0, 0.3, "--tolerance", 0), "--tolerance is 0.0; allowed: a number > 0"),
         ((0, 0, 0.3, "--tolerance", "nan"), "--tolerance is nan"),
+        ((0, 0, 0.3, "--quaternion", 0, 0, 0, 0), "--quaternion is [0.0, 0.0, 0.0, 0.0]"),
+        ((0, 0, 0.3, "--quaternion", 0, 0, 0, 1, "--direction", 0, 0, 1), "directions is"),
+        ((0, 0, 0.3, "--start", 10, 20), "--start is [10.0, 20.0]; allowed: bend and azimuth of each of 3"),
+        ((0, 0, 0.3, "--start", *[0] * 5, "nan"), "--start is"),
     ],
 )
 def test_solve_refuses_values(capsys: Captured, words: tuple[object, ...], problem: str) -> None:

@@ -73,7 +73,7 @@ def test_beside_the_sources(make: Callable[[], Any]) -> None:
 
 def test_a_read_only_installation_is_read(make: Callable[[], Any], read_only: Callable[[str], None]) -> None:
     hits(make())
-    read_only("installed")
+    read_only("installed/")
     assert hits(make()) == 1
     assert make()(3) == 6.0  # another type than was installed: compiled, and kept nowhere
 
@@ -81,7 +81,7 @@ def test_a_read_only_installation_is_read(make: Callable[[], Any], read_only: Ca
 def test_without_anything_installed_the_user_s_folder_keeps_it(
     make: Callable[[], Any], read_only: Callable[[str], None], tmp_path: Path
 ) -> None:
-    read_only("installed")
+    read_only("installed/")
     assert hits(make()) == 0
     assert hits(make()) == 1
     assert list((tmp_path / "cache" / "continuum" / "compiled").rglob("*.nbi"))
