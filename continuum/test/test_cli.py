@@ -8,27 +8,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import CONFIG, THREE, Captured, code, refused, rows_of
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from recorded_runs import ARM, arm_file, run, tips, write
 
 from continuum.arm import load_arm
-from continuum.cli import main
 from continuum.cli.tables import print_pairs
-from continuum.kinematics.chain import arm_pose
-from continuum.kinematics.configuration import allen_from_jones
-from continuum.kinematics.routing import tangle
 
-CONFIG = Path(__file__).parents[2] / "continuum_description" / "config"
 ARM_FILES = sorted(CONFIG.glob("*.yaml"))
-THREE = str(CONFIG / "three_sections.yaml")
-
-Captured = pytest.CaptureFixture[str]
-
-
-@pytest.fixture(autouse=True)
-def _eighty_columns(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "80")
 
 
 @pytest.fixture(scope="module")
@@ -41,29 +29,6 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> str:
     topics = run()
     del topics["/section_config_states"][30:32], topics["/cable_states"][5]
     return str(write(tmp_path_factory.mktemp("run") / "recording", topics))
-
-
-def code(*words: object) -> int:
-    """The exit code, whether returned or raised by the parser."""
-    try:
-        return main([str(word) for word in words])
-    except SystemExit as end:
-        return int(end.code or 0)
-
-
-def rows_of(output: str, arm_names: list[str]) -> list[list[str]]:
-    """The words of the lines that begin with a section's name."""
-    return [line.split() for line in output.splitlines() if line.split(" ")[0] in arm_names]
-
-
-def refused(capsys: Captured, *words: object) -> str:
-    """The one line by which a command is refused, with exit code 2 and nothing on stdout."""
-    assert code(*words) == 2
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    assert captured.err.count("\n") == 1
-    assert captured.err.startswith("continuum: ")
-    return captured.err.removeprefix("continuum: ")
 
 
 def test_help_says_what_can_be_done_next(capsys: Captured) -> None:
@@ -84,7 +49,7 @@ def test_help_of_a_command(capsys: Captured, command: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [(), ("nonsense",), ("info",), ("solve", THREE, "1", "x", "0"), ("solve", THREE, "1")]
+    "words", [(), ("nonsense",), ("info",), ("solve", THREE, "1", "x", "0"), ("solve", THREE, "1"), ("solve", THREE)]
 )
 def test_wrong_usage(capsys: Captured, words: tuple[str, ...]) -> None:
     assert code(*words) == 2
@@ -120,59 +85,6 @@ def test_info_tells_what_the_file_says_in_80_columns(capsys: Captured, file: Pat
         np.testing.assert_allclose(np.array(figures, dtype=float), expected, atol=0.05)
     assert output.count("[mm]") == 3
     assert output.count("[deg]") == 3
-
-
-def test_solve_tells_a_posture_that_reaches_the_point(capsys: Captured) -> None:
-    target = [0.15, 0.05, 0.20]
-    assert code("solve", THREE, *target) == 0
-    output = capsys.readouterr().out
-    arm = load_arm(THREE)
-    assert output.startswith("reached; the tip is ")
-    assert max(map(len, output.splitlines())) <= 80
-    figures = np.array([row[1:] for row in rows_of(output, [s.name for s in arm.sections])], dtype=float)
-    w = allen_from_jones(np.radians(figures[:, 1]), np.radians(figures[:, 0]))
-    np.testing.assert_allclose(arm_pose(w, arm)[:3, 3], target, atol=2e-4)
-    np.testing.assert_allclose(figures[:, 2:].ravel(), 1e3 * tangle(w, arm), atol=0.05)
-    assert all(unit in output for unit in ("[deg]", "[mm]"))
-
-
-def test_solve_turns_the_tip(capsys: Captured) -> None:
-    assert code("solve", THREE, 0.1, 0.0, 0.4, "--direction", 1, 0, 1) == 0
-    output = capsys.readouterr().out
-    assert "degrees off its direction" in output
-    arm = load_arm(THREE)
-    figures = np.array([row[1:3] for row in rows_of(output, [s.name for s in arm.sections])], dtype=float)
-    tip = arm_pose(allen_from_jones(np.radians(figures[:, 1]), np.radians(figures[:, 0])), arm)
-    np.testing.assert_allclose(tip[:3, 2], np.array([1, 0, 1]) / np.sqrt(2), atol=2e-3)
-
-
-def test_negative_numbers_may_have_exponents(capsys: Captured) -> None:
-    assert code("solve", THREE, "-1.25e-1", "-5E-2", "0.3", "--direction", "-1e-1", "0", "1") == 0
-    with_exponents = capsys.readouterr().out
-    assert code("solve", THREE, "-0.125", "-0.05", "0.3", "--direction", "-0.1", "0", "1") == 0
-    assert capsys.readouterr().out == with_exponents
-
-
-def test_a_target_out_of_reach_is_no(capsys: Captured) -> None:
-    assert code("solve", THREE, 0, 0, 2) == 1
-    output = capsys.readouterr().out
-    assert "not reached: out of reach" in output
-    distance = float(re.search(r"the tip is (\S+) mm", output)[1])
-    assert distance == pytest.approx(2000 - 1e3 * load_arm(THREE).length, rel=1e-2)
-
-
-@pytest.mark.parametrize(
-    ("words", "problem"),
-    [
-        (("nan", 0, 0), "position is [nan, 0.0, 0.0]; allowed: three finite numbers"),
-        ((0, "inf", 0), "position is [0.0, inf, 0.0]"),
-        ((0, 0, 0.3, "--direction", 0, 0, 0), "direction is [0.0, 0.0, 0.0]"),
-        ((0, 0, 0.3, "--tolerance", 0), "--tolerance is 0.0; allowed: a number > 0"),
-        ((0, 0, 0.3, "--tolerance", "nan"), "--tolerance is nan"),
-    ],
-)
-def test_solve_refuses_values(capsys: Captured, words: tuple[object, ...], problem: str) -> None:
-    assert refused(capsys, "solve", THREE, *words).startswith(problem)
 
 
 @pytest.mark.parametrize(

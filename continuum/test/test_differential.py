@@ -79,14 +79,29 @@ def test_least_bending_is_down_the_slope_of_the_bend() -> None:
     np.testing.assert_array_equal(least_bending(w, 2.0), [[-0.6, 0.8], [0.0, 0.0]])
 
 
-def test_one_section_follows_eq_22() -> None:
-    """A velocity that the tip of one section can have gives the rate of Eq. 22."""
-    arm = arm_of(1)
+@pytest.mark.parametrize("twist", [0.0, 0.7])
+def test_one_section_follows_eq_22(twist: float) -> None:
+    """For any velocity, be it one that the tip of one section cannot have."""
+    arm = arm_of(1, twist=twist)
+    c, s = np.cos(twist), np.sin(twist)
     for w in random_postures(arm, 10, seed=1, largest=2.0):
-        velocity = arm_jacobian(w, arm)[:3] @ [0.4, -0.2]
-        eq_22 = configuration_from_point_jacobian(section_position(w, arm.sections[0]))[0] @ velocity
-        rate = DifferentialKinematics(arm).rate(w, velocity).rate
-        np.testing.assert_allclose(rate[0], eq_22, rtol=0, atol=1e-9)
+        for velocity in (arm_jacobian(w, arm)[:3] @ [0.4, -0.2], VELOCITY):
+            seen = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) @ velocity
+            eq_22 = configuration_from_point_jacobian(section_position(w, arm.sections[0]))[0] @ seen
+            told = DifferentialKinematics(arm).rate(w, velocity)
+            assert_true(told, w, arm)
+            np.testing.assert_allclose(told.rate[0], eq_22, rtol=0, atol=1e-9)
+
+
+def test_one_section_at_its_limit_is_held() -> None:
+    arm, w = arm_of(1, 1.0), np.array([[0.6, 0.8]])
+    tip = section_position(w[0], arm.sections[0])
+    told = DifferentialKinematics(arm).rate(w, tip * [1.0, 1.0, -1.0])
+    assert told.held
+    assert abs(told.rate[0] @ w[0]) <= 1e-12
+    back = DifferentialKinematics(arm).rate(w, -tip * [1.0, 1.0, -1.0])
+    assert not back.held
+    assert back.rate[0] @ w[0] < -0.1
 
 
 @pytest.mark.parametrize("bend_of_all", [0.0, 1e-300, 1e-12, 1e-6, 1e-3])

@@ -122,9 +122,9 @@ def test_one_answer_wants_one_target(target: object) -> None:
 
 @pytest.mark.parametrize("start", [np.zeros((3, 2)), np.zeros(4), [[0, np.nan], [0, 0]], [[0, 0], [0]], "ab"])
 def test_a_malformed_start_is_refused(start: object) -> None:
-    with pytest.raises(InvalidValueError, match=r"^start is "):
+    with pytest.raises(InvalidValueError, match=r"^start(\[\d\])? is "):
         solve(arm_of(2), (0.1, 0.0, 0.2), start=start)
-    with pytest.raises(InvalidValueError, match=r"^start is "):
+    with pytest.raises(InvalidValueError, match=r"^start(\[\d\])? is "):
         InverseKinematics(arm_of(2)).follow(Targets([(0.1, 0.0, 0.2)]), start)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from continuum.arm import Arm, Section
 from continuum.arrays import Array
 from continuum.kinematics.chain import arm_pose
+from continuum.kinematics.configuration import bend
 from continuum.kinematics.ik_target import Target, Targets
 
 
@@ -48,8 +49,13 @@ def each_target(sample: Sample, n: int) -> Iterator[tuple[int, Target]]:
 
 
 def arrived(sample: Sample, k: int, w: Array, tolerance: float) -> bool:
-    """Judged by the library's forward kinematics, not by the solver's own word; a hundredth is left to rounding."""
+    """Judged by the library's forward kinematics, not by the solver's own word; a hundredth is left to rounding.
+
+    A section bent beyond its limit is no answer.
+    """
     pose = arm_pose(w, sample.arm)
+    if np.any(bend(w) > [section.bend_limit + 1e-9 for section in sample.arm.sections]):
+        return False
     distance = np.linalg.norm(pose[:3, 3] - sample.targets.positions[k])
     angle = np.linalg.norm(np.cross(pose[:3, 2], sample.targets.directions[k]))
     return bool(

@@ -7,21 +7,9 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
+from continuum.number_checks import finite_array
 
-
-def finite_array(name: str, given: object, allowed: str) -> Array:
-    """``given`` as an array of floats.
-
-    Raises:
-        InvalidValueError: it holds what is no number, or is not finite.
-    """
-    try:
-        array = np.asarray(given)
-    except ValueError as error:  # rows of different lengths
-        raise InvalidValueError(name, given, allowed) from error
-    if array.dtype.kind not in "iuf" or not np.all(np.isfinite(array)):
-        raise InvalidValueError(name, given, allowed)
-    return array.astype(float)
+__all__ = ["finite_array", "initial_state", "output_times"]
 
 
 def initial_state(model: Model, given: object) -> Array:

@@ -10,11 +10,18 @@ from numpy.typing import ArrayLike
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
+from continuum.kinematics.chain import arm_jacobian
 from continuum.kinematics.compiled.arm_arrays import arm_arrays, arm_table
-from continuum.kinematics.compiled.limits import pull_within
+from continuum.kinematics.compiled.limits import AT_LIMIT, pull_within
 from continuum.kinematics.compiled.rate import run_tip_rate
 from continuum.kinematics.compiled.task import radian_in_metres
-from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION, finite
+from continuum.kinematics.configuration import bend
+from continuum.kinematics.ik_settings import checked_arm
+from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION
+from continuum.kinematics.section import configuration_from_point_jacobian, section_position
+from continuum.number_checks import finite_number, finite_of_shape
+
+_NEAR_BASE = 0.02  # part of a section's length within which its tip is too near to the base for Eq. 22
 
 __all__ = ["DIRECTION", "POSE", "POSITION", "DifferentialKinematics", "TipRate", "least_bending"]
 
@@ -47,7 +54,7 @@ class DifferentialKinematics:
     def __init__(self, arm: Arm, kind: int = POSITION) -> None:
         if kind not in (POSITION, DIRECTION, POSE):
             raise InvalidValueError("kind", kind, "POSITION, DIRECTION or POSE")
-        self.arm = arm
+        self.arm = checked_arm(arm)
         self.kind = kind
         self._table = arm_table(arm)
         self._arrays = arm_arrays(arm)
@@ -63,21 +70,45 @@ class DifferentialKinematics:
         Raises:
             InvalidValueError: wrong shape or not finite.
         """
-        w = finite("w", w, (self.arm.n_sections, 2))
-        rate, moved, held = run_tip_rate(
-            self._table,
-            self.kind,
-            self._weight,
-            w.reshape(-1),
-            finite("velocity", velocity, (3,)),
-            finite("spin", spin, (3,)),
-            (np.zeros(w.size) if wish is None else finite("wish", wish, w.shape).reshape(-1)),
-        )
+        w = finite_of_shape("w", w, (self.arm.n_sections, 2))
+        velocity, spin = finite_of_shape("velocity", velocity, (3,)), finite_of_shape("spin", spin, (3,))
+        free = np.zeros(w.size) if wish is None else finite_of_shape("wish", wish, w.shape).reshape(-1)
+        if self.arm.n_sections == 1 and self.kind == POSITION:
+            return self._by_eq_22(w, velocity)
+        rate, moved, held = run_tip_rate(self._table, self.kind, self._weight, w.reshape(-1), velocity, spin, free)
         return TipRate(rate.reshape(w.shape), moved[:3], moved[3:], held)
 
-    def advance(self, w: Array, rate: Array, dt: float) -> Array:
-        """Configuration (n_sections, 2) [rad] after ``rate`` [rad/s] for ``dt`` [s], no section beyond its limit."""
-        moved = (w + dt * rate).reshape(-1)
+    def _by_eq_22(self, w: Array, velocity: Array) -> TipRate:
+        """Eq. 22 for an arm of one section, which is free in nothing: it reads the velocity across the line to the tip.
+
+        Damped near the point where the tip would come back to the base.
+        """
+        section, jacobian = self.arm.sections[0], arm_jacobian(w, self.arm)
+        tip = section_position(w[0], section)
+        turned = np.cos(section.twist) * velocity + np.sin(section.twist) * np.array([velocity[1], -velocity[0], 0.0])
+        turned[2] = velocity[2]
+        distance = float(np.linalg.norm(tip))
+        shortfall = max(_NEAR_BASE * section.length - distance, 0.0)
+        with np.errstate(all="ignore"):
+            rate = configuration_from_point_jacobian(tip) @ turned * distance**2 / (distance**2 + shortfall**2)
+        rate = np.where(np.isfinite(rate), rate, 0.0)  # straight down, where the azimuth is not defined
+        theta = float(bend(w[0]))
+        outward = float(rate @ w[0])
+        held = theta >= AT_LIMIT * section.bend_limit and outward > 0.0
+        if held:
+            rate = rate - outward / theta**2 * w[0]
+        moved = jacobian @ rate
+        return TipRate(rate[None], moved[:3], moved[3:], held)
+
+    def advance(self, w: ArrayLike, rate: ArrayLike, dt: float) -> Array:
+        """Configuration (n_sections, 2) [rad] after ``rate`` [rad/s] for ``dt`` [s], no section beyond its limit.
+
+        Raises:
+            InvalidValueError: wrong shape or not finite.
+        """
+        shape = (self.arm.n_sections, 2)
+        w, rate = finite_of_shape("w", w, shape), finite_of_shape("rate", rate, shape)
+        moved = (w + finite_number("dt", dt, "a finite number of seconds") * rate).reshape(-1)
         pull_within.py_func(self._arrays, moved)
         return moved.reshape(-1, 2)
 

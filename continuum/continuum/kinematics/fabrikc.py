@@ -19,16 +19,16 @@ from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import BEND_LIMIT, ArmArrays, arm_table, arrays_of
 from continuum.kinematics.compiled.equations import compiled, entry_point, merged
 from continuum.kinematics.compiled.limits import pull_within
-from continuum.kinematics.compiled.task import TargetArrays, miss, radian_in_metres, target_of
+from continuum.kinematics.compiled.task import FAR, TargetArrays, distance_to, miss, radian_in_metres, target_of
 from continuum.kinematics.ik_result import IkResult, IkStatus
-from continuum.kinematics.ik_settings import checked_count, checked_tolerance
+from continuum.kinematics.ik_settings import checked_arm, checked_count, checked_tolerance
 from continuum.kinematics.ik_target import POSITION, Target, configuration_of
 from continuum.kinematics.rigid import IDENTITY, product, turned_about_z
 from continuum.kinematics.section.chord import chord_length
 from continuum.kinematics.section.eq04_pose import rotation_entries
 from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
 
-_LARGEST_BEND = 0.97 * math.pi  # towards 180 degrees the legs grow without bound
+LARGEST_BEND = 0.97 * math.pi  # towards 180 degrees the legs grow without bound
 
 
 def solve_fabrikc(
@@ -53,7 +53,7 @@ def solve_fabrikc(
         InvalidValueError: malformed target or start. A hard target is no error: see the result's status.
     """
     target, tolerance = Target(position, direction), checked_tolerance(tolerance)
-    w = configuration_of(arm, start).reshape(-1)
+    w = configuration_of(checked_arm(arm), start).reshape(-1)
     iterations, distance, angle = _fabrikc(
         arm_table(arm),
         radian_in_metres(arm),
@@ -89,7 +89,7 @@ def fabrikc(
             return iteration, distance, angle
         _backward(arm, target, joints, tangents)
         _forward(arm, target, joints, tangents)
-        _configuration_from_tangents(arm, tangents, trial)
+        configuration_from_tangents(arm, tangents, trial)
         trial_distance, trial_angle = miss(arm, target, trial, error, bases, tips)
         if trial_distance + target.weight * trial_angle < distance + target.weight * angle:
             w[:] = trial
@@ -150,7 +150,7 @@ def _bends(tangents: Array) -> Array:
     bends = np.empty(len(tangents))
     before = _base_axis()
     for i in range(len(tangents)):
-        bends[i] = min(_angle(before, tangents[i]), _LARGEST_BEND)
+        bends[i] = min(_angle(before, tangents[i]), LARGEST_BEND)
         before = tangents[i]
     return bends
 
@@ -158,7 +158,7 @@ def _bends(tangents: Array) -> Array:
 @compiled
 def _bend_within(free: Array, fixed: Array, bend_limit: float) -> tuple[Array, float]:
     """The unit vector ``free``, turned towards ``fixed`` if the section cannot bend so far, and the bend [rad]."""
-    limit = min(bend_limit, _LARGEST_BEND)
+    limit = min(bend_limit, LARGEST_BEND)
     theta = _angle(fixed, free)
     if theta <= limit:
         return free, theta
@@ -166,8 +166,8 @@ def _bend_within(free: Array, fixed: Array, bend_limit: float) -> tuple[Array, f
     return math.cos(limit) * fixed + math.sin(limit) * across, limit
 
 
-@merged
-def _configuration_from_tangents(arm: ArmArrays, tangents: Array, w: Array) -> None:
+@compiled
+def configuration_from_tangents(arm: ArmArrays, tangents: Array, w: Array) -> None:
     """Fill ``w`` (2 n_sections,) [rad] of the arm whose sections end with the tangents (n_sections, 3)."""
     rotation = IDENTITY
     for i in range(len(arm.b)):
@@ -213,7 +213,11 @@ def _base_axis() -> Array:
 def _build(digest: str) -> Callable[..., Any]:
     def run(table: Array, weight: float, row: Array, w: Array, tolerance: float, max_iterations: int) -> Any:
         _ = digest
-        return fabrikc(arrays_of(table, table[BEND_LIMIT]), target_of(row, weight), w, tolerance, max_iterations)
+        arm, target = arrays_of(table, table[BEND_LIMIT]), target_of(row, weight)
+        iterations, distance, angle = fabrikc(arm, target, w, tolerance, max_iterations)
+        if distance > 0.5 * FAR * weight:
+            distance = distance_to(arm, w, row)
+        return iterations, distance, angle
 
     return run
 

@@ -4,10 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 
+from continuum.arm import Arm
 from continuum.errors import InvalidValueError
 
 SMALLEST_TOLERANCE = 1e-14
 """What rounding allows, [m] and [rad]."""
+
+
+def checked_arm(arm: object) -> Arm:
+    """An arm.
+
+    Raises:
+        InvalidValueError: it is none.
+    """
+    if not isinstance(arm, Arm):
+        raise InvalidValueError("arm", arm, "an Arm; continuum.arm.load_arm reads one from a file")
+    return arm
 
 
 def checked_tolerance(tolerance: object) -> float:

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
+from continuum.number_checks import finite_of_shape
 
 POSITION, DIRECTION, POSE = 3, 5, 6
 """Kinds of target, by the number of conditions that they set."""
@@ -34,14 +35,16 @@ class Targets:
     def __init__(
         self, positions: ArrayLike, directions: ArrayLike | None = None, rotations: ArrayLike | None = None
     ) -> None:
-        points = finite("positions", positions, (-1, 3))
+        points = finite_of_shape("positions", positions, (-1, 3))
         n = len(points)
         self._rows = points
         _refuse_both(directions, rotations)
         if directions is not None:
-            self._rows = _side_by_side(points, _unit_vectors(finite("directions", directions, (n, 3))))
+            self._rows = _side_by_side(points, _unit_vectors(finite_of_shape("directions", directions, (n, 3))))
         elif rotations is not None:
-            self._rows = _side_by_side(points, _orthonormal(finite("rotations", rotations, (n, 3, 3))).reshape(n, 9))
+            self._rows = _side_by_side(
+                points, _orthonormal(finite_of_shape("rotations", rotations, (n, 3, 3))).reshape(n, 9)
+            )
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -89,12 +92,14 @@ class Target(Targets):
     def __init__(
         self, position: ArrayLike, direction: ArrayLike | None = None, rotation: ArrayLike | None = None
     ) -> None:
-        self._rows = finite("position", position, (3,)).reshape(1, 3)
+        self._rows = finite_of_shape("position", position, (3,)).reshape(1, 3)
         _refuse_both(direction, rotation)
         if direction is not None:
-            self._rows = _side_by_side(self._rows, _unit_vectors(finite("direction", direction, (3,))[None]))
+            self._rows = _side_by_side(self._rows, _unit_vectors(finite_of_shape("direction", direction, (3,))[None]))
         elif rotation is not None:
-            self._rows = _side_by_side(self._rows, _orthonormal(finite("rotation", rotation, (3, 3))).reshape(1, 9))
+            self._rows = _side_by_side(
+                self._rows, _orthonormal(finite_of_shape("rotation", rotation, (3, 3))).reshape(1, 9)
+            )
 
     @property
     def position(self) -> Array:
@@ -114,33 +119,7 @@ def configuration_of(arm: Arm, start: ArrayLike | None) -> Array:
     Raises:
         InvalidValueError: wrong shape or not finite.
     """
-    return np.zeros((arm.n_sections, 2)) if start is None else finite("start", start, (arm.n_sections, 2))
-
-
-def finite(name: str, value: object, shape: tuple[int, ...]) -> Array:
-    """``value`` as a new array of ``shape``, -1 for any number, all finite, in C order as compiled code expects it.
-
-    Raises:
-        InvalidValueError: it is none.
-    """
-    try:
-        array = np.array(value, dtype=float, order="C")
-    except (TypeError, ValueError, OverflowError):
-        raise InvalidValueError(name, value, _words(shape)) from None
-    if not _fits(array.shape, shape) or not np.isfinite(array).all():
-        raise InvalidValueError(name, array.tolist(), _words(shape))
-    return array
-
-
-def _fits(found: tuple[int, ...], shape: tuple[int, ...]) -> bool:
-    if found == shape:
-        return True
-    return len(found) == len(shape) and all(b in (-1, a) for a, b in zip(found, shape, strict=True))
-
-
-def _words(shape: tuple[int, ...]) -> str:
-    lengths = " x ".join("n" if count < 0 else str(count) for count in shape)
-    return "three finite numbers" if shape == (3,) else f"finite numbers, {lengths}"
+    return np.zeros((arm.n_sections, 2)) if start is None else finite_of_shape("start", start, (arm.n_sections, 2))
 
 
 def _refuse_both(directions: object, rotations: object) -> None:

@@ -17,8 +17,9 @@ from continuum.kinematics.compiled.search import start_postures
 from continuum.kinematics.compiled.solver import COLD, FIRST, FOLLOW, LEAST_BENDING, NEAR_START, WARM, run_solver
 from continuum.kinematics.compiled.task import radian_in_metres
 from continuum.kinematics.ik_result import IkBatch, IkResult, IkStatus
-from continuum.kinematics.ik_settings import checked_count, checked_tolerance
-from continuum.kinematics.ik_target import Target, Targets, configuration_of, finite
+from continuum.kinematics.ik_settings import checked_arm, checked_count, checked_tolerance
+from continuum.kinematics.ik_target import Target, Targets, configuration_of
+from continuum.number_checks import finite_of_shape
 
 OBJECTIVES = {"first": FIRST, "near_start": NEAR_START, "least_bending": LEAST_BENDING}
 """What a redundant arm does with its freedom: take the first answer found, the one near it
@@ -35,20 +36,24 @@ class InverseKinematics:
         tolerance: largest distance [m], and largest angle [rad], that counts as solved.
         objective: one of OBJECTIVES.
         n_restarts: postures tried after the start before a target is given up.
+        skip: postures of the sequence that are passed over; somebody else has tried them.
 
     Raises:
-        InvalidValueError: unknown objective, a tolerance below rounding, or a number of restarts that is none.
+        InvalidValueError: no arm, unknown objective, a tolerance below rounding, or a number of restarts that is none.
     """
 
-    def __init__(self, arm: Arm, tolerance: float = 1e-6, objective: str = "first", n_restarts: int = 200) -> None:
+    def __init__(
+        self, arm: Arm, tolerance: float = 1e-6, objective: str = "first", n_restarts: int = 200, skip: int = 0
+    ) -> None:
         if not isinstance(objective, str) or objective not in OBJECTIVES:
             raise InvalidValueError("objective", objective, f"one of {', '.join(OBJECTIVES)}")
-        self.arm = arm
+        self.arm = checked_arm(arm)
         self.tolerance = checked_tolerance(tolerance)
         self.objective = objective
         self._table = arm_table(arm)
         self._weight = radian_in_metres(arm)
-        self._postures = start_postures(arm.n_sections, checked_count("n_restarts", n_restarts))
+        skip = checked_count("skip", skip)
+        self._postures = start_postures(arm.n_sections, skip + checked_count("n_restarts", n_restarts))[skip:]
 
     def solve(self, target: Target, start: ArrayLike | None = None) -> IkResult:
         """Answer one target.
@@ -75,14 +80,23 @@ class InverseKinematics:
             starts: configurations (n_targets, n_sections, 2) [rad] near which the answers are wanted; without, any.
 
         Raises:
-            InvalidValueError: malformed starts.
+            InvalidValueError: malformed starts, or no Targets.
         """
+        _check(targets)
         shape = (len(targets), self.arm.n_sections, 2)
-        w = np.zeros(shape) if starts is None else finite("starts", starts, shape)
+        w = np.zeros(shape) if starts is None else finite_of_shape("starts", starts, shape)
         return self._answer_all(targets, w, COLD if starts is None else WARM)
 
     def follow(self, targets: Targets, start: ArrayLike | None = None) -> IkBatch:
-        """Answer the targets of a trajectory, each from the answer to the one before it."""
+        """Answer the targets of a trajectory, each from the answer to the one before it.
+
+        ``least_bending`` looks for the least bent answer to the first target alone, and from there on for what bends
+        less without a jump.
+
+        Raises:
+            InvalidValueError: malformed start, or no Targets.
+        """
+        _check(targets)
         w = np.zeros((len(targets), self.arm.n_sections, 2))
         w[:1] = configuration_of(self.arm, start)
         return self._answer_all(targets, w, FOLLOW)
@@ -105,6 +119,11 @@ class InverseKinematics:
             numbers,
         )
         return numbers
+
+
+def _check(targets: object) -> None:
+    if not isinstance(targets, Targets):
+        raise InvalidValueError("targets", targets, "Targets(positions, directions or rotations)")
 
 
 def solve(

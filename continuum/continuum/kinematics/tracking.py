@@ -17,12 +17,14 @@ from continuum.kinematics.differential import DIRECTION, POSITION, DifferentialK
 from continuum.kinematics.ik_result import IkResult, IkStatus
 from continuum.kinematics.ik_target import Target
 from continuum.kinematics.inverse_kinematics import InverseKinematics
+from continuum.number_checks import finite_number
 
 _NO_SPIN = np.zeros(3)
 _BEHIND = 1e-3  # part of the wanted velocity that the tip may lack and still count as following
 _AT_REST = 1e-12  # [m/s], rounding
-_RESTARTS_IN_MOTION = 16  # so that a pose out of reach takes about a millisecond
-_SEARCH_EVERY = 25  # poses out of reach, after which all restarts are tried again
+_RESTARTS = 64  # of a search that a moving arm waits for
+_RESTARTS_IN_MOTION = 16  # so that a pose out of reach takes about a millisecond; the next one tries the next postures
+_N_TURNS = 16  # until the first postures are tried again
 _JUMP = 0.5  # change of a coordinate against the prediction [rad] from which an answer does not continue the motion
 
 
@@ -55,8 +57,11 @@ class Tracker:
         self.configuration = np.zeros((arm.n_sections, 2))
         self._differential = DifferentialKinematics(arm, DIRECTION if use_direction else POSITION)
         self._begin = InverseKinematics(arm, tolerance, objective="least_bending")
-        self._stay = InverseKinematics(arm, tolerance, objective="near_start")
-        self._continue = InverseKinematics(arm, tolerance, objective="first", n_restarts=_RESTARTS_IN_MOTION)
+        self._stay = InverseKinematics(arm, tolerance, objective="near_start", n_restarts=_RESTARTS)
+        self._continue = [
+            InverseKinematics(arm, tolerance, "first", _RESTARTS_IN_MOTION, skip=turn * _RESTARTS_IN_MOTION)
+            for turn in range(_N_TURNS)
+        ]
         self._n_out_of_reach = 0  # poses since the last one that was reached
         self._rates: list[Array] = []  # of the last instants, newest last; empty where no motion is continued
 
@@ -95,8 +100,11 @@ class Tracker:
 
         Where the arm cannot follow, at a bend limit or stretched out, the status says so; the distance is what the tip
         falls behind by this step.
+
+        Raises:
+            InvalidValueError: what is given is not finite or of another shape.
         """
-        start = self.configuration
+        start, dt = self.configuration, finite_number("dt", dt, "a finite number of seconds")
         first = self._rate(velocity, angular_velocity)
         self.configuration = self._differential.advance(start, first.rate, 0.5 * dt)
         middle = self._rate(velocity, angular_velocity)
@@ -119,14 +127,14 @@ class Tracker:
         return result
 
     def _continued(self, target: Target, dt: float) -> IkResult | None:
-        """The answer that continues the motion; None where there is none, or where all restarts shall be tried."""
+        """The answer that continues the motion; None where there is no motion."""
         if not self._rates and self._n_out_of_reach == 0:
             return None
         predicted = self._predict(dt) if self._rates else self.configuration
-        result = self._continue.solve(target, predicted)
+        result = self._continue[self._n_out_of_reach % _N_TURNS].solve(target, predicted)
         if not result.solved:
             self._rates = []
-            return result if self._n_out_of_reach % _SEARCH_EVERY else None
+            return result
         if np.max(np.abs(result.configuration - predicted)) > _JUMP:
             self._rates = []
         return result

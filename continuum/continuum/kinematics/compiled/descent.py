@@ -15,6 +15,7 @@ _LARGEST_STEP = 1.0  # of any coordinate in one iteration [rad]
 _ROUNDING = 1e-16  # keeps the normal equations definite where the Jacobian has lost rank [m2]
 _SLOW = 0.98  # a squared error that shrinks by less ...
 _N_SLOW = 4  # ... so many times in a row ends the search
+_N_REFUSED = 8  # and so do so many steps in a row that bring nothing
 
 
 @merged
@@ -38,7 +39,8 @@ def descend(
     pull_within(arm, w)
     distance, angle = miss(arm, target, w, error, bases, tips)
     cost = squared(error)
-    n_slow = 0
+    n_slow = n_refused = 0
+    longest = _LARGEST_STEP
     has_moved = True
     for iteration in range(max_iterations):
         if distance <= tolerance and angle <= tolerance:
@@ -51,7 +53,7 @@ def descend(
             if not hold_outward(arm, w, step, held, jacobian, target.n_rows):
                 break
         largest = np.max(np.abs(step))
-        scale = 1.0 if largest < _LARGEST_STEP else _LARGEST_STEP / largest
+        scale = 1.0 if largest < longest else longest / largest
         for k in range(size):
             trial[k] = w[k] + scale * step[k]
         pull_within(arm, trial)
@@ -64,9 +66,12 @@ def descend(
             error, trial_error = trial_error, error
             distance, angle, cost = trial_distance, trial_angle, trial_cost
             damping = max(0.2 * damping, 1e-9)
+            longest = min(2.0 * longest, _LARGEST_STEP)
+            n_refused = 0
         else:
             damping *= 8.0
-            n_slow += 1
-        if n_slow >= _N_SLOW or damping > 1e7:
+            longest = 0.25 * scale * largest
+            n_refused += 1
+        if n_slow >= _N_SLOW or n_refused >= _N_REFUSED or damping > 1e7:
             return iteration + 1, distance, angle, distance <= tolerance and angle <= tolerance
     return max_iterations, distance, angle, distance <= tolerance and angle <= tolerance

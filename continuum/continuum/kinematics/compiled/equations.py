@@ -1,12 +1,7 @@
-"""The library's equations, made known to numba, and a cache of compiled code that follows their sources.
-
-Numba's cache looks at the file of the compiled function alone; ours calls equations from many files. So every entry
-point carries a digest of all of them in its closure, which is a part of the cache's key.
-"""
+"""The library's equations, made known to numba, and how the solver's loops around them are compiled."""
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,7 +10,8 @@ import numba
 import numpy as np
 from numba.extending import register_jitable
 
-from continuum import kinematics
+from continuum import compiled_code, kinematics
+from continuum.compiled_code import compiled
 from continuum.kinematics import rigid, smooth_functions
 from continuum.kinematics.chain import eq10_pose, eq11_jacobian
 from continuum.kinematics.section import chord, eq04_pose, eq05_configuration_from_point, eq21_jacobian
@@ -44,15 +40,13 @@ _EQUATIONS = (
 for _equation in _EQUATIONS:
     register_jitable(_equation)
 
-compiled = numba.njit(error_model="numpy")
-"""Compiles a function that is called from compiled code alone; not cached by itself."""
-
+__all__ = ["argument", "compiled", "entry_point", "inlined", "merged", "sources_digest"]
 
 inlined = numba.njit(error_model="numpy", forceinline=True)
-"""The same for small functions called all the time: handing over an arm's arrays takes as long as their work."""
+"""As `compiled`, for small functions called all the time: handing over an arm's arrays takes as long as their work."""
 
 merged = numba.njit(error_model="numpy", inline="always")
-"""The same for functions with one caller: they become a part of it, which spares the time to compile them apart."""
+"""As `compiled`, for functions with one caller: they become a part of it, which spares compiling them apart."""
 
 
 def argument(value: Any) -> Any:
@@ -62,13 +56,9 @@ def argument(value: Any) -> Any:
 
 def sources_digest() -> str:
     """Digest of all source files that compiled code may come from."""
-    digest = hashlib.sha256()
-    for path in sorted(Path(kinematics.__path__[0]).rglob("*.py")):
-        digest.update(path.read_bytes())
-    return digest.hexdigest()
+    return compiled_code.sources_digest(Path(kinematics.__path__[0]))
 
 
 def entry_point(build: Callable[[str], Callable[..., Any]]) -> Callable[..., Any]:
     """Compile, once and cached on disk, the function that ``build`` makes around the digest of the sources."""
-    function: Callable[..., Any] = numba.njit(build(sources_digest()), cache=True, error_model="numpy")
-    return function
+    return compiled_code.entry_point(build, sources_digest())

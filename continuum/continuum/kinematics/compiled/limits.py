@@ -26,6 +26,15 @@ def pull_within(arm: ArmArrays, w: Array) -> None:
 
 
 @compiled
+def is_within(w: Array, limits: Array) -> bool:
+    """Whether no section of ``w`` (2 n_sections,) [rad] is bent more than ``limits`` (n_sections,) [rad]."""
+    inside = True
+    for i in range(len(limits)):
+        inside = inside and math.hypot(w[2 * i], w[2 * i + 1]) <= limits[i]
+    return inside
+
+
+@compiled
 def hold_outward(arm: ArmArrays, w: Array, step: Array, held: NDArray[np.bool_], jacobian: Array, n_rows: int) -> bool:
     """Take out of ``jacobian`` what would bend a section beyond its limit; True if that changed anything.
 

@@ -23,6 +23,8 @@ _DIFFERENCE = 1e-5  # step of the differences [rad]
 _LARGEST_STEP = 0.5  # of any coordinate in one iteration [rad]
 _MAX_ITERATIONS = 100
 _NEARER = 1e-6  # part by which a squared error must be less to count as less
+_ALIKE, _BESIDE = 1e-2, 0.2  # part of a squared error, and distance [rad], by which ends of descents count as one
+_EQUAL = 1e-6  # part of a squared error by which they do wherever they are, as where an arm is free to turn
 _ROUNDING = 1e-13  # part of a squared error that rounding may hide
 _STATIONARY = 1e-10  # gradient of the half squared error, in weights per rad, that ends the search
 
@@ -150,9 +152,10 @@ def _hessian(
 
 @merged
 def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tries: int) -> tuple[int, bool]:
-    """The nearest pose that descents find from the first of ``ends`` and from the ``n_tries`` best; fills ``w``.
+    """The nearest pose that descents find from the first of ``ends`` and the ``n_tries`` best; fills ``w``.
 
-    The first end, that of a warm start, wins over others that are no nearer: a moving arm stays where it is.
+    Of ends that are alike one is tried. The first, that of a warm start, wins over others that are no nearer: a moving
+    arm stays where it is.
 
     Returns:
         Iterations, and whether the answer is a minimum.
@@ -161,10 +164,14 @@ def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tr
     best = np.inf
     iterations, settled = 0, False
     error, jacobian = np.empty(target.n_rows), np.empty((6, len(w)))
-    for k in range(-1, min(n_tries, len(ends))):
+    n_tried = 0
+    for k in range(-1, len(ends)):
         row = 0 if k < 0 else order[k]
-        if ends[row, 0] == np.inf:
+        if ends[row, 0] == np.inf or n_tried > n_tries:
             continue
+        if k > 0 and _is_like(ends[row], ends[order[k - 1]]):
+            continue
+        n_tried += 1
         candidate = ends[row, 1:].copy()
         spent, is_minimum = descend_to_nearest(arm, target, candidate)
         iterations += spent
@@ -173,3 +180,13 @@ def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tr
             best, settled = cost, is_minimum
             w[:] = candidate
     return iterations, settled
+
+
+@merged
+def _is_like(end: Array, other: Array) -> bool:
+    """Whether two ends of descents, each a squared error and a configuration, lead to one pose or to its like."""
+    difference = abs(end[0] - other[0])
+    way = 0.0
+    for k in range(1, len(end)):
+        way = max(way, abs(end[k] - other[k]))
+    return difference <= _EQUAL * end[0] or (difference <= _ALIKE * end[0] and way < _BESIDE)

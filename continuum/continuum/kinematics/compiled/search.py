@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from continuum.arrays import Array
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
 from continuum.kinematics.compiled.descent import descend
 from continuum.kinematics.compiled.equations import argument, compiled, merged
+from continuum.kinematics.compiled.limits import is_within
 from continuum.kinematics.compiled.task import TargetArrays
-from continuum.kinematics.fabrikc import fabrikc
+from continuum.kinematics.compiled.two_sections import MOST_CANDIDATES, fill_candidates
+from continuum.kinematics.fabrikc import LARGEST_BEND, fabrikc
+from continuum.kinematics.ik_target import POSITION
 from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
 
 _FABRIKC_PASSES = argument(1)
@@ -21,13 +26,17 @@ def start_postures(n_sections: int, count: int) -> Array:
     """Postures (count, 2 n_sections) to start from, in parts of the bend limit: a low-discrepancy sequence, no chance.
 
     Roberts's generalisation of the golden ratio: with g the root of g^(d+1) = g + 1, coordinate j moves on by g^-j.
+    In every third posture all sections stand at their limit, and in every third about half of them: an answer in such a
+    corner of what is allowed is hardly found from elsewhere.
     """
     d = 2 * n_sections
     g = 2.0
     for _ in range(60):
         g = (1.0 + g) ** (1.0 / (d + 1.0))
-    points = (0.5 + np.arange(1, count + 1)[:, None] * g ** -np.arange(1.0, d + 1.0)) % 1.0
+    numbers, strides = np.arange(1, count + 1)[:, None], g ** -np.arange(1.0, d + 1.0)
+    points = (0.5 + numbers * strides) % 1.0
     bend, azimuth = points[:, 0::2], 2.0 * np.pi * points[:, 1::2]
+    bend[(numbers % 3 == 0) | ((numbers % 3 == 2) & (bend < 0.5))] = 1.0
     return np.stack([bend * np.cos(azimuth), bend * np.sin(azimuth)], axis=-1).reshape(count, d)
 
 
@@ -40,33 +49,53 @@ def _point_at(arm: ArmArrays, position: Array, w: Array) -> None:
 
 
 @compiled
+def n_ends(postures: Array) -> int:
+    """How many descents there may be."""
+    return 2 + MOST_CANDIDATES + len(postures)
+
+
+@compiled
 def search(
-    arm: ArmArrays, target: TargetArrays, w: Array, is_warm: bool, tolerance: float, postures: Array, ends: Array
+    arm: ArmArrays,
+    target: TargetArrays,
+    w: Array,
+    is_warm: bool,
+    tolerance: float,
+    postures: Array,
+    searched: Array,
+    ends: Array,
 ) -> tuple[int, float, float, bool]:
     """Solve from ``w`` (2 n_sections,) [rad], then from the start postures in turn; ``w`` is the answer.
 
     One pass of FABRIKc before a descent puts it on the right side of the arm's folds; for a single section Eq. 5 is the
     answer. A warm start, which is near the answer, is tried without either first.
 
-    ``ends`` (2 + n_postures, 1 + 2 n_sections) receives where the descents ended that did not arrive, each row the
+    ``searched`` (n_sections,) are bends [rad] within which a search has failed; zero, if this is the first.
+
+    ``ends`` (n_ends(postures), 1 + 2 n_sections) receives where the descents ended that did not arrive, each row the
     squared error [m2] and the configuration; it tells the search for the nearest pose where to begin.
 
     Returns:
         Iterations of all descents, distance [m], angle [rad], and whether the target is solved.
     """
-    begin = w.copy()
+    begin, legs = w.copy(), np.full(len(arm.b), LARGEST_BEND)
     iterations = 0
     first = 0 if is_warm else 1
-    for k in range(first, 2 + len(postures)):
+    n_candidates, candidates = 0, np.empty((MOST_CANDIDATES, 4))
+    for k in range(first, len(ends)):
+        if k == 2 and len(arm.b) == 2 and target.n_rows > POSITION:
+            n_candidates = fill_candidates(arm, target, candidates)
         if k < 2:
             w[:] = begin
+        elif k < 2 + n_candidates:
+            w[:] = candidates[k - 2]
+        elif k < 2 + n_candidates + len(postures):
+            _stand(arm, postures[k - 2 - n_candidates], searched, k % len(arm.b), w)
         else:
-            for i in range(len(arm.b)):
-                w[2 * i] = arm.bend_limit[i] * postures[k - 2, 2 * i]
-                w[2 * i + 1] = arm.bend_limit[i] * postures[k - 2, 2 * i + 1]
+            break
         if k == 1 and len(arm.b) == 1:
             _point_at(arm, target.position, w)
-        elif k > 0:
+        elif (k == 1 or k >= 2 + n_candidates) and is_within(w, legs):
             fabrikc(arm, target, w, tolerance, _FABRIKC_PASSES)
         spent, distance, angle, solved = descend(arm, target, w, tolerance, _MAX_ITERATIONS, _DAMPING)
         iterations += spent
@@ -77,3 +106,13 @@ def search(
         ends[k, 0] = distance * distance + (target.weight * angle) ** 2
         ends[k, 1:] = w
     return iterations, distance, angle, solved
+
+
+@merged
+def _stand(arm: ArmArrays, posture: Array, searched: Array, beyond: int, w: Array) -> None:
+    """Fill ``w`` with a ``posture``; section ``beyond`` bends more than was ``searched`` already."""
+    for i in range(len(searched)):
+        part = math.hypot(posture[2 * i], posture[2 * i + 1])
+        least = searched[i] if i == beyond else 0.0
+        bend = least + part * (arm.bend_limit[i] - least)
+        w[2 * i], w[2 * i + 1] = bend / part * posture[2 * i], bend / part * posture[2 * i + 1]

@@ -15,6 +15,9 @@ from continuum.kinematics.compiled.tip import fill_jacobian, nine, walk_to_tip
 from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION
 from continuum.kinematics.rigid import Entries9
 
+FAR = 1e7
+"""Distance of targets that are brought nearer, in weights: a million lengths of an arm."""
+
 
 class TargetArrays(NamedTuple):
     """A target as compiled code sees it.
@@ -34,7 +37,12 @@ class TargetArrays(NamedTuple):
 
 @compiled
 def target_of(row: Array, weight: float) -> TargetArrays:
-    """The target that a row of :attr:`Targets.rows` holds; ``weight`` is what one radian counts [m]."""
+    """The target that a row of :attr:`Targets.rows` holds.
+
+    ``weight`` is what one radian counts [m]. Squares of lengths that are very large beside the arm's tell nothing of
+    its posture any more. So a target beyond FAR is brought nearer, along its line from the base; `distance_to` tells
+    how far away it was.
+    """
     rotation = np.zeros((3, 3))
     n_rows = POSITION
     if len(row) == 6:
@@ -43,7 +51,19 @@ def target_of(row: Array, weight: float) -> TargetArrays:
     elif len(row) == 12:
         n_rows = POSE
         rotation[:] = row[3:].reshape(3, 3)
-    return TargetArrays(n_rows, weight, row[:3], rotation)
+    position, far = row[:3], FAR * weight
+    length = math.hypot(math.hypot(position[0], position[1]), position[2])
+    if length > far:
+        position = position / length * far
+    return TargetArrays(n_rows, weight, position, rotation)
+
+
+@compiled
+def distance_to(arm: ArmArrays, w: Array, point: Array) -> float:
+    """Distance [m] from the tip at ``w`` (2 n_sections,) [rad] to ``point`` (>= 3,) [m], be it ever so large."""
+    bases, tips = np.empty((len(arm.b) + 1, 9)), np.empty((len(arm.b), 3))
+    _, tip = walk_to_tip(arm, w, bases, tips)
+    return math.hypot(math.hypot(point[0] - tip[0], point[1] - tip[1]), point[2] - tip[2])
 
 
 def radian_in_metres(arm: Arm) -> float:

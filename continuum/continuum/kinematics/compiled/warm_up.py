@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from continuum.arm import Arm, Section
@@ -17,9 +19,9 @@ from continuum.kinematics.inverse_kinematics import InverseKinematics
 def warm_up() -> None:
     """Call every entry point once."""
     section = Section("section", n_joints=5, b=0.02, a=0.03)
-    arm = Arm((section,))
+    arm = Arm((section, replace(section, name="another")))
     InverseKinematics(arm).solve(Target([0.0, 0.0, section.length]))
-    DifferentialKinematics(arm).rate([[0.0, 0.1]], [0.0, 0.0, 0.0])
+    DifferentialKinematics(arm).rate([[0.0, 0.1], [0.0, 0.1]], [0.0, 0.0, 0.0])
     solve_fabrikc(arm, np.array([0.0, 0.0, section.length]))
 
 
