@@ -22,7 +22,7 @@ test: check ## run the checks and every test (ARGS="-k name" are given to pytest
 reproduction: setup ## make the thesis's dynamic results again: docs/reproduction.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.reproduction $(ARGS)
 
-bench-dynamics: setup ## measure the integrators against each other: docs/numerics.md (about 10 minutes)
+bench-dynamics: setup ## measure the integrators against each other: docs/numerics.md (about 6 minutes)
 	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/bench_dynamics/extra \
 	  -r tools/bench_dynamics/requirements.txt || echo "scikit-sundae cannot be installed and is left out"
 	@$(IN_WORKSPACE) python3 -m tools.bench_dynamics $(ARGS)

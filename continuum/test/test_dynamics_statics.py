@@ -1,4 +1,4 @@
-"""Where the arm rests: forces in balance, least energy, the cables' losses, and the postures that dry friction holds."""
+"""Where the arm rests: forces in balance, least energy, losses of the cables, and what dry friction holds."""
 
 from collections.abc import Mapping
 from functools import lru_cache
@@ -183,7 +183,7 @@ def test_at_the_ends_of_the_zone_every_joint_is_about_to_slip(seed: int, load: L
 
 @pytest.mark.parametrize("load", LOADS)
 def test_the_intervals_hold_every_posture_that_friction_holds_and_no_more(load: Load) -> None:
-    """Postures drawn around the equilibrium: those within break-away torque lie in the intervals, and nearly fill them."""
+    """Of postures around the equilibrium, those within break-away torque lie in the intervals and nearly fill them."""
     model, found, zone = zone_of(9, load)
     random = np.random.default_rng(1)
     torques = random.uniform(-1, 1, (4000, N)) * 1.05 * zone.break_away
@@ -200,12 +200,9 @@ def test_the_intervals_hold_every_posture_that_friction_holds_and_no_more(load: 
 
 @pytest.mark.parametrize("joint", range(N))
 def test_within_the_zone_the_arm_stays_and_beyond_it_moves(joint: int) -> None:
-    load = LOADS[1]
-    model, found, zone = zone_of(10, load)
-    simulator = Simulator(model.with_values({"capstan_friction": 0.0}))
-    model = simulator.model
+    load, model = LOADS[1], model_of(10).with_values(STICKY | {"capstan_friction": 0.0})
     found = found_at(model, load)
-    zone = sticking_zone(arm_of(model), found)
+    zone, simulator = sticking_zone(arm_of(model), found), Simulator(model)
     times, tensions = np.array([0.0, 0.5]), Tensions(np.zeros(1), load.tension[None])
     for share, moves in ((0.95, False), (1.3, True)):
         start = found.theta + share * (zone.postures[1, joint] - found.theta)

@@ -59,7 +59,8 @@ def page(result: Result) -> str:
     return f"""# Numerics: how Eq. 12 is integrated
 
 Made by `make bench-dynamics`, which writes every figure here. Times are processor times on one core, the shortest of
-several runs: read them as ratios within the page. {machine()}
+several runs: read them as ratios within the page.
+{machine()}
 
 ## One release, every integrator
 
@@ -133,12 +134,13 @@ Links like the prototype's, bent by 75 degrees in total and let go; the first {S
 |---|---|---|---|
 {chr(10).join(_size_row(size) for size in result.sizes)}
 
-Time grows with the number of joints to the power {result.exponent:.2f}: to the power two by Newton's matrix, to the
-power three by its factors, and more by the steps, as more joints stick and slip. Three things keep {largest.n_joints}
-joints in reach. Torques are summed along the arm, in a number of operations that grows with n alone, so that an
-iteration without a new matrix costs little. The matrix is one derivative, in one direction a joint, not three
-Jacobians. And the C code of long arms is cut into short functions, as compilers take the square of a function's
-length. Compiling is what hurts; its result is kept, and values of parameters are no part of it.
+Time grows with the number of joints to the power {result.exponent:.2f}, mostly by Newton's matrix, whose entries are as
+many as the joints squared and whose factors take their cube; the number of steps grows at first only. Three things keep
+{largest.n_joints} joints in reach. Torques are summed along the arm, in a number of operations that grows with n alone,
+so that an iteration without a new matrix costs little. The matrix is one derivative, in one direction a joint, not
+three Jacobians. And the C code of long arms is cut into short functions, as compilers take the square of a function's
+length. Compiling (elapsed time, other work on the machine included) is what hurts; its result is kept, and values of
+parameters are no part of it.
 """
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,61 +10,64 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model import ActiveEffect, Model
-from continuum.identification.free import Free, FreeSpace, is_per_recording
+from continuum.identification.free import Free, FreeSpace
 
 
 @dataclass(frozen=True)
-class Part:
+class Addition:
     """One effect of an extension.
 
     Attributes:
         effect: its name.
-        joints: where it acts, from 0; None everywhere, or where it has nothing to do with single joints.
+        joints: where it acts, from 0; None at all, or where it has nothing to do with single joints.
     """
 
     effect: str
     joints: tuple[int, ...] | None = None
 
     def __str__(self) -> str:
-        where = "" if self.joints is None else " at joint " + ", ".join(str(j + 1) for j in self.joints)
-        return self.effect + where
+        return self.effect + ("" if self.joints is None else "@" + ",".join(str(joint + 1) for joint in self.joints))
 
 
-Extension = tuple[Part, ...]
+type Extension = tuple[Addition, ...]
 """Effects beyond Eq. 12; () is Eq. 12 itself."""
 
 
 def extended(model: Model, extension: Extension) -> Model:
     """The model with all effects of an extension, each absent until its parameters are moved."""
     added = []
-    for part in extension:
-        effect = effect_named(part.effect)
+    for addition in extension:
+        effect = effect_named(addition.effect)
         values = {
-            name: parameter.array(parameter.default, model.n_joints, f"{part.effect}.{name}")
+            name: parameter.array(parameter.default, model.n_joints, f"{addition.effect}.{name}")
             for name, parameter in effect.parameters.items()
         }
         added.append(ActiveEffect(effect, values))
     return replace(model, effects=model.effects + tuple(added))
 
 
-def unknowns_of(model: Model, extension: Extension) -> list[Free]:
-    """Unknowns that the extension adds; a parameter that joints have each of their own gives one for each joint."""
+def unknowns_of(addition: Addition, n_joints: int, n_recordings: int) -> list[Free]:
+    """Unknowns that an effect adds: one for each joint or recording where these have values of their own."""
     found = []
-    for part in extension:
-        for name, parameter in effect_named(part.effect).parameters.items():
-            full = f"{part.effect}.{name}"
-            if not parameter.per_joint:
-                found.append(Free(full))
-                continue
-            found += [Free(full, joint) for joint in (part.joints or range(model.n_joints))]
+    for name, parameter in effect_named(addition.effect).parameters.items():
+        joints: Sequence[int | None] = (addition.joints or range(n_joints)) if parameter.per_joint else (None,)
+        runs: Sequence[int | None] = range(n_recordings) if parameter.per_recording else (None,)
+        found += [Free(f"{addition.effect}.{name}", joint, run) for joint in joints for run in runs]
     return found
 
 
-def beginning(model: Model, free: list[Free]) -> Array:
-    """Coordinates to begin a fit at, (k,): what may have either sign begins absent, what has one sign at its typical size.
+def acts_at_joints(effect: str) -> bool:
+    """Whether the effect may be one joint's alone."""
+    return any(parameter.per_joint for parameter in effect_named(effect).parameters.values())
 
-    Slopes at zero show the way only where zero lies within the bounds.
+
+def beginning(space: FreeSpace, added: int) -> Array:
+    """Coordinates to begin a fit at, (k,): the last ``added`` ones at a typical size where they cannot be negative.
+
+    Where an unknown may have either sign, slopes at zero show the way.
     """
-    space = FreeSpace(model, [unknown for unknown in free if not is_per_recording(model, unknown)])
-    one_sided = (space.lower > -1e-3) & ["." in unknown.name for unknown in space.unknowns]
-    return space.clipped(np.where(one_sided, 1.0, 0.0))
+    start = np.zeros(space.scale.size)
+    one_sided = space.lower > -1e-2
+    one_sided[: start.size - added] = False
+    start[one_sided] = 1.0
+    return space.clipped(start)

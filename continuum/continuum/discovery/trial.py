@@ -1,44 +1,22 @@
-"""One extension of the model fitted to all runs, and to each half of them to predict the other half."""
+"""One extension of the model, fitted and judged."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Extension, beginning, extended, unknowns_of
-from continuum.discovery.structure_left import StructureLeft, structure_left
-from continuum.dynamics.model import Model
+from continuum.discovery.held_out import held_out_misfits
+from continuum.discovery.question import Question
+from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.arrow_least_squares import FitStatus
-from continuum.identification.dataset import Split
-from continuum.identification.fit import Fit, fit, predict
-from continuum.identification.free import Free
-from continuum.identification.noise import Noise
-from continuum.identification.recording import Recording
+from continuum.identification.fit import QUICK, Effort, Fit, fit
+from continuum.identification.free import Free, FreeSpace
 
-_BLOCKS = 8
-
-
-@dataclass(frozen=True)
-class Question:
-    """What all trials of a diagnosis share.
-
-    Attributes:
-        model: Eq. 12 with nominal values.
-        baseline: unknowns that are fitted in any case.
-        recordings: of the dataset.
-        split: the same, in two halves.
-        noise: of the sensors.
-    """
-
-    model: Model
-    baseline: tuple[Free, ...]
-    recordings: tuple[Recording, ...]
-    split: Split
-    noise: Noise
+_TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # over a window errors stay below a hundredth of a degree
 
 
 @dataclass(frozen=True)
@@ -47,74 +25,70 @@ class Trial:
 
     Attributes:
         extension: what was tried.
-        status: of the fit to all runs.
-        free: all shared unknowns; coordinates: where they ended, (k,).
-        own: coordinates of each run's own unknowns.
-        misfit: sum of squared errors of the fit to all runs, in units of the noise.
-        n_errors: how many errors that are.
-        held_out: the same for every run when the half without it was fitted, by stretches of
-            time, (n_runs, n_blocks); runs in the order of the split.
-        structure: what the fit to all runs leaves.
+        status: of the fit.
+        unknowns, coordinates: of the fit; values added to the model's, in their own units, are in ``amounts``.
+        held_out: misfit of each run's windows when the other runs predict it; of a right model about ``sizes``.
+        sizes: number of errors in each of these windows, less its own unknowns.
         simulations: how many runs were simulated.
     """
 
     extension: Extension
     status: FitStatus
-    free: tuple[Free, ...]
+    unknowns: tuple[Free, ...]
     coordinates: Array
-    own: tuple[Array, ...]
-    misfit: float
-    n_errors: int
-    held_out: Array
-    structure: StructureLeft
+    amounts: Array
+    held_out: tuple[Array, ...]
+    sizes: tuple[Array, ...]
     simulations: int
 
+    @property
+    def misfit(self) -> float:
+        """All of it."""
+        return float(sum(run.sum() for run in self.held_out))
 
-def full_fit(
-    question: Question, extension: Extension, start: Array | None = None, own: Sequence[Array] | None = None
+    @property
+    def relative(self) -> Array:
+        """Misfit of every window in units of its size, (n_windows,): about 1 for a right model."""
+        return np.concatenate(self.held_out) / np.concatenate(self.sizes)
+
+
+def fit_extension(
+    question: Question, extension: Extension, start: dict[Free, float] | None = None, effort: Effort = QUICK
 ) -> Fit:
-    """The extension fitted to all runs."""
+    """Fit the extended model to all runs.
+
+    Args:
+        question: data and model.
+        extension: effects beyond Eq. 12.
+        effort: how long to search.
+        start: coordinates to start from, by unknown; what is not among them starts absent or at a typical size.
+    """
     model = extended(question.model, extension)
-    free = [*question.baseline, *unknowns_of(question.model, extension)]
-    begin = beginning(model, free) if start is None else start
-    return fit(Simulator(model), question.recordings, question.noise, free, begin, own)
+    added = [u for a in extension for u in unknowns_of(a, model.n_joints, len(question.recordings))]
+    free = [*question.baseline, *added]
+    begin = beginning(FreeSpace(model, free), len(added))
+    for i, unknown in enumerate(free):
+        begin[i] = (start or {}).get(unknown, begin[i])
+    return fit(Simulator(model, _TOLERANCES), question.recordings, question.noise, free, begin, effort=effort)
 
 
-def judged(question: Question, extension: Extension, whole: Fit) -> Trial:
-    """The trial of an extension whose fit to all runs is known."""
-    free = [*whole.free, *whole.runs[0].own.unknowns]
-    held_out: list[Array] = []
-    simulations = whole.simulations
-    for split in (question.split.swapped, question.split):
-        half = fit(whole.simulator, split.identification, question.noise, free, whole.coordinates)
-        there = predict(half, split.validation, question.noise)
-        simulations += half.simulations + there.simulations
-        held_out += [_by_stretches(there, i) for i in range(len(split.validation))]
-    errors = [whole.errors(i) for i in range(len(whole.runs))]
-    shared = whole.coordinates.size / len(whole.runs)
-    structure = structure_left(
-        errors, [r.times for r in question.recordings], whole.unknowns.own[0].size + shared
-    )
+def judged(question: Question, extension: Extension, fitted: Fit) -> Trial:
+    """The trial of an extension that was fitted."""
+    held_out = held_out_misfits(fitted)
+    own = fitted.unknowns.own_spread.size
+    sizes = iter([max(part.errors.size - own, 1) for part in fitted.parts])
     return Trial(
         extension,
-        whole.status,
-        whole.free,
-        whole.coordinates,
-        tuple(whole.unknowns.own),
-        float(whole.misfits.sum()),
-        sum(part.errors.size for part in whole.parts),
-        np.stack(held_out),
-        structure,
-        simulations,
+        fitted.status,
+        fitted.space.unknowns,
+        fitted.coordinates,
+        fitted.space.scale * fitted.coordinates,
+        tuple(held_out),
+        tuple(np.array([next(sizes) for _ in run], dtype=float) for run in held_out),
+        fitted.simulations,
     )
 
 
-def _by_stretches(predicted: Fit, run: int) -> Array:
-    """Squared errors of a run summed over stretches of time, (n_blocks,); infinite where it cannot be simulated."""
-    if not predicted.parts:
-        return np.full(_BLOCKS, np.inf)
-    errors = predicted.errors(run)
-    by_time = (errors.angle**2).sum(axis=1)
-    if errors.rate is not None:
-        by_time = by_time + (errors.rate**2).sum(axis=1)
-    return np.array([stretch.sum() for stretch in np.array_split(by_time, _BLOCKS)])
+def coordinates_by_unknown(trial: Trial) -> dict[Free, float]:
+    """Where a trial ended, as the start of another."""
+    return dict(zip(trial.unknowns, map(float, trial.coordinates), strict=True))

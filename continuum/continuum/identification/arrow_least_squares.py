@@ -19,7 +19,6 @@ from continuum.arrays import Array
 _ENOUGH = 0.05  # of log-likelihood: a smaller expected gain is not worth a step
 _ENOUGH_OF_COST = 1e-4
 _LEAST_DAMPING, _MOST_DAMPING = 1e-5, 1e5
-_MOST_ITERATIONS = 30
 _HEAVY_TAIL = 4.0  # misfit per error up to which noise is nearly normal
 
 
@@ -82,14 +81,14 @@ class Solution:
     evaluations: int
 
 
-def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns) -> Solution:
-    """Search from where the unknowns are."""
+def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int) -> Solution:
+    """Search from where the unknowns are, with at most so many iterations."""
     shared, own = unknowns.shared, list(unknowns.own)
     parts = evaluate(shared, own)
     if parts is None:
         return Solution(FitStatus.NO_SIMULATION, shared, own, [], np.inf, 1)
     cost, damping, evaluations = _cost(unknowns, parts, shared, own), 1e-2, 1
-    for _ in range(_MOST_ITERATIONS):
+    for _ in range(iterations):
         step, own_steps, gain = _damped_step(unknowns, parts, shared, own, damping)
         enough = max(_ENOUGH, _ENOUGH_OF_COST * cost)
         if gain < enough and damping <= 1.0:

@@ -50,13 +50,13 @@ class Identifiability:
 
 def identifiability(fitted: Fit) -> Identifiability:
     """Of a fit's shared unknowns."""
-    spread = fitted.unknowns.shared_spread
+    spread = fitted.space.spread
     scaled = fitted.information * np.outer(spread, spread)  # the prior alone would be the identity
     covariance = np.linalg.inv(scaled)
     sd = np.sqrt(np.diag(covariance))
     of_data = np.linalg.eigvalsh(scaled - np.eye(spread.size))
     return Identifiability(
-        fitted.free,
+        fitted.space.unknowns,
         1 - sd,
         covariance / np.outer(sd, sd),
         float(np.sqrt(of_data[-1] / max(of_data[0], 1e-12 * of_data[-1]))) if of_data.size else 1.0,

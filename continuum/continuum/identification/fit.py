@@ -27,10 +27,19 @@ from continuum.identification.window_residual import WindowResidual
 from continuum.identification.window_settling import settled
 from continuum.identification.windows import usual_length
 
-_ROUNDS = 2  # of all windows settled by themselves, then all unknowns together
-
 THESIS_PARAMETERS = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
 """What the thesis identified (chapter 3.3), each common to all joints."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How long a fit searches: rounds of windows settled one by one and all unknowns together, iterations of the latter."""
+
+    rounds: int
+    iterations: int
+
+
+THOROUGH, QUICK = Effort(2, 30), Effort(1, 8)
 
 
 @dataclass(frozen=True)
@@ -96,6 +105,7 @@ def fit(
     free: Sequence[Free],
     start: Array | None = None,
     length: float | None = 0.0,
+    effort: Effort = THOROUGH,
 ) -> Fit:
     """Fit the unknowns ``free`` of a model, and the first state of every window.
 
@@ -106,6 +116,7 @@ def fit(
         free: unknowns.
         start: coordinates to start from, (k,); the model's own values without.
         length: of the windows [s]; 0 for the usual one, None for one window a run.
+        effort: how long to search.
 
     Raises:
         InvalidValueError: an unknown that the model does not have.
@@ -129,9 +140,9 @@ def fit(
         return parts
 
     simulations = 0
-    for _ in range(_ROUNDS):
+    for _ in range(effort.rounds):
         unknowns = replace(unknowns, own=_settled(runs, unknowns))
-        found = arrow_least_squares(evaluate, unknowns)
+        found = arrow_least_squares(evaluate, unknowns, effort.iterations)
         unknowns = replace(unknowns, shared=found.shared, own=list(found.own))
         simulations += (found.evaluations + 1) * len(runs)
     ended = unknowns

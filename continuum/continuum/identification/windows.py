@@ -8,9 +8,9 @@ nearly linear in its parameters, and still every torque shows: links are light, 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
-from scipy.linalg import solve_triangular
 
 from continuum.arrays import Array
 from continuum.identification.noise import Channel, Noise
@@ -33,7 +33,7 @@ def window_rows(recording: Recording, length: float | None) -> list[slice]:
     pieces = max(1, min(round(span / length), n // 4))
     edges = np.searchsorted(recording.times, np.linspace(recording.times[0], recording.times[-1], pieces + 1))
     edges[-1] = n
-    return [slice(int(a), int(b)) for a, b in zip(edges[:-1], edges[1:], strict=True) if b - a > 1]
+    return [slice(int(a), int(b)) for a, b in pairwise(edges) if b - a > 1]
 
 
 def usual_length(recording: Recording) -> float:
@@ -46,8 +46,9 @@ class Whitener:
     """Makes the errors of one window independent and of unit variance.
 
     Attributes:
-        angle_in_time, rate_in_time: Cholesky factors of the covariance in time; no rates where none were measured.
-        angle_joints, rate_joints: inverse Cholesky factors of the covariance over the joints.
+        angle_in_time, rate_in_time: inverse Cholesky factors of the covariance in time, (n_times, n_times); no rates where
+            none were measured.
+        angle_joints, rate_joints: the same over the joints, (n_joints, n_joints).
     """
 
     angle_in_time: Array
@@ -60,7 +61,7 @@ class Whitener:
         parts = [_whitened(angle, self.angle_in_time, self.angle_joints)]
         if self.rate_in_time is not None and self.rate_joints is not None:
             parts.append(_whitened(rate, self.rate_in_time, self.rate_joints))
-        return np.concatenate([part.reshape(-1, *part.shape[2:]) for part in parts])
+        return np.concatenate([part.reshape(-1, *angle.shape[2:]) for part in parts])
 
 
 def whitener(noise: Noise, recording: Recording, rows: slice) -> Whitener:
@@ -72,9 +73,12 @@ def whitener(noise: Noise, recording: Recording, rows: slice) -> Whitener:
 
 
 def _factors(channel: Channel, times: Array) -> tuple[Array, Array]:
-    return np.linalg.cholesky(channel.in_time(times)), np.linalg.inv(np.linalg.cholesky(channel.joints))
+    return (
+        np.linalg.inv(np.linalg.cholesky(channel.in_time(times))),
+        np.linalg.inv(np.linalg.cholesky(channel.joints)),
+    )
 
 
 def _whitened(values: Array, in_time: Array, joints: Array) -> Array:
-    flat = solve_triangular(in_time, values.reshape(values.shape[0], -1), lower=True)
-    return np.asarray(np.einsum("ij,tj...->ti...", joints, flat.reshape(values.shape)))
+    by_time = in_time @ values.reshape(values.shape[0], -1)
+    return np.asarray(np.matmul(joints, by_time.reshape(*values.shape[:2], -1)))

@@ -1,0 +1,57 @@
+"""How well a fitted model explains a run that it was not fitted to, for every run, without a fit for each.
+
+Windows are nearly linear in the shared unknowns, so that the fit without a run follows from the fit with it by one step of
+Newton's method (Cook 1977, for whole runs instead of single points): x + (H - H_r)^-1 g_r.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.identification.arrow_least_squares import Part, misfit_of, reduced, weight_of
+from continuum.identification.fit import Fit
+
+
+def held_out_misfits(fitted: Fit) -> list[Array]:
+    """Misfit of every window of every run, each run predicted by the others.
+
+    What belongs to a run alone, its windows' first states and its sensors' offsets, is the run's own; that is paid for with
+    half the logarithm of the number of errors for each such unknown (Schwarz 1978). With one run, stretches of it are held
+    out instead.
+    """
+    spread = fitted.unknowns.own_spread
+    groups, single = _groups(fitted), len(fitted.runs) == 1
+    slopes = [reduced(part, spread) for part in fitted.parts]
+    weights = [weight_of(part) for part in fitted.parts]
+    found: list[Array] = []
+    for number, group in enumerate(groups):
+        mine = np.array([u.recording == number and not single for u in fitted.space.unknowns], dtype=bool)
+        square = sum((weights[i] * slopes[i].T @ slopes[i] for i in group), np.zeros_like(fitted.information))
+        pull = sum((weights[i] * slopes[i].T @ fitted.parts[i].errors for i in group), np.zeros(mine.size))
+        rest = fitted.information - square
+        rest[mine] = rest[:, mine] = 0.0
+        rest[mine, mine] = 1.0
+        pull[mine] = 0.0
+        step = np.linalg.solve(rest + 1e-9 * np.diag(np.diag(rest)), pull)
+        step = np.clip(fitted.coordinates + step, fitted.space.lower, fitted.space.upper) - fitted.coordinates
+        price = int(mine.sum()) * np.log(sum(fitted.parts[i].errors.size for i in group)) / len(group)
+        found.append(
+            np.array([_predicted(fitted.parts[i], slopes[i] @ step) + price for i in group])
+        )
+    return found
+
+
+def _groups(fitted: Fit) -> list[list[int]]:
+    """Numbers of the windows that are held out together."""
+    runs, at = [], 0
+    for run in fitted.runs:
+        runs.append(list(range(at, at + len(run.rows))))
+        at += len(run.rows)
+    if len(runs) > 1:
+        return runs
+    return [list(map(int, piece)) for piece in np.array_split(runs[0], min(4, len(runs[0])))]
+
+
+def _predicted(part: Part, change: Array) -> float:
+    return misfit_of(Part(part.errors + change, part.by_shared, part.by_own))

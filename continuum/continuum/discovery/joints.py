@@ -1,0 +1,55 @@
+"""At which joints an effect acts, when it was fitted to all of them: the fewest that explain what all explain."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.identification.fit import Fit
+
+_PART = 0.85  # of what all joints gain must be gained by those named
+_ENOUGH = 8.0  # or all but this much log-likelihood
+
+
+def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
+    """Joints that are named, from 0, in the order of what they gain; all where no few of them do.
+
+    Near the fit the cost is a parabola in the effect's own unknowns, the others following; what is lost by holding some of
+    them at zero is read off it.
+    """
+    unknowns = fitted.space.unknowns
+    mine = [i for i, unknown in enumerate(unknowns) if unknown.name.startswith(effect + ".")]
+    by_joint = {j: [at for at, i in enumerate(mine) if unknowns[i].joint == j] for j in _joints(fitted, mine)}
+    common = [at for at, i in enumerate(mine) if unknowns[i].joint is None]
+    precision = np.linalg.inv(np.linalg.inv(fitted.information)[np.ix_(mine, mine)])
+    found = fitted.coordinates[mine]
+    whole = _loss(precision, found, common)
+    chosen: list[int] = []
+    while len(chosen) < len(by_joint):
+        losses = {
+            j: _loss(precision, found, common + [at for k in (*chosen, j) for at in by_joint[k]])
+            for j in by_joint
+            if j not in chosen
+        }
+        best = min(losses, key=lambda j: losses[j])
+        chosen.append(best)
+        if losses[best] < max((1 - _PART) * whole, _ENOUGH):
+            break
+    return tuple(sorted(chosen))
+
+
+def _joints(fitted: Fit, mine: list[int]) -> list[int]:
+    return sorted({j for i in mine if (j := fitted.space.unknowns[i].joint) is not None})
+
+
+def _loss(precision: Array, found: Array, free: list[int]) -> float:
+    """Least value of (z - found)^T precision (z - found) / 2 with z zero but at ``free``."""
+    held = [i for i in range(found.size) if i not in free]
+    if not held:
+        return 0.0
+    away = found[held]
+    inner = precision[np.ix_(held, held)]
+    if free:
+        cross = precision[np.ix_(held, free)]
+        inner = inner - cross @ np.linalg.solve(precision[np.ix_(free, free)], cross.T)
+    return float(away @ inner @ away / 2)

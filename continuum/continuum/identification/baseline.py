@@ -1,0 +1,28 @@
+"""What every fit moves: the thesis's five parameters, and each joint's own within what parts of one batch differ by."""
+
+from __future__ import annotations
+
+from continuum.dynamics.model import Model
+from continuum.identification.fit import THESIS_PARAMETERS
+from continuum.identification.free import Free
+
+BATCH = {"stiffness": 0.02, "viscous_friction": 0.03, "coulomb_friction": 0.03, "mass": 0.01}
+"""Standard deviation from part to part, relative: coil springs of one batch keep 2 %, turned and weighed parts 1 %."""
+
+DRY_SLOPE, CABLE_SLOPE = 1000.0, 2e4
+"""Slopes k_v [s/rad] and k_l [s/m] at which smoothed friction can no longer be told from Coulomb's."""
+
+
+def baseline_unknowns(model: Model) -> list[Free]:
+    """Unknowns of Eq. 12 itself."""
+    common = [Free(name) for name in THESIS_PARAMETERS]
+    return common + [
+        Free(name, joint, tolerance=tolerance) for name, tolerance in BATCH.items() for joint in range(model.n_joints)
+    ]
+
+
+def with_dry_friction(model: Model) -> Model:
+    """The model with friction as steep as Coulomb's, which sticks; a smoother one creeps where an arm rests."""
+    steep = {"friction_slope": DRY_SLOPE, "cable_slope": CABLE_SLOPE}
+    values = model.values()
+    return model.with_values({name: max(slope, float(values[name][0])) for name, slope in steep.items()})
