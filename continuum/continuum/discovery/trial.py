@@ -13,7 +13,7 @@ from continuum.discovery.question import Question
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.arrow_least_squares import FitStatus
-from continuum.identification.fit import QUICK, Effort, Fit, fit
+from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free, FreeSpace
 
 _TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # over a window errors stay below a hundredth of a degree
@@ -26,7 +26,9 @@ class Trial:
     Attributes:
         extension: what was tried.
         status: of the fit.
-        unknowns, coordinates: of the fit; values added to the model's, in their own units, are in ``amounts``.
+        unknowns, coordinates: of the fit, (k,); amounts: what they add to the model's values, in their own units.
+        own: coordinates of every window's own unknowns.
+        cost: of the fit.
         held_out: misfit of each run's windows when the other runs predict it; of a right model about ``sizes``.
         sizes: number of errors in each of these windows, less its own unknowns.
         simulations: how many runs were simulated.
@@ -37,6 +39,8 @@ class Trial:
     unknowns: tuple[Free, ...]
     coordinates: Array
     amounts: Array
+    own: tuple[Array, ...]
+    cost: float
     held_out: tuple[Array, ...]
     sizes: tuple[Array, ...]
     simulations: int
@@ -53,23 +57,26 @@ class Trial:
 
 
 def fit_extension(
-    question: Question, extension: Extension, start: dict[Free, float] | None = None, effort: Effort = QUICK
+    question: Question, extension: Extension, near: Trial | None = None, iterations: int = 12
 ) -> Fit:
     """Fit the extended model to all runs.
 
     Args:
         question: data and model.
         extension: effects beyond Eq. 12.
-        effort: how long to search.
-        start: coordinates to start from, by unknown; what is not among them starts absent or at a typical size.
+        iterations: of the fit, at most.
+        near: a trial to start from; what is not among its unknowns starts absent or at a typical size.
     """
     model = extended(question.model, extension)
     added = [u for a in extension for u in unknowns_of(a, model.n_joints, len(question.recordings))]
     free = [*question.baseline, *added]
     begin = beginning(FreeSpace(model, free), len(added))
+    there = {} if near is None else dict(zip(near.unknowns, map(float, near.coordinates), strict=True))
     for i, unknown in enumerate(free):
-        begin[i] = (start or {}).get(unknown, begin[i])
-    return fit(Simulator(model, _TOLERANCES), question.recordings, question.noise, free, begin, effort=effort)
+        begin[i] = there.get(unknown, begin[i])
+    own = None if near is None else near.own
+    simulator = Simulator(model, _TOLERANCES)
+    return fit(simulator, question.recordings, question.noise, free, begin, iterations=iterations, own=own)
 
 
 def judged(question: Question, extension: Extension, fitted: Fit) -> Trial:
@@ -83,12 +90,10 @@ def judged(question: Question, extension: Extension, fitted: Fit) -> Trial:
         fitted.space.unknowns,
         fitted.coordinates,
         fitted.space.scale * fitted.coordinates,
+        tuple(fitted.unknowns.own),
+        fitted.cost,
         tuple(held_out),
         tuple(np.array([next(sizes) for _ in run], dtype=float) for run in held_out),
         fitted.simulations,
     )
 
-
-def coordinates_by_unknown(trial: Trial) -> dict[Free, float]:
-    """Where a trial ended, as the start of another."""
-    return dict(zip(trial.unknowns, map(float, trial.coordinates), strict=True))

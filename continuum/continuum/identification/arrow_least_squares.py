@@ -16,9 +16,10 @@ import numpy as np
 
 from continuum.arrays import Array
 
-_ENOUGH = 0.05  # of log-likelihood: a smaller expected gain is not worth a step
-_ENOUGH_OF_COST = 1e-4
-_LEAST_DAMPING, _MOST_DAMPING = 1e-5, 1e5
+_ENOUGH = 0.5  # of log-likelihood: a smaller expected gain is not worth a step
+_ENOUGH_OF_COST = 5e-4
+_LEAST_DAMPING, _MOST_DAMPING = 1e-6, 1e4
+_SEEKINGS = 2  # of windows anew
 _HEAVY_TAIL = 4.0  # misfit per error up to which noise is nearly normal
 
 
@@ -39,8 +40,9 @@ class Part:
     by_own: Array
 
 
-type Evaluate = Callable[[Array, Sequence[Array]], list[Part] | None]
-"""All windows at given shared and own unknowns; None where they cannot be simulated."""
+type Evaluate = Callable[[Array, Sequence[Array], bool], tuple[list[Part], list[Array]] | None]
+"""All windows, and their own unknowns, at given shared ones, the own ones sought from given ones; sought anew where that is
+asked for; None where a window cannot be simulated."""
 
 
 @dataclass(frozen=True)
@@ -82,31 +84,41 @@ class Solution:
 
 
 def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int) -> Solution:
-    """Search from where the unknowns are, with at most so many iterations."""
-    shared, own = unknowns.shared, list(unknowns.own)
-    parts = evaluate(shared, own)
-    if parts is None:
-        return Solution(FitStatus.NO_SIMULATION, shared, own, [], np.inf, 1)
-    cost, damping, evaluations = _cost(unknowns, parts, shared, own), 1e-2, 1
+    """Search from where the unknowns are, with at most so many iterations.
+
+    Damping holds the shared unknowns only; the windows' own follow each step by themselves. Where the search settles,
+    windows that are still bad are sought anew, and it goes on if that helped.
+    """
+    shared = unknowns.shared
+    begun = evaluate(shared, unknowns.own, False)
+    if begun is None:
+        return Solution(FitStatus.NO_SIMULATION, shared, unknowns.own, [], np.inf, 1)
+    (parts, own), damping, evaluations, seekings = begun, 1e-3, 1, 0
+    cost = _cost(unknowns, parts, shared, own)
     for _ in range(iterations):
         step, own_steps, gain = _damped_step(unknowns, parts, shared, own, damping)
         enough = max(_ENOUGH, _ENOUGH_OF_COST * cost)
-        if gain < enough and damping <= 1.0:
+        settled = gain < enough or damping > _MOST_DAMPING
+        if not settled:
+            there = np.clip(shared + step, unknowns.lower, unknowns.upper)
+            tried = evaluate(there, [mine + change for mine, change in zip(own, own_steps, strict=True)], False)
+            evaluations += 1
+            new = np.inf if tried is None else _cost(unknowns, tried[0], there, tried[1])
+            if tried is None or new >= cost:
+                damping *= 10
+                continue
+            damping = max(damping * (0.1 if cost - new > 0.5 * gain else 0.5), _LEAST_DAMPING)
+            settled = cost - new < enough
+            shared, (parts, own), cost = there, tried, new
+        if settled and seekings == _SEEKINGS:
             return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
-        there = np.clip(shared + step, unknowns.lower, unknowns.upper)
-        own_there = [mine + change for mine, change in zip(own, own_steps, strict=True)]
-        tried, evaluations = evaluate(there, own_there), evaluations + 1
-        new = np.inf if tried is None else _cost(unknowns, tried, there, own_there)
-        if tried is None or new >= cost:
-            damping *= 8
-            if damping > _MOST_DAMPING:  # no way down is left: kinks of sticking decide
-                return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
-            continue
-        damping = max(damping * (0.1 if cost - new > 0.5 * gain else 0.5), _LEAST_DAMPING)
-        settled = cost - new < enough and gain < 20 * enough
-        shared, own, parts, cost = there, own_there, tried, new
         if settled:
-            return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
+            sought = evaluate(shared, own, True)
+            evaluations, seekings, damping = evaluations + 1, seekings + 1, 1e-3
+            if sought is None or _cost(unknowns, sought[0], shared, sought[1]) > cost - enough:
+                return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
+            parts, own = sought
+            cost = _cost(unknowns, parts, shared, own)
     return Solution(FitStatus.NO_CONVERGENCE, shared, own, parts, cost, evaluations)
 
 

@@ -23,23 +23,12 @@ from continuum.identification.arrow_least_squares import (
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.noise import Noise
 from continuum.identification.recording import Recording
-from continuum.identification.window_residual import WindowResidual
-from continuum.identification.window_settling import settled
+from continuum.identification.window_residual import WindowAt, WindowResidual
+from continuum.identification.window_settling import descended
 from continuum.identification.windows import usual_length
 
 THESIS_PARAMETERS = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
 """What the thesis identified (chapter 3.3), each common to all joints."""
-
-
-@dataclass(frozen=True)
-class Effort:
-    """How long a fit searches: rounds of windows settled one by one and all unknowns together, iterations of the latter."""
-
-    rounds: int
-    iterations: int
-
-
-THOROUGH, QUICK = Effort(2, 30), Effort(1, 8)
 
 
 @dataclass(frozen=True)
@@ -105,7 +94,8 @@ def fit(
     free: Sequence[Free],
     start: Array | None = None,
     length: float | None = 0.0,
-    effort: Effort = THOROUGH,
+    iterations: int = 30,
+    own: Sequence[Array] | None = None,
 ) -> Fit:
     """Fit the unknowns ``free`` of a model, and the first state of every window.
 
@@ -116,7 +106,8 @@ def fit(
         free: unknowns.
         start: coordinates to start from, (k,); the model's own values without.
         length: of the windows [s]; 0 for the usual one, None for one window a run.
-        effort: how long to search.
+        iterations: at most so many.
+        own: coordinates of each window's own unknowns to start from, run after run; as measured without.
 
     Raises:
         InvalidValueError: an unknown that the model does not have.
@@ -126,31 +117,21 @@ def fit(
         WindowResidual(simulator, recording, i, noise, space, usual_length(recording) if length == 0.0 else length)
         for i, recording in enumerate(recordings)
     ]
-    own = [coordinates for run in runs for coordinates in run.start]
+    first = own or [coordinates for run in runs for coordinates in run.start]
     begin = np.zeros(len(space.unknowns)) if start is None else space.clipped(start)
-    unknowns = Unknowns(begin, space.spread, space.lower, space.upper, own, runs[0].spread)
+    unknowns = Unknowns(begin, space.spread, space.lower, space.upper, first, runs[0].spread)
 
-    def evaluate(shared: Array, owns: Sequence[Array]) -> list[Part] | None:
-        parts: list[Part] = []
+    def evaluate(shared: Array, owns: Sequence[Array], anew: bool) -> tuple[list[Part], list[Array]] | None:
+        windows: list[WindowAt] = []
         for run in runs:
-            found = run.parts(shared, owns[len(parts) : len(parts) + len(run.rows)])
+            found = descended(run, shared, owns[len(windows) : len(windows) + len(run.rows)], anew)
             if found is None:
                 return None
-            parts += found
-        return parts
+            windows += found
+        return [at.part for at in windows], [at.own for at in windows]
 
-    simulations = 0
-    for _ in range(effort.rounds):
-        unknowns = replace(unknowns, own=_settled(runs, unknowns))
-        found = arrow_least_squares(evaluate, unknowns, effort.iterations)
-        unknowns = replace(unknowns, shared=found.shared, own=list(found.own))
-        simulations += (found.evaluations + 1) * len(runs)
-    ended = unknowns
+    found = arrow_least_squares(evaluate, unknowns, iterations)
+    ended = replace(unknowns, shared=found.shared, own=list(found.own))
+    simulations = found.evaluations * len(runs)
     return Fit(found.status, simulator, space, runs, ended, found.parts, found.cost, simulations)
 
-
-def _settled(runs: Sequence[WindowResidual], unknowns: Unknowns) -> list[Array]:
-    own: list[Array] = []
-    for run in runs:
-        own += settled(run, unknowns.shared, unknowns.own[len(own) : len(own) + len(run.rows)], unknowns.own_spread)
-    return own

@@ -82,17 +82,6 @@ class WindowResidual:
         """Coordinates of the windows' own unknowns before any fit: as measured."""
         return [np.zeros(self._unit.size) for _ in self.rows]
 
-    def parts(self, shared: Array, own: Sequence[Array]) -> list[Part] | None:
-        """Errors and slopes of every window; None where the model cannot be simulated."""
-        memory, found = self.first_memory(shared, own[0]), []
-        for window, mine in enumerate(own):
-            at = self.window(window, shared, mine, memory)
-            if at is None:
-                return None
-            memory = at.memory
-            found.append(at.part)
-        return found
-
     def window(self, window: int, shared: Array, own: Array, memory: Memory) -> WindowAt | None:
         """One window whose effects' states begin as the window before left them."""
         k, extra = shared.size, memory.states

@@ -1,12 +1,13 @@
-"""First states of windows improved one by one, parameters held: where a joint sticks in the data and slips in the model.
+"""First states of windows found one by one, the parameters held.
 
-Such a window sits in a place of its own, from which slopes do not lead away. It is begun anew from what was measured, with
-slow joints at rest, and from where the window before it ended.
+Each window has a damping of its own, so that one in which a joint is about to slip does not hold up all others. Where a
+joint sticks in the data and slips in the model, a window may sit in a place from which slopes do not lead away; such a window
+is begun anew from what was measured, and from there with slow joints at rest.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -15,58 +16,58 @@ from continuum.identification.arrow_least_squares import misfit_of
 from continuum.identification.window_residual import Memory, WindowAt, WindowResidual
 
 _BAD = 1.5  # misfit per error beyond which other beginnings are tried
-_SLOW = 0.1  # rad/s; slower joints may be stuck
-_STEPS = 8
+_SLOW = (0.1, 1.0)  # rad/s; slower joints may be stuck
+_ENOUGH = 0.5  # of log-likelihood
+_FEW_STEPS, _MANY_STEPS = 3, 8
 
 
-def settled(run: WindowResidual, shared: Array, own: Sequence[Array], spread: Array) -> list[Array]:
-    """Coordinates of each window's first state, none worse than before.
+def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bool) -> list[WindowAt] | None:
+    """Every window near the best first state; None where the model cannot be simulated.
 
     Args:
         run: the recording.
         shared: coordinates of the shared unknowns, (k,).
-        own: of each window, (2 n,).
-        spread: prior standard deviation of the latter, (2 n,).
+        own: of each window's first state, (2 n,), to begin with.
+        anew: try other beginnings for windows that stay bad.
     """
-    found: list[Array] = []
+    found: list[WindowAt] = []
     memory = run.first_memory(shared, own[0])
     for window, mine in enumerate(own):
         at = run.window(window, shared, mine, memory)
         if at is None:
-            return list(own)
-        if misfit_of(at.part) > _BAD * at.part.errors.size:
-            best = [at, *_descents(run, window, shared, mine, memory, spread)]
-            at = min(best, key=lambda one: misfit_of(one.part) + float(np.sum((one.own / spread) ** 2)))
+            return None
+        at = _descent(run, window, shared, at, memory, _FEW_STEPS)
+        if anew and misfit_of(at.part) > _BAD * at.part.errors.size:
+            at = min((at, *_others(run, window, shared, at, memory)), key=lambda one: _cost(run, one))
         memory = at.memory
-        found.append(at.own)
+        found.append(at)
     return found
 
 
-def _descents(
-    run: WindowResidual, window: int, shared: Array, mine: Array, memory: Memory, spread: Array
-) -> Iterator[WindowAt]:
-    """Where descents from several beginnings end."""
-    for start in (mine, np.zeros(mine.size), run.still(window, _SLOW), run.still(window, 10 * _SLOW)):
-        at = run.window(window, shared, start, memory)
-        if at is not None:
-            yield _descended(run, window, shared, at, memory, spread)
+def _others(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory) -> list[WindowAt]:
+    """Where descents from other beginnings end."""
+    starts = [at.own, np.zeros(at.own.size), *(run.still(window, slow) for slow in _SLOW)]
+    begun = [run.window(window, shared, start, memory) for start in starts]
+    return [_descent(run, window, shared, one, memory, _MANY_STEPS) for one in begun if one is not None]
 
 
-def _descended(
-    run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory, spread: Array
-) -> WindowAt:
-    damping = 1e-2
-    for _ in range(_STEPS):
-        slopes, errors = at.part.by_own, at.part.errors
-        square = slopes.T @ slopes + np.diag(spread**-2.0)
-        pull = slopes.T @ errors + at.own / spread**2
+def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory, steps: int) -> WindowAt:
+    damping = 1e-3
+    for _ in range(steps):
+        slopes = at.part.by_own
+        square = slopes.T @ slopes + np.diag(run.spread**-2.0)
+        pull = slopes.T @ at.part.errors + at.own / run.spread**2
         step = -np.linalg.solve(square + damping * np.diag(np.diag(square)), pull)
+        if -pull @ step < _ENOUGH:  # twice the expected gain
+            break
         there = run.window(window, shared, at.own + step, memory)
-        if there is not None and misfit_of(there.part) < misfit_of(at.part):
-            gain = misfit_of(at.part) - misfit_of(there.part)
+        if there is not None and _cost(run, there) < _cost(run, at):
             at, damping = there, max(0.1 * damping, 1e-6)
-            if gain < 1.0:
-                break
         else:
-            damping *= 10
+            damping *= 30
     return at
+
+
+def _cost(run: WindowResidual, at: WindowAt) -> float:
+    """Minus twice the logarithm of likelihood and prior."""
+    return misfit_of(at.part) + float(np.sum((at.own / run.spread) ** 2))

@@ -1,0 +1,64 @@
+"""Given data, what does the simulation get wrong: noise, baseline, search, verdict."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from continuum.discovery.judgement import judge
+from continuum.discovery.question import Question
+from continuum.discovery.search import Round, Tell, search
+from continuum.discovery.verdict import Verdict
+from continuum.discovery.workers import workers
+from continuum.dynamics.effect_lookup import effect_names
+from continuum.dynamics.model import Model
+from continuum.errors import InvalidValueError
+from continuum.identification.baseline import baseline_unknowns, with_dry_friction
+from continuum.identification.dataset import Dataset
+from continuum.identification.noise import SensorKnowledge, estimate_noise
+
+NEEDS_TENSION = ("capstan", "elastic_cable", "actuator_lag")
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The verdict and how it was reached."""
+
+    question: Question
+    rounds: tuple[Round, ...]
+    verdict: Verdict
+
+
+def diagnose(
+    dataset: Dataset,
+    model: Model,
+    known: SensorKnowledge | None = None,
+    processes: int | None = None,
+    tell: Tell = lambda what, part: None,
+    effects: Sequence[str] | None = None,
+) -> Diagnosis:
+    """Diagnose a model by data.
+
+    Args:
+        dataset: runs of the arm.
+        model: with nominal values.
+        known: of the sensors.
+        processes: how many work at once; as many as there are cores without.
+        tell: told of progress.
+        effects: names of those to try; all that are installed without.
+
+    Raises:
+        InvalidValueError: the recordings have another number of joints than the model, or an effect is not installed.
+    """
+    if dataset.n_joints != model.n_joints:
+        raise InvalidValueError("joints in the recordings", dataset.n_joints, f"{model.n_joints}, as the model has")
+    ready = with_dry_friction(model)
+    noise = estimate_noise(dataset.recordings, known)
+    question = Question(ready, tuple(baseline_unknowns(ready)), dataset.recordings, noise)
+    driven = any(recording.is_driven for recording in dataset.recordings)
+    tried = [name for name in effects or effect_names() if driven or name not in NEEDS_TENSION]
+    present = {active.effect.name for active in model.effects}
+    with workers(question, processes or os.cpu_count() or 1) as make:
+        baseline, rounds = search(make, [name for name in tried if name not in present], tell)
+    return Diagnosis(question, tuple(rounds), judge(baseline, rounds))

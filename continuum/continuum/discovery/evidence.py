@@ -1,0 +1,67 @@
+"""What trials say against each other: how many windows stay unexplained, and by how much one trial beats another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.trial import Trial
+
+_UNEXPLAINED = 2.0  # misfit of a window beside that of noise
+_ADEQUATE = 0.04  # share of windows that may stay so: sticking joints now and then hold one
+_CAP = 6.0  # beyond, a window counts no more: it says that it is unexplained, not by how much
+_STRETCH = 4  # windows, over which errors may hang together
+
+
+@dataclass(frozen=True)
+class Gain:
+    """What one trial gains over another on windows that neither was fitted to.
+
+    Attributes:
+        log_likelihood: sum over all windows.
+        deviation: standard deviation of that sum, from stretches of windows.
+    """
+
+    log_likelihood: float
+    deviation: float
+
+    @property
+    def is_significant(self) -> bool:
+        """Whether chance does not give it, with some forty hypotheses tried."""
+        return self.log_likelihood > max(15.0, 3.5 * self.deviation)
+
+    @property
+    def is_distinct(self) -> bool:
+        """Whether one of two hypotheses is told from the other by it."""
+        return self.log_likelihood > max(8.0, 2.0 * self.deviation)
+
+
+def unexplained(trial: Trial) -> float:
+    """Share of windows that noise does not explain, 0 to 1."""
+    return float(np.mean(trial.relative > _UNEXPLAINED))
+
+
+def is_adequate(trial: Trial) -> bool:
+    """Whether what is left is noise."""
+    return unexplained(trial) <= _ADEQUATE
+
+
+def gain(trial: Trial, over: Trial) -> Gain:
+    """Of one trial over another, both of the same data."""
+    each = [(_capped(b, size) - _capped(a, size)) / 2 for a, b, size in _runs(trial, over)]
+    stretches = np.concatenate([_stretched(run) for run in each])
+    return Gain(float(stretches.sum()), float(np.std(stretches) * np.sqrt(stretches.size)))
+
+
+def _runs(trial: Trial, over: Trial) -> list[tuple[Array, Array, Array]]:
+    return list(zip(trial.held_out, over.held_out, trial.sizes, strict=True))
+
+
+def _capped(misfit: Array, size: Array) -> Array:
+    return np.minimum(misfit, _CAP * size)
+
+
+def _stretched(run: Array) -> Array:
+    return np.array([run[i : i + _STRETCH].sum() for i in range(0, run.size, _STRETCH)])

@@ -1,0 +1,54 @@
+"""From the rounds of a search to a verdict."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from continuum.discovery.evidence import gain, is_adequate, unexplained
+from continuum.discovery.search import Round
+from continuum.discovery.trial import Trial
+from continuum.discovery.verdict import Cause, Kind, Verdict
+from continuum.dynamics.effect_lookup import effect_named
+
+
+def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
+    """What can be said.
+
+    Causes are the effects that were added round after round. They are named only where nothing is left that noise does not
+    explain; a model that is better and still wrong has an unknown cause, whatever helped it.
+    """
+    added = [r for r in rounds if r.best is not r.before]
+    best = added[-1].best if added else baseline
+    share = unexplained(baseline), unexplained(best)
+    causes = tuple(_cause(r) for r in added)
+    if not is_adequate(best):
+        return Verdict(Kind.UNKNOWN, causes, (), baseline, best, share)
+    if not added:
+        return Verdict(Kind.ADEQUATE, (), (), baseline, best, share)
+    rivals = tuple(rival for r in added for rival in _rivals(r))
+    if rivals:
+        experiment = " ".join(
+            dict.fromkeys(effect_named(c.addition.effect).experiment for c in (*causes, *rivals))
+        )
+        return Verdict(Kind.AMBIGUOUS, causes, rivals, baseline, best, share, experiment)
+    return Verdict(Kind.CAUSE, causes, (), baseline, best, share)
+
+
+def _cause(one: Round) -> Cause:
+    return Cause(one.best.extension[-1], _confidence(one, one.best), gain(one.best, one.before))
+
+
+def _rivals(one: Round) -> list[Cause]:
+    """Effects that explain as much as the best one does."""
+    others = [trial for trial in one.leaders[1:] if not gain(one.best, trial).is_distinct]
+    return [Cause(t.extension[-1], _confidence(one, t), gain(t, one.before)) for t in others]
+
+
+def _confidence(one: Round, trial: Trial) -> float:
+    """Probability of a trial among the leaders: each one's gain over the best in units of how well it is known."""
+    weights = []
+    for other in one.leaders:
+        lead = gain(one.best, other)
+        weights.append(math.exp(-max(lead.log_likelihood, 0.0) / max(1.0, lead.deviation)))
+    return weights[one.leaders.index(trial)] / sum(weights) if trial in one.leaders else 0.0

@@ -1,0 +1,62 @@
+"""The answer to what a simulation gets wrong, as a typed value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from continuum.discovery.candidate import Addition, Extension
+from continuum.discovery.evidence import Gain
+from continuum.discovery.trial import Trial
+
+
+class Kind(Enum):
+    """What can be said."""
+
+    ADEQUATE = "adequate"
+    CAUSE = "cause"
+    AMBIGUOUS = "ambiguous"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True)
+class Cause:
+    """One effect that is named.
+
+    Attributes:
+        addition: the effect, and the joints where it acts.
+        confidence: 0 to 1, that it is this one and no other of the library.
+        gain: what it gains over the model without it.
+    """
+
+    addition: Addition
+    confidence: float
+    gain: Gain
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The answer.
+
+    Attributes:
+        kind: what can be said.
+        causes: named effects; of AMBIGUOUS those of which one is at work; of UNKNOWN what helps but does not suffice.
+        alternatives: of the last cause, effects that explain the data as well.
+        baseline: the model refitted, without any effect.
+        best: the best trial, whose extension the extended model has.
+        unexplained: share of the data that stays unexplained before and after, 0 to 1.
+        experiment: what to measure to tell alternatives apart, in words; empty where nothing is to be told apart.
+    """
+
+    kind: Kind
+    causes: tuple[Cause, ...]
+    alternatives: tuple[Cause, ...]
+    baseline: Trial
+    best: Trial
+    unexplained: tuple[float, float]
+    experiment: str = ""
+
+    @property
+    def extension(self) -> Extension:
+        """Effects of the extended model."""
+        return self.best.extension

@@ -1,0 +1,76 @@
+"""Trials on several cores: each worker keeps the question, and is sent what to try."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from continuum.discovery.candidate import Addition, Extension, acts_at_joints
+from continuum.discovery.joints import acting_joints
+from continuum.discovery.question import Question
+from continuum.discovery.trial import Trial, fit_extension, judged
+
+_FIRST_LOOK = 4  # iterations: what helps has shown itself by then
+
+
+@dataclass(frozen=True)
+class Task:
+    """One trial to make.
+
+    Attributes:
+        extension: effects beyond Eq. 12.
+        near: a trial to start from.
+        iterations: of the fit, at most.
+        find_joints: whether to find out at which joints the last effect acts, and to fit it there alone.
+    """
+
+    extension: Extension
+    near: Trial | None
+    iterations: int
+    find_joints: bool = False
+
+
+def first_look(extension: Extension, near: Trial) -> Task:
+    """A few iterations."""
+    return Task(extension, near, _FIRST_LOOK)
+
+
+def make(question: Question, task: Task) -> Trial:
+    """One trial."""
+    fitted = fit_extension(question, task.extension, task.near, task.iterations)
+    whole = judged(question, task.extension, fitted)
+    last = task.extension[-1] if task.extension else None
+    if not task.find_joints or last is None or not acts_at_joints(last.effect) or not fitted.parts:
+        return whole
+    at = (*task.extension[:-1], Addition(last.effect, acting_joints(fitted, last.effect)))
+    there = judged(question, at, fit_extension(question, at, whole, task.iterations))
+    return Trial(**(vars(there) | {"simulations": there.simulations + whole.simulations}))
+
+
+type Make = Callable[[Sequence[Task]], Iterator[Trial]]
+"""Makes trials, in the order in which they are done."""
+
+
+@contextmanager
+def workers(question: Question, processes: int) -> Iterator[Make]:
+    """Make trials by so many processes; by this one alone where that is one."""
+    if processes == 1:
+        yield lambda tasks: (make(question, task) for task in tasks)
+        return
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, context, initializer=_keep, initargs=(question,)) as pool:
+        yield lambda tasks: (done.result() for done in as_completed([pool.submit(_make_kept, t) for t in tasks]))
+
+
+_kept: list[Question] = []
+
+
+def _keep(question: Question) -> None:
+    _kept[:] = [question]
+
+
+def _make_kept(task: Task) -> Trial:
+    return make(_kept[0], task)
