@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from continuum.cli import info, report, simulate, solve
+from continuum.cli import diagnose, info, report, simulate, solve
 from continuum.cli.negative_numbers import written_out
 from continuum.errors import ContinuumError
 
@@ -14,6 +14,7 @@ what you can do next:
   continuum info ARM.yaml                      lengths, cables and bend limits of an arm
   continuum solve ARM.yaml 0.15 0 0.20         bring the tip to a point; bends and cable lengths of the answer
   continuum simulate --release 90 --picture X.png   let go of an arm that is bent by 90 degrees
+  continuum diagnose run_1.csv run_2.csv       what the simulation gets wrong about recordings, and why
   continuum report RECORDING --arm ARM.yaml    tracking error, cable rates and losses of a recorded run
 
   ros2 launch continuum_manipulator three_sections.launch.xml     the nodes of an arm of three sections
@@ -35,7 +36,7 @@ def main(arguments: list[str] | None = None) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (info, solve, simulate, report):
+    for command in (info, solve, simulate, diagnose, report):
         command.add_to(commands)
     options = parser.parse_args(written_out(sys.argv[1:] if arguments is None else arguments))
     try:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from continuum.discovery.judgement import judge
 from continuum.discovery.question import Question
-from continuum.discovery.search import Round, Tell, search
+from continuum.discovery.search import Round, Tell, search, tell_nobody
 from continuum.discovery.verdict import Verdict
 from continuum.discovery.workers import workers
 from continuum.dynamics.effect_lookup import effect_names
@@ -35,7 +35,7 @@ def diagnose(
     model: Model,
     known: SensorKnowledge | None = None,
     processes: int | None = None,
-    tell: Tell = lambda what, part: None,
+    tell: Tell = tell_nobody,
     effects: Sequence[str] | None = None,
 ) -> Diagnosis:
     """Diagnose a model by data.

@@ -1,7 +1,7 @@
 """How well a fitted model explains a run that it was not fitted to, for every run, without a fit for each.
 
-Windows are nearly linear in the shared unknowns, so that the fit without a run follows from the fit with it by one step of
-Newton's method (Cook 1977, for whole runs instead of single points): x + (H - H_r)^-1 g_r.
+Windows are nearly linear in the shared unknowns, so that the fit without a run follows from the fit with it by one
+step of Newton's method (Cook 1977, for whole runs instead of single points): x + (H - H_r)^-1 g_r.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from continuum.identification.fit import Fit
 def held_out_misfits(fitted: Fit) -> list[Array]:
     """Misfit of every window of every run, each run predicted by the others.
 
-    What belongs to a run alone, its windows' first states and its sensors' offsets, is the run's own; that is paid for with
-    half the logarithm of the number of errors for each such unknown (Schwarz 1978). With one run, stretches of it are held
-    out instead.
+    What belongs to a run alone, its windows' first states and its sensors' offsets, is the run's own; that is paid
+    for with half the logarithm of the number of errors for each such unknown (Schwarz 1978). With one run, stretches
+    of it are held out instead.
     """
     spread = fitted.unknowns.own_spread
     groups, single = _groups(fitted), len(fitted.runs) == 1
@@ -36,9 +36,7 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
         step = np.linalg.solve(rest + 1e-9 * np.diag(np.diag(rest)), pull)
         step = np.clip(fitted.coordinates + step, fitted.space.lower, fitted.space.upper) - fitted.coordinates
         price = int(mine.sum()) * np.log(sum(fitted.parts[i].errors.size for i in group)) / len(group)
-        found.append(
-            np.array([_predicted(fitted.parts[i], slopes[i] @ step) + price for i in group])
-        )
+        found.append(np.array([_predicted(fitted.parts[i], slopes[i] @ step) + price for i in group]))
     return found
 
 

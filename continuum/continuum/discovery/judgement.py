@@ -15,8 +15,8 @@ from continuum.dynamics.effect_lookup import effect_named
 def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
     """What can be said.
 
-    Causes are the effects that were added round after round. They are named only where nothing is left that noise does not
-    explain; a model that is better and still wrong has an unknown cause, whatever helped it.
+    Causes are the effects that were added round after round. They are named only where nothing is left that noise
+    does not explain; a model that is better and still wrong has an unknown cause, whatever helped it.
     """
     added = [r for r in rounds if r.best is not r.before]
     best = added[-1].best if added else baseline
@@ -28,9 +28,7 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
         return Verdict(Kind.ADEQUATE, (), (), baseline, best, share)
     rivals = tuple(rival for r in added for rival in _rivals(r))
     if rivals:
-        experiment = " ".join(
-            dict.fromkeys(effect_named(c.addition.effect).experiment for c in (*causes, *rivals))
-        )
+        experiment = " ".join(dict.fromkeys(effect_named(c.addition.effect).experiment for c in (*causes, *rivals)))
         return Verdict(Kind.AMBIGUOUS, causes, rivals, baseline, best, share, experiment)
     return Verdict(Kind.CAUSE, causes, (), baseline, best, share)
 

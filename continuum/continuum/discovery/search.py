@@ -1,6 +1,7 @@
 """Round after round: try every effect on top of what was found, keep the best, until what is left is noise.
 
-A first look of a few iterations sorts out what does not help; only what leads is fitted to the end and found its joints.
+A first look of a few iterations sorts out what does not help; only what leads is fitted to the end and found its
+joints.
 """
 
 from __future__ import annotations
@@ -48,6 +49,10 @@ type Tell = Callable[[str, float], None]
 """Told what is going on and the part that is done, 0 to 1."""
 
 
+def tell_nobody(_what: str, _part: float) -> None:
+    """Keep it to oneself."""
+
+
 def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[Round]]:
     """The baseline and all rounds; the last one found nothing, or left nothing to find.
 
@@ -84,5 +89,3 @@ def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[fl
         tell(0.6 + 0.4 * len(leaders) / len(tasks))
     leaders.sort(key=lambda trial: -gain(trial, before).log_likelihood)
     return Round(before, tuple(looks), tuple(leaders))
-
-

@@ -16,7 +16,7 @@ from continuum.identification.arrow_least_squares import FitStatus
 from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free, FreeSpace
 
-_TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # over a window errors stay below a hundredth of a degree
+TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # over a window errors stay below a hundredth of a degree
 
 
 @dataclass(frozen=True)
@@ -56,9 +56,7 @@ class Trial:
         return np.concatenate(self.held_out) / np.concatenate(self.sizes)
 
 
-def fit_extension(
-    question: Question, extension: Extension, near: Trial | None = None, iterations: int = 12
-) -> Fit:
+def fit_extension(question: Question, extension: Extension, near: Trial | None = None, iterations: int = 12) -> Fit:
     """Fit the extended model to all runs.
 
     Args:
@@ -74,12 +72,12 @@ def fit_extension(
     there = {} if near is None else dict(zip(near.unknowns, map(float, near.coordinates), strict=True))
     for i, unknown in enumerate(free):
         begin[i] = there.get(unknown, begin[i])
-    own = None if near is None else near.own
-    simulator = Simulator(model, _TOLERANCES)
+    own = None if near is None or not near.own else near.own
+    simulator = Simulator(model, TOLERANCES)
     return fit(simulator, question.recordings, question.noise, free, begin, iterations=iterations, own=own)
 
 
-def judged(question: Question, extension: Extension, fitted: Fit) -> Trial:
+def judged(extension: Extension, fitted: Fit) -> Trial:
     """The trial of an extension that was fitted."""
     held_out = held_out_misfits(fitted)
     own = fitted.unknowns.own_spread.size
@@ -96,4 +94,3 @@ def judged(question: Question, extension: Extension, fitted: Fit) -> Trial:
         tuple(np.array([next(sizes) for _ in run], dtype=float) for run in held_out),
         fitted.simulations,
     )
-

@@ -41,12 +41,12 @@ def first_look(extension: Extension, near: Trial) -> Task:
 def make(question: Question, task: Task) -> Trial:
     """One trial."""
     fitted = fit_extension(question, task.extension, task.near, task.iterations)
-    whole = judged(question, task.extension, fitted)
+    whole = judged(task.extension, fitted)
     last = task.extension[-1] if task.extension else None
     if not task.find_joints or last is None or not acts_at_joints(last.effect) or not fitted.parts:
         return whole
     at = (*task.extension[:-1], Addition(last.effect, acting_joints(fitted, last.effect)))
-    there = judged(question, at, fit_extension(question, at, whole, task.iterations))
+    there = judged(at, fit_extension(question, at, whole, task.iterations))
     return Trial(**(vars(there) | {"simulations": there.simulations + whole.simulations}))
 
 

@@ -1,9 +1,11 @@
 """Least squares with unknowns shared by all windows and unknowns of each: the normal matrix has the shape of an arrow.
 
-Levenberg and Marquardt's method. Eliminating each window's own unknowns (Schur complement) leaves a system in the shared
-ones, so that the cost grows with the number of windows only linearly. Every unknown has a prior, which keeps the system
-regular where the data say nothing; the shared ones have bounds. Few windows in which nothing fits, where something knocked
-or stuck, shall not decide: beyond what noise explains, a window's misfit counts by its logarithm (Student's distribution).
+Levenberg and Marquardt's method. Eliminating each window's own unknowns (Schur complement) leaves a system in the
+shared ones, so that the cost grows with the number of windows only linearly. Every unknown has a prior, which keeps
+the system regular where the data say nothing; the shared ones have bounds. Few windows in which nothing fits, where
+something knocked
+or stuck, shall not decide: beyond what noise explains, a window's misfit counts by its logarithm (Student's
+distribution).
 """
 
 from __future__ import annotations
@@ -41,8 +43,8 @@ class Part:
 
 
 type Evaluate = Callable[[Array, Sequence[Array], bool], tuple[list[Part], list[Array]] | None]
-"""All windows, and their own unknowns, at given shared ones, the own ones sought from given ones; sought anew where that is
-asked for; None where a window cannot be simulated."""
+"""All windows and their own unknowns, at given shared ones, the own ones sought from given ones on; None where a window
+cannot be simulated. The last argument asks to seek bad windows anew."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +125,7 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int)
 
 
 def misfit_of(part: Part) -> float:
-    """Twice the negative log-likelihood of a window, but for a constant: its squared errors while noise explains them."""
+    """Twice the negative log-likelihood of a window, but for a constant: its squared errors while those are noise."""
     m, s = part.errors.size, float(part.errors @ part.errors)
     return m * (_HEAVY_TAIL + 1) * float(np.log1p(s / (_HEAVY_TAIL * m)))
 

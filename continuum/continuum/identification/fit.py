@@ -134,4 +134,3 @@ def fit(
     ended = replace(unknowns, shared=found.shared, own=list(found.own))
     simulations = found.evaluations * len(runs)
     return Fit(found.status, simulator, space, runs, ended, found.parts, found.cost, simulations)
-

@@ -83,17 +83,16 @@ class FreeSpace:
     def directions_of(self, recording: int) -> Array:
         """Directions as one recording sees them, (n_p, n_free): what belongs to another moves nothing."""
         mine = [unknown.recording in (None, recording) for unknown in self.unknowns]
-        return self.directions * np.array(mine, dtype=float).reshape(1, -1)
+        return np.asarray(self.directions * np.array(mine, dtype=float).reshape(1, -1))
 
     def common_values(self, coordinates: Array) -> Array:
         """All values of the model, (n_p,), at coordinates (n_free,); what belongs to single recordings is left out."""
-        return self.origin + self.directions_of(-1) @ coordinates
+        return np.asarray(self.origin + self.directions_of(-1) @ coordinates)
 
     def clipped(self, coordinates: Array) -> Array:
         """Coordinates within the bounds."""
-        return np.clip(coordinates, self.lower, self.upper)
+        return np.asarray(np.clip(coordinates, self.lower, self.upper))
 
     def amounts(self, coordinates: Array) -> Array:
         """What was added to each unknown's parameter, in its own unit, (n_free,)."""
         return self.scale * coordinates
-

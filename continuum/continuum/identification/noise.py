@@ -111,14 +111,16 @@ def _white_covariance(signals: Sequence[Array], floor: float) -> Array:
         for piece in np.array_split(np.diff(signal, 4, axis=0), max(1, signal.shape[0] // _STRETCH))
     ]
     energy = np.array([np.mean(piece**2, axis=0) / 70 for piece in stretches])
-    spread = np.maximum(np.sqrt(np.quantile(energy, _QUIET, axis=0) / _QUIET_FACTOR), floor)
+    spread: Array = np.maximum(np.sqrt(np.quantile(energy, _QUIET, axis=0) / _QUIET_FACTOR), floor)
     limit = np.quantile(energy, 2 * _QUIET, axis=0)
     quiet = [piece for piece, size in zip(stretches, energy, strict=True) if np.all(size <= 3 * limit)]
-    correlation = np.eye(n)
+    correlation: Array = np.eye(n)
     if n > 1 and len(quiet) > 3:
         parts = np.concatenate(quiet)
         if np.all(np.std(parts, axis=0) > 0):
-            correlation = np.corrcoef(np.clip(parts, -3 * np.std(parts, axis=0), 3 * np.std(parts, axis=0)).T)
+            correlation = np.asarray(
+                np.corrcoef(np.clip(parts, -3 * np.std(parts, axis=0), 3 * np.std(parts, axis=0)).T)
+            )
     return np.asarray(0.95 * correlation + 0.05 * np.eye(n)) * np.outer(spread, spread)
 
 

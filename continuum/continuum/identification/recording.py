@@ -46,7 +46,7 @@ class Recording:
     @property
     def n_joints(self) -> int:
         """Number of joints."""
-        return self.theta.shape[1]
+        return int(self.theta.shape[1])
 
     @property
     def pull(self) -> Tensions:

@@ -71,7 +71,7 @@ def swarm_identification(
     def objective(coordinates: Array) -> float:
         nonlocal simulations
         simulations += len(recordings)
-        return float(np.mean([_run_objective(simulator, run, space.values(coordinates)) for run in recordings]))
+        return float(np.mean([_run_objective(simulator, run, space.common_values(coordinates)) for run in recordings]))
 
     place, best = particle_swarm(
         objective, np.maximum(space.lower, -0.95), np.minimum(space.upper, 2.0), random, settings

@@ -27,7 +27,7 @@ _NUDGE = 1e-5  # of a sensor's parameter, in units of its coordinate
 
 @dataclass(frozen=True)
 class Memory:
-    """States of the effects between two windows, (n_states,), and their slopes by the shared unknowns, (n_states, k)."""
+    """States of the effects between two windows, (n_states,), and their slopes by the shared ones, (n_states, k)."""
 
     states: Array
     slopes: Array
@@ -45,8 +45,8 @@ class WindowAt:
 class WindowResidual:
     """The residual of one recording as a function of the shared unknowns and of each window's own.
 
-    A window's own unknowns are the joints' angles and rates where it begins, (2 n,). States of effects run on from window
-    to window, with their slopes; their own beginning is that of an arm at rest.
+    A window's own unknowns are the joints' angles and rates where it begins, (2 n,). States of effects run on from
+    window to window, with their slopes; their own beginning is that of an arm at rest.
 
     Args:
         simulator: of the model.
@@ -120,15 +120,6 @@ class WindowResidual:
             seen.append(readings(with_vector(self._model, p), run))
         return Reading(*(np.concatenate([getattr(s, name) for s in seen]) for name in ("times", "theta", "theta_rate")))
 
-    def _memories(self, shared: Array, own: Sequence[Array]) -> Iterator[_Memory | None]:
-        """States of the effects where each window begins; the caller takes one, computes, and asks for the next."""
-        memory: _Memory | None = self._first_memory(shared, own[0])
-        for window, mine in enumerate(own):
-            yield memory
-            if self._model.n_states and memory is not None and window + 1 < len(own):
-                at = self._part(window, shared, mine, memory)
-                memory = None if at is None else at.memory
-
     def _run(
         self,
         window: int,
@@ -163,7 +154,7 @@ class WindowResidual:
         return Memory(begin, np.stack(slopes, axis=1) if slopes else np.zeros((begin.size, 0)))
 
     def _reading_slopes(self, p: Array, run: Trajectory, seen: Reading, free: Array) -> tuple[Array, Array]:
-        """Change of angles and rates as the sensors read them by one unit of each unknown, (n_times, n, columns) each."""
+        """Change of angles and rates as sensors read them by one unit of each unknown, (n_times, n, columns) each."""
         n = run.n_joints
         angle, rate = run.slopes[:, :n].copy(), run.slopes[:, n : 2 * n].copy()
         if not self._senses:

@@ -1,8 +1,8 @@
 """First states of windows found one by one, the parameters held.
 
 Each window has a damping of its own, so that one in which a joint is about to slip does not hold up all others. Where a
-joint sticks in the data and slips in the model, a window may sit in a place from which slopes do not lead away; such a window
-is begun anew from what was measured, and from there with slow joints at rest.
+joint sticks in the data and slips in the model, a window may sit in a place from which slopes do not lead away; such
+a window is begun anew from what was measured, and from there with slow joints at rest.
 """
 
 from __future__ import annotations

@@ -1,8 +1,10 @@
 """Runs cut into short windows, each begun from a state of its own (multiple shooting, Bock and Plitt 1984).
 
-An arm that sticks and slips forgets nothing: a parameter wrong by a hundredth soon makes one joint stick that should slip,
-and from there on a free run tells as little about the parameter as chance. Over a tenth of a second the same model is
-nearly linear in its parameters, and still every torque shows: links are light, sensors see what they do in a few samples.
+An arm that sticks and slips forgets nothing: a parameter wrong by a hundredth soon makes one joint stick that should
+slip, and from there on a free run tells as little about the parameter as chance. Over a tenth of a second the same
+model is
+nearly linear in its parameters, and still every torque shows: links are light, sensors see what they do in a few
+samples.
 """
 
 from __future__ import annotations
@@ -46,7 +48,8 @@ class Whitener:
     """Makes the errors of one window independent and of unit variance.
 
     Attributes:
-        angle_in_time, rate_in_time: inverse Cholesky factors of the covariance in time, (n_times, n_times); no rates where
+        angle_in_time, rate_in_time: inverse Cholesky factors of the covariance in time, (n_times, n_times); no rates
+        where
             none were measured.
         angle_joints, rate_joints: the same over the joints, (n_joints, n_joints).
     """

@@ -1,0 +1,88 @@
+"""`continuum diagnose`: what a simulation gets wrong about measured data, why, and what mending it gains."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from continuum.cli.tables import print_pairs
+
+if TYPE_CHECKING:
+    from continuum.discovery.findings import Findings
+    from continuum.identification.recording import Recording
+
+EXIT_CODES = {"adequate": 0, "cause": 1, "ambiguous": 3, "unknown": 4}
+
+
+def add_to(commands: Any) -> None:
+    """Add this subcommand to the parser's."""
+    parser = commands.add_parser(
+        "diagnose", help="what a simulation gets wrong about recordings, and why", description=__doc__,
+        epilog="Exit codes: 0 adequate, 1 a cause is named, 3 ambiguous, 4 unknown; 2 wrong usage or data.",
+    )  # fmt: skip
+    parser.add_argument("data", metavar="DATA", nargs="+", help="recordings: CSV files (t_s,q1_deg,..)")
+    parser.add_argument(
+        "--model", metavar="FILE.yaml", default="lamecc_prototype.yaml",
+        help="model file, or one that comes with the library; default %(default)s",
+    )  # fmt: skip
+    parser.add_argument("--json", metavar="OUT.json", help="write verdict, parameters and scores for machines")
+    parser.add_argument("--extended", metavar="OUT.yaml", help="write the extended model; every command loads it")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the intervals; default %(default)s")
+    parser.add_argument("--processes", metavar="N", type=int, help="that work at once; default one for each core")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Diagnose, print, and write what was asked for."""
+    # Here, so that the other commands need not load CasADi and numba.
+    import numpy as np
+
+    from continuum.cli.progress import told
+    from continuum.discovery.diagnose import diagnose
+    from continuum.discovery.findings import findings
+    from continuum.discovery.verdict_json import write_json
+    from continuum.dynamics.model_file import load_model, save_model
+    from continuum.identification.dataset import Dataset
+
+    model, recordings = load_model(options.model), tuple(_read(path) for path in options.data)
+    with told() as tell:
+        diagnosis = diagnose(Dataset(recordings), model, processes=options.processes, tell=tell)
+        tell("predicting runs that were held out", 1.0)
+        found = findings(diagnosis, np.random.default_rng(options.seed))
+    _show(found)
+    if options.json is not None:
+        write_json(found, options.json)
+    if options.extended is not None:
+        save_model(found.model, options.extended)
+    return EXIT_CODES[found.verdict.kind.value]
+
+
+def _read(path: str) -> Recording:
+    from continuum.identification.recording_csv import read_recording_csv
+
+    return read_recording_csv(Path(path))
+
+
+def _show(found: Findings) -> None:
+    from continuum.discovery.in_words import verdict_in_words
+
+    verdict = found.verdict
+    print(f"{verdict.kind.value.upper()}\n\n{verdict_in_words(verdict)}\n")
+    for title, causes in (("cause", verdict.causes), ("alternative", verdict.alternatives)):
+        for cause in causes:
+            print(f"{title}: {cause.addition}   confidence {cause.confidence:.2f}")
+    rows = [("parameter", "value, 95 % interval")]
+    rows += [(str(e.unknown), f"{e.value:.4g} ({e.low:.4g} to {e.high:.4g}) {e.unit}") for e in found.estimates]
+    print_pairs(rows)
+    print("\nEq. 19 on runs that the model was not fitted to, refitted model -> extended model:")
+    print_pairs(
+        [
+            (b.name, f"position {b.position:.3f} -> {a.position:.3f}   rate {b.rate:.3f} -> {a.rate:.3f}")
+            for b, a in zip(found.before, found.after, strict=True)
+        ]
+    )
+    if verdict.extension:
+        print(f"distance to the noise floor closed: {100 * found.closed:.0f} %")
+    for line in (*found.notes, *([f"Mind: {found.weakness}."] if found.weakness else [])):
+        print(line)

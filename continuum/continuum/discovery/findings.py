@@ -1,0 +1,114 @@
+"""All that a diagnosis has to tell: verdict, values with intervals, gain on held-out runs, the extended model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.diagnose import Diagnosis
+from continuum.discovery.measured_gain import RunScore, closed_gap, held_out_scores
+from continuum.discovery.trial import fit_extension
+from continuum.discovery.verdict import Verdict
+from continuum.dynamics.model import Model
+from continuum.identification.bootstrap import bootstrap, interval
+from continuum.identification.dataset import halves
+from continuum.identification.fisher import Identifiability, identifiability
+from continuum.identification.fit import THESIS_PARAMETERS, Fit
+from continuum.identification.free import Free
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One fitted value.
+
+    Attributes:
+        unknown: which.
+        value: in its unit.
+        low, high: 95 % interval.
+        unit: SI.
+    """
+
+    unknown: Free
+    value: float
+    low: float
+    high: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Findings:
+    """What reports show.
+
+    Attributes:
+        verdict: the answer.
+        estimates: of the thesis's parameters and of the effects'.
+        identifiability: what the data tell of them.
+        before, after: every run predicted by the other half, by the refitted and by the extended model.
+        closed: part of the distance to the noise floor that the extension closes.
+        weakness: why this proves less than it would with more runs; empty where it does not.
+        notes: on repairs of the data.
+        model: the extended model, fitted to all runs.
+    """
+
+    verdict: Verdict
+    estimates: tuple[Estimate, ...]
+    identifiability: Identifiability
+    before: tuple[RunScore, ...]
+    after: tuple[RunScore, ...]
+    closed: float
+    weakness: str
+    notes: tuple[str, ...]
+    model: Model
+
+
+def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
+    """Work them out.
+
+    Args:
+        diagnosis: what was found.
+        random: for the intervals.
+    """
+    question, verdict = diagnosis.question, diagnosis.verdict
+    split = halves(question.recordings)
+    before = held_out_scores(question, verdict.baseline, split)
+    after = held_out_scores(question, verdict.best, split) if verdict.extension else before
+    fitted = fit_extension(question, verdict.extension, verdict.best, 2)
+    return Findings(
+        verdict,
+        tuple(_estimates(fitted, random)),
+        identifiability(fitted),
+        tuple(before),
+        tuple(after),
+        closed_gap(before, after),
+        split.weakness,
+        tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes),
+        _told(fitted, [r.name for r in question.recordings]),
+    )
+
+
+def _estimates(fitted: Fit, random: np.random.Generator) -> list[Estimate]:
+    low, high = interval(bootstrap(fitted, random))
+    meanings, origin = fitted.model.meanings(), fitted.simulator.model.values()
+    found = []
+    amounts = fitted.space.scale * fitted.coordinates
+    for i, unknown in enumerate(fitted.space.unknowns):
+        if "." not in unknown.name and (unknown.name not in THESIS_PARAMETERS or unknown.joint is not None):
+            continue
+        nominal = float(_entry(origin[unknown.name], unknown.joint))
+        value, least, most = (nominal + float(added[i]) for added in (amounts, low, high))
+        found.append(Estimate(unknown, value, least, most, meanings[unknown.name].unit))
+    return found
+
+
+def _entry(values: Array, joint: int | None) -> float:
+    return float(values[joint or 0])
+
+
+def _told(fitted: Fit, names: Sequence[str]) -> Model:
+    """The fitted model with the source of what was fitted."""
+    source = "identified from " + ", ".join(names)
+    changed = {unknown.name: source for unknown in fitted.space.unknowns if unknown.recording is None}
+    return replace(fitted.model, sources=dict(fitted.simulator.model.sources) | changed)

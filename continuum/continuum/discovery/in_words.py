@@ -1,0 +1,54 @@
+"""The verdict in two sentences that a mechanic understands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from continuum.discovery.verdict import Cause, Kind, Verdict
+from continuum.dynamics.effect_lookup import effect_named
+
+
+def verdict_in_words(verdict: Verdict) -> str:
+    """Two sentences, or three where something is to be measured."""
+    before, after = (f"{100 * share:.0f} %" for share in verdict.unexplained)
+    match verdict.kind:
+        case Kind.ADEQUATE:
+            return (
+                "With its parameters refitted, the simulation explains these data as well as the sensors allow. "
+                "Nothing in them asks for a further effect."
+            )
+        case Kind.CAUSE:
+            return (
+                f"{_what(verdict.causes)} "
+                f"With that in the simulation, what it leaves unexplained falls from {before} of the data to {after}."
+            )
+        case Kind.AMBIGUOUS:
+            return (
+                f"These data show that something is missing, but not which of these it is: {_names(verdict)}. "
+                f"Each of them explains what was left ({before} of the data before, {after} after). "
+                f"To tell them apart: {verdict.experiment}"
+            )
+        case Kind.UNKNOWN:
+            return (
+                f"The simulation is wrong in {before} of the data, and no effect that is known here explains why. "
+                + (f"{_helps(verdict)} helps, yet {after} stay unexplained." if verdict.causes else "None even helps.")
+            )
+
+
+def _what(causes: Sequence[Cause]) -> str:
+    return " Besides: ".join(f"{effect_named(c.addition.effect).in_words}{_where(c)}" for c in causes)
+
+
+def _where(cause: Cause) -> str:
+    joints = cause.addition.joints
+    if joints is None:
+        return ""
+    return f" (joint{'s' if len(joints) > 1 else ''} {', '.join(str(joint + 1) for joint in joints)})"
+
+
+def _names(verdict: Verdict) -> str:
+    return ", ".join(dict.fromkeys(str(c.addition) for c in (*verdict.causes, *verdict.alternatives)))
+
+
+def _helps(verdict: Verdict) -> str:
+    return " with ".join(str(c.addition) for c in verdict.causes)

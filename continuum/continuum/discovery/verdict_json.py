@@ -1,0 +1,72 @@
+"""Findings for machines."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+from continuum.discovery.findings import Findings
+from continuum.discovery.verdict import Cause
+from continuum.errors import FileError
+
+
+def write_json(found: Findings, path: str | Path) -> None:
+    """Write the findings.
+
+    Raises:
+        FileError: the file cannot be written.
+    """
+    try:
+        Path(path).write_text(json.dumps(as_mapping(found), indent=2) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise FileError(path, f"cannot be written ({error})") from error
+
+
+def as_mapping(found: Findings) -> dict[str, Any]:
+    """Numbers, strings, lists and mappings; joints count from 1, units are SI."""
+    verdict = found.verdict
+    return {
+        "verdict": verdict.kind.value,
+        "causes": [_cause(found, cause) for cause in verdict.causes],
+        "alternatives": [_cause(found, cause) for cause in verdict.alternatives],
+        "experiment": verdict.experiment,
+        "unexplained": {"before": verdict.unexplained[0], "after": verdict.unexplained[1]},
+        "nrmse_position": _scores(found, "position"),
+        "nrmse_velocity": _scores(found, "rate"),
+        "gap_closed": found.closed,
+        "parameters": [
+            {"name": str(e.unknown), "value": e.value, "low": e.low, "high": e.high, "unit": e.unit}
+            for e in found.estimates
+        ],
+        "weakness": found.weakness,
+        "notes": list(found.notes),
+    }
+
+
+def _cause(found: Findings, cause: Cause) -> dict[str, Any]:
+    joints = None if cause.addition.joints is None else [joint + 1 for joint in cause.addition.joints]
+    prefix = cause.addition.effect + "."
+    return {
+        "effect": cause.addition.effect,
+        "joint": joints[0] if joints is not None and len(joints) == 1 else None,
+        "joints": joints,
+        "confidence": cause.confidence,
+        "gain": cause.gain.log_likelihood,
+        "parameters": {
+            str(e.unknown)[len(prefix) :]: {"value": e.value, "low": e.low, "high": e.high, "unit": e.unit}
+            for e in found.estimates
+            if e.unknown.name.startswith(prefix)
+        },
+    }
+
+
+def _scores(found: Findings, what: str) -> dict[str, dict[str, float | None]]:
+    """By run; null where a model could not be simulated."""
+
+    def number(score: object) -> float | None:
+        value = float(getattr(score, what))
+        return value if math.isfinite(value) else None
+
+    return {b.name: {"before": number(b), "after": number(a)} for b, a in zip(found.before, found.after, strict=True)}

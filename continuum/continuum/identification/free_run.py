@@ -1,0 +1,33 @@
+"""A run simulated freely from its first instant to its last: what a simulation without hints would show."""
+
+from __future__ import annotations
+
+from continuum.dynamics.reading import Reading
+from continuum.dynamics.simulator import Simulator
+from continuum.identification.fit import fit
+from continuum.identification.free import Free
+from continuum.identification.noise import Noise
+from continuum.identification.recording import Recording
+from continuum.identification.window_residual import WindowResidual
+
+_ITERATIONS = 6
+
+
+def free_run(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...] = ()) -> Reading | None:
+    """What the sensors would read; None where the model cannot be simulated.
+
+    Angles and rates at the first instant are those that explain the first window best, no later one; what belongs to a
+    recording alone, as a sensor's offset, is fitted to it.
+
+    Args:
+        simulator: of the model.
+        recording: what was measured.
+        noise: of the sensors.
+        own: unknowns that the recording has for itself.
+    """
+    mine = [Free(unknown.name, unknown.joint, 0) for unknown in own]
+    fitted = fit(simulator, [recording], noise, mine, iterations=_ITERATIONS)
+    if not fitted.parts:
+        return None
+    whole = WindowResidual(simulator, recording, 0, noise, fitted.space, None)
+    return whole.simulate(fitted.coordinates, [fitted.unknowns.own[0]])
