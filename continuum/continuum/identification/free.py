@@ -14,6 +14,7 @@ from continuum.errors import InvalidValueError
 
 _BASELINE_SPREAD = 1.0  # prior standard deviation of a parameter of Eq. 12, in units of its nominal value
 _EFFECT_SPREAD = 3.0  # of an effect's parameter, in units of its typical size
+_BATCH_ENDS = 2.5  # standard deviations, beyond which no part of a batch is
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,8 @@ class FreeSpace:
             self.directions[at, i] = self.scale[i]
             self.lower[i] = (meaning.lower - values.min()) / self.scale[i]
             self.upper[i] = (meaning.upper - values.max()) / self.scale[i]
+            if unknown.tolerance is not None:  # parts that differ by more are not of one batch: a cause of its own
+                self.lower[i], self.upper[i] = max(self.lower[i], -_BATCH_ENDS), min(self.upper[i], _BATCH_ENDS)
 
     def directions_of(self, recording: int) -> Array:
         """Directions as one recording sees them, (n_p, n_free): what belongs to another moves nothing."""
