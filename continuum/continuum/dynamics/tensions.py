@@ -13,15 +13,17 @@ from continuum.errors import InvalidValueError
 
 @dataclass(frozen=True)
 class Tensions:
-    """Linear between its rows, held before the first and after the last.
+    """Linear between its rows, or each row held until the next; held before the first and after the last in any case.
 
     Attributes:
         times: of the rows, increasing, (rows,) [s].
         values: tension of each cable, (rows, n_cables) [N], none negative.
+        held: a row holds until the next one, as a command does; else tensions change linearly, as measured ones.
     """
 
     times: Array
     values: Array
+    held: bool = False
 
     def __post_init__(self) -> None:
         times = output_times(self.times)
@@ -35,7 +37,15 @@ class Tensions:
 
     def at(self, t: float) -> Array:
         """Tension of each cable at one time, (n_cables,) [N]."""
+        if self.held:
+            return np.asarray(self.values[max(np.searchsorted(self.times, t, side="right") - 1, 0)])
         return np.array([np.interp(t, self.times, column) for column in self.values.T])
+
+    def rows(self) -> tuple[Array, Array]:
+        """Times (rows,) and values (rows, n_cables), linear in between; two rows of one time are a jump."""
+        if not self.held:
+            return self.times, self.values
+        return np.repeat(self.times, 2)[1:], np.repeat(self.values, 2, axis=0)[:-1]
 
 
 def slack() -> Tensions:

@@ -2,8 +2,8 @@
 
 Every stage is solved by Newton's method with the exact Jacobian, so that a stage's own derivative by initial state
 and parameters is one more linear solve with the same matrix: the sensitivities are those of the computed trajectory,
-its steps held, and cost no further iterations. Steps end on every output time and where the tensions bend; nothing is
-interpolated.
+its steps held, and cost no further iterations. Steps end on every output time and where the tensions bend or jump; nothing
+is interpolated.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import numpy as np
 
 from continuum.dynamics.integration.compiled_loops import compiled, entry_point
 from continuum.dynamics.integration.esdirk_step import first_stage, slopes_of_stages, solve_stages
+from continuum.dynamics.integration.input_tensions import jumps_at
 from continuum.dynamics.integration.problem import work_for
 from continuum.dynamics.integration.step_size import FIRST_STEP, error_size, longer, shorter, step_towards
 from continuum.dynamics.trajectory import SimulationStatus
@@ -49,7 +50,7 @@ def _build(digest: str) -> Callable[..., Any]:
             while t < times[k]:
                 stop = min(times[k], _next_bend(problem.input_times, t))
                 step, ends = step_towards(stop, t, min(wanted, method.max_step))
-                if step < 1e-12 * max(1.0, abs(t)) or taken + refused > most:
+                if (not ends and step < 1e-12 * max(1.0, abs(t))) or taken + refused > most:
                     return states, slopes, taken, refused, _STEP_TOO_SMALL
                 size, new = np.inf, work.states[-1]
                 if solve_stages(problem, method, work, t, x, step):
@@ -64,6 +65,12 @@ def _build(digest: str) -> Callable[..., Any]:
                 size_before, just_refused = size, False
                 x[:], work.rates[0], work.rate_slopes[0] = new, work.rates[-1], work.rate_slopes[-1]
                 t, taken = stop if ends else t + step, taken + 1
+                if (
+                    ends
+                    and jumps_at(t, problem.input_times)
+                    and not first_stage(problem, method, work, t, x, slope)
+                ):
+                    return states, slopes, taken, refused, _NOT_FINITE
             states[k], slopes[k] = x, slope
         status = _COMPLETE if np.all(np.isfinite(states)) else _NOT_FINITE
         return states, slopes, taken, refused, status
