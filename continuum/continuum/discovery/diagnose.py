@@ -9,14 +9,17 @@ from dataclasses import dataclass
 from continuum.discovery.judgement import judge
 from continuum.discovery.question import Question
 from continuum.discovery.search import Round, Tell, search, tell_nobody
+from continuum.discovery.trial import TOLERANCES
 from continuum.discovery.verdict import Verdict
 from continuum.discovery.workers import workers
 from continuum.dynamics.effect_lookup import effect_names
 from continuum.dynamics.model import Model
+from continuum.dynamics.simulator import Simulator
 from continuum.errors import InvalidValueError
 from continuum.identification.baseline import baseline_unknowns, with_dry_friction
 from continuum.identification.dataset import Dataset
 from continuum.identification.noise import SensorKnowledge, estimate_noise
+from continuum.identification.tension_rows import with_likelier_rows
 
 NEEDS_TENSION = ("capstan", "elastic_cable", "actuator_lag")
 
@@ -55,7 +58,10 @@ def diagnose(
         raise InvalidValueError("joints in the recordings", dataset.n_joints, f"{model.n_joints}, as the model has")
     ready = with_dry_friction(model)
     noise = estimate_noise(dataset.recordings, known)
-    question = Question(ready, tuple(baseline_unknowns(ready)), dataset.recordings, noise)
+    unknowns = tuple(baseline_unknowns(ready))
+    tell("how tensions go on between rows", 0.0)
+    recordings = with_likelier_rows(Simulator(ready, TOLERANCES), dataset.recordings, noise, unknowns)
+    question = Question(ready, unknowns, recordings, noise)
     driven = any(recording.is_driven for recording in dataset.recordings)
     tried = [name for name in effects or effect_names() if driven or name not in NEEDS_TENSION]
     present = {active.effect.name for active in model.effects}

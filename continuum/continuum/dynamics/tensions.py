@@ -38,7 +38,7 @@ class Tensions:
     def at(self, t: float) -> Array:
         """Tension of each cable at one time, (n_cables,) [N]."""
         if self.held:
-            return np.asarray(self.values[max(np.searchsorted(self.times, t, side="right") - 1, 0)])
+            return np.asarray(self.values[max(int(np.searchsorted(self.times, t, side="right")) - 1, 0)])
         return np.array([np.interp(t, self.times, column) for column in self.values.T])
 
     def rows(self) -> tuple[Array, Array]:

@@ -2,8 +2,8 @@
 
 Every stage is solved by Newton's method with the exact Jacobian, so that a stage's own derivative by initial state
 and parameters is one more linear solve with the same matrix: the sensitivities are those of the computed trajectory,
-its steps held, and cost no further iterations. Steps end on every output time and where the tensions bend or jump; nothing
-is interpolated.
+its steps held, and cost no further iterations. Steps end on every output time and where the tensions bend or jump;
+nothing is interpolated.
 """
 
 from __future__ import annotations
@@ -65,11 +65,7 @@ def _build(digest: str) -> Callable[..., Any]:
                 size_before, just_refused = size, False
                 x[:], work.rates[0], work.rate_slopes[0] = new, work.rates[-1], work.rate_slopes[-1]
                 t, taken = stop if ends else t + step, taken + 1
-                if (
-                    ends
-                    and jumps_at(t, problem.input_times)
-                    and not first_stage(problem, method, work, t, x, slope)
-                ):
+                if ends and jumps_at(t, problem.input_times) and not first_stage(problem, method, work, t, x, slope):
                     return states, slopes, taken, refused, _NOT_FINITE
             states[k], slopes[k] = x, slope
         status = _COMPLETE if np.all(np.isfinite(states)) else _NOT_FINITE
