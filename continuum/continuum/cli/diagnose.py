@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from continuum.cli.tables import print_pairs
 
 if TYPE_CHECKING:
+    from continuum.discovery.diagnose import Diagnosis
     from continuum.discovery.findings import Findings
     from continuum.identification.recording import Recording
 
@@ -27,6 +28,7 @@ def add_to(commands: Any) -> None:
         help="model file, or one that comes with the library; default %(default)s",
     )  # fmt: skip
     parser.add_argument("--json", metavar="OUT.json", help="write verdict, parameters and scores for machines")
+    parser.add_argument("--report", metavar="OUT.html", help="write a page with pictures that needs no other file")
     parser.add_argument("--extended", metavar="OUT.yaml", help="write the extended model; every command loads it")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the intervals; default %(default)s")
     parser.add_argument("--processes", metavar="N", type=int, help="that work at once; default one for each core")
@@ -53,9 +55,24 @@ def run(options: argparse.Namespace) -> int:
     _show(found)
     if options.json is not None:
         write_json(found, options.json)
+    if options.report is not None:
+        _report(options.report, diagnosis, found, options.seed)
     if options.extended is not None:
         save_model(found.model, options.extended)
     return EXIT_CODES[found.verdict.kind.value]
+
+
+def _report(path: str, diagnosis: Diagnosis, found: Findings, seed: int) -> None:
+    import numpy as np
+
+    from continuum.discovery.report_html import write_report
+    from continuum.discovery.residual_torque import residual_torques
+    from continuum.discovery.structure_tests import structure_tests
+
+    before = residual_torques(diagnosis.question, found.refitted)
+    after = residual_torques(diagnosis.question, found.model) if found.verdict.extension else None
+    tests = structure_tests(before, np.random.default_rng(seed))
+    write_report(path, diagnosis, found, (before, after), tests)
 
 
 def _read(path: str) -> Recording:

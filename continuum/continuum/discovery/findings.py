@@ -50,7 +50,7 @@ class Findings:
         closed: part of the distance to the noise floor that the extension closes.
         weakness: why this proves less than it would with more runs; empty where it does not.
         notes: on repairs of the data.
-        model: the extended model, fitted to all runs.
+        refitted, model: the model as it was and the extended one, both fitted to all runs.
     """
 
     verdict: Verdict
@@ -61,6 +61,7 @@ class Findings:
     closed: float
     weakness: str
     notes: tuple[str, ...]
+    refitted: Model
     model: Model
 
 
@@ -85,6 +86,7 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         closed_gap(before, after),
         split.weakness,
         tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes),
+        fit_extension(question, (), verdict.baseline, 2).model,
         _told(fitted, [r.name for r in question.recordings]),
     )
 

@@ -7,7 +7,6 @@ told; else refused, and told which row of the file (the header is row 1) is the 
 from __future__ import annotations
 
 import csv
-import re
 from pathlib import Path
 
 import numpy as np
@@ -17,9 +16,7 @@ from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
 from continuum.identification.recording import Recording
 from continuum.identification.recording_checks import checked
-
-_COLUMN = re.compile(r"(?P<kind>q|dq|u)(?P<number>[1-9]\d?)_(?P<unit>deg_s|rad_s|deg|rad|N)")
-_UNITS = {"q": {"deg": np.pi / 180, "rad": 1.0}, "dq": {"deg_s": np.pi / 180, "rad_s": 1.0}, "u": {"N": 1.0}}
+from continuum.recordings.motion_columns import ANGLE, RATE, TENSION, TIME, Quantity
 
 
 def read_recording_csv(path: str | Path) -> Recording:
@@ -31,18 +28,18 @@ def read_recording_csv(path: str | Path) -> Recording:
     path = Path(path)
     header, table = _numbers(path)
     columns = {name: table[:, i] for i, name in enumerate(header)}
-    if "t_s" not in columns:
-        raise FileError(path, f"has no column t_s; it has {', '.join(header)}")
-    theta = _block(path, columns, "q")
+    if TIME not in columns:
+        raise FileError(path, f"has no column {TIME}; it has {', '.join(header)}")
+    theta = _block(path, columns, ANGLE)
     if theta is None:
         raise FileError(path, f"has no joint angles q1_deg .. or q1_rad ..; it has {', '.join(header)}")
-    rate, pull = _block(path, columns, "dq"), _block(path, columns, "u")
+    rate, pull = _block(path, columns, RATE), _block(path, columns, TENSION)
     if rate is not None and rate.shape != theta.shape:
         raise FileError(path, f"has {theta.shape[1]} joint angles but {rate.shape[1]} joint rates")
     if pull is not None and pull.shape[1] != 2:
         raise FileError(path, f"has tensions of {pull.shape[1]} cables; a planar section has u1_N and u2_N")
-    good = checked(path, columns["t_s"], theta, rate, pull)
-    times, theta = columns["t_s"][good.rows], theta[good.rows]
+    good = checked(path, columns[TIME], theta, rate, pull)
+    times, theta = columns[TIME][good.rows], theta[good.rows]
     tensions = None if pull is None else Tensions(times, pull[good.rows])
     return Recording(path.stem, times, theta, None if rate is None else rate[good.rows], tensions, good.notes)
 
@@ -80,21 +77,23 @@ def _number(path: Path, row: int, column: str, cell: str) -> float:
         raise FileError(path, f"row {row}, column {column}: {cell!r} is no number") from error
 
 
-def _block(path: Path, columns: dict[str, Array], kind: str) -> Array | None:
-    """All columns of a kind in SI units, (rows, n); None where there are none."""
+def _block(path: Path, columns: dict[str, Array], quantity: Quantity) -> Array | None:
+    """All columns of a quantity in SI units, (rows, n); None where there are none."""
     found: dict[int, Array] = {}
     for name, values in columns.items():
-        match = _COLUMN.fullmatch(name)
-        if match is None or match["kind"] != kind:
+        named = quantity.names(name)
+        if named is None:
             continue
-        unit, number = _UNITS[kind].get(match["unit"]), int(match["number"])
-        if unit is None:
-            raise FileError(path, f"has the column {name}; allowed units of {kind}: {', '.join(_UNITS[kind])}")
+        number, unit = named
+        if unit not in quantity.units:
+            allowed = ", ".join(quantity.units)
+            raise FileError(path, f"has the column {name}; allowed units of {quantity.letter}: {allowed}")
         if number in found:
-            raise FileError(path, f"has {kind}{number} twice, in two units")
-        found[number] = values * unit
+            raise FileError(path, f"has {quantity.letter}{number} twice, in two units")
+        found[number] = values * quantity.units[unit]
     if not found:
         return None
     if sorted(found) != list(range(1, len(found) + 1)):
-        raise FileError(path, f"has {kind} of {sorted(found)}: numbers must run from 1 without a gap")
+        numbers = ", ".join(map(str, sorted(found)))
+        raise FileError(path, f"has {quantity.letter} of {numbers}: numbers must run from 1 without a gap")
     return np.stack([found[number] for number in sorted(found)], axis=1)

@@ -1,0 +1,123 @@
+"""Findings as one self-contained page."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterable, Sequence
+from html import escape
+from pathlib import Path
+
+from continuum.discovery.diagnose import Diagnosis
+from continuum.discovery.evidence import gain, unexplained
+from continuum.discovery.findings import Findings
+from continuum.discovery.in_words import verdict_in_words
+from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
+from continuum.discovery.residual_torque import ResidualTorque
+from continuum.discovery.search import Round
+from continuum.discovery.structure_tests import StructureTest
+from continuum.errors import FileError
+
+_STYLE = """
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+h1 { font-size: 1.5rem; } h2 { font-size: 1.1rem; margin-top: 2.2rem; border-bottom: 1px solid #ddd; }
+.verdict { font-size: 1.1rem; background: #f2f6fa; border-left: 5px solid #1f6fb4; padding: .8rem 1rem; }
+.unknown, .ambiguous { border-color: #d1802b; background: #fbf5ec; }
+table { border-collapse: collapse; font-size: .85rem; } td, th { padding: .2rem .9rem .2rem 0; text-align: right; }
+td:first-child, th:first-child { text-align: left; } th { border-bottom: 1px solid #bbb; font-weight: 600; }
+img { max-width: 100%; } .note { color: #666; font-size: .85rem; }
+"""
+
+
+def write_report(
+    path: str | Path,
+    diagnosis: Diagnosis,
+    found: Findings,
+    torques: tuple[Sequence[ResidualTorque], Sequence[ResidualTorque] | None],
+    tests: Sequence[StructureTest],
+) -> None:
+    """Write the page.
+
+    Args:
+        path: where.
+        diagnosis, found: what to tell.
+        torques: missing torque of the refitted and of the extended model; None where there is none.
+        tests: of the former.
+
+    Raises:
+        FileError: the file cannot be written.
+    """
+    kind = found.verdict.kind.value
+    extended = bool(found.verdict.extension)
+    body = [
+        f"<h1>What the simulation gets wrong: {escape(kind)}</h1>",
+        f'<p class="verdict {kind}">{escape(verdict_in_words(found.verdict))}</p>',
+        *([f'<p class="note">Mind: {escape(found.weakness)}.</p>'] if found.weakness else []),
+        *(f'<p class="note">{escape(note)}</p>' for note in found.notes),
+        "<h2>Measured and simulated</h2>",
+        '<p class="note">Free simulation from the first instant, by models that were fitted to other runs.</p>',
+        _image(runs_picture(found.before, found.after, extended)),
+        _table(
+            ("run", "position", "extended", "noise alone", "rate", "extended"),
+            [
+                (b.name, *(f"{x:.3f}" for x in (b.position, a.position, b.floor, b.rate, a.rate)))
+                for b, a in zip(found.before, found.after, strict=True)
+            ],
+        ),
+        '<p class="note">Eq. 19 of the thesis: root mean square error by standard deviation, mean over the joints.'
+        + (f" The extension closes {100 * found.closed:.0f} % of the distance to the noise." if extended else "")
+        + "</p>",
+        "<h2>What is missing</h2>",
+        _image(torque_picture(*torques)),
+        _table(
+            ("missing torque at", "goes with", "correlation", "p"),
+            [(f"joint {t.joint + 1}", t.against, f"{t.correlation:+.2f}", f"{t.p_value:.3f}") for t in tests[:8]],
+        ),
+        *(part for number, one in enumerate(diagnosis.rounds, 1) for part in _evidence(number, one)),
+        "<h2>Parameters</h2>",
+        _table(
+            ("parameter", "value", "95 % from", "to", "unit"),
+            [(str(e.unknown), *(f"{x:.4g}" for x in (e.value, e.low, e.high)), e.unit) for e in found.estimates],
+        ),
+        _entangled(found),
+    ]
+    page = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(kind)}</title><style>{_STYLE}</style>'
+    try:
+        Path(path).write_text(page + "\n".join(body) + "</html>\n", encoding="utf-8")
+    except OSError as error:
+        raise FileError(path, f"cannot be written ({error})") from error
+
+
+def _evidence(number: int, one: Round) -> Iterable[str]:
+    yield f"<h2>Effects tried, round {number}</h2>"
+    yield _image(evidence_picture(one))
+    rows = []
+    for trial in one.leaders:
+        won = gain(trial, one.before)
+        rows.append(
+            (str(trial.extension[-1]), f"{won.log_likelihood:.0f}", f"{won.deviation:.0f}", _share(unexplained(trial)))
+        )
+    yield _table(("effect", "gain", "deviation", "data left unexplained"), rows)
+    others = ", ".join(str(trial.extension[-1]) for trial in one.looks[len(one.leaders) :])
+    yield f'<p class="note">Set aside after a first look: {escape(others)}.</p>'
+
+
+def _share(share: float) -> str:
+    return f"{100 * share:.1f} %"
+
+
+def _entangled(found: Findings) -> str:
+    pairs = [f"{a} and {b} ({r:+.2f})" for a, b, r in found.identifiability.entangled]
+    untold = [str(unknown) for unknown in found.identifiability.untold]
+    lines = [f"Estimates that hang together: {', '.join(pairs)}."] if pairs else []
+    lines += [f"Of these the data tell little: {', '.join(untold)}."] if untold else []
+    return "".join(f'<p class="note">{escape(line)}</p>' for line in lines)
+
+
+def _image(png: bytes) -> str:
+    return f'<img alt="" src="data:image/png;base64,{base64.b64encode(png).decode()}">'
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    cells = "".join(f"<th>{escape(cell)}</th>" for cell in head)
+    lines = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table><tr>{cells}</tr>{lines}</table>"

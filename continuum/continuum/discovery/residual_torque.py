@@ -1,0 +1,103 @@
+"""What torque is missing at every joint, window by window: inverse dynamics without differentiating anything measured.
+
+A constant torque at each joint during a window that would explain the window's errors, by least squares; a window's own
+first state is free as ever. Accelerations are not needed, which at 120 Hz no sensor gives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.question import Question
+from continuum.discovery.trial import TOLERANCES
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.planar.instant import Instant
+from continuum.dynamics.simulator import Simulator
+from continuum.identification.arrow_least_squares import reduced
+from continuum.identification.fit import fit
+from continuum.identification.free import Free
+
+_TYPICAL = 0.01  # N m
+_ITERATIONS = 1
+
+
+class ExtraTorque(Effect):
+    """A constant torque at each joint, [N m] on the right side of Eq. 12."""
+
+    name = "residual_torque"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "torque": Parameter("tau", "N m", -1e3, 1e3, True, "what is missing", 0.0, _TYPICAL)
+    }
+
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:  # noqa: ARG002
+        """Minus the torque, as it stands on the left."""
+        return -own["torque"]
+
+
+@dataclass(frozen=True)
+class ResidualTorque:
+    """Missing torque of one run's windows, and what the arm did there.
+
+    Attributes:
+        run: name.
+        times: middle of each window, (n_windows,) [s].
+        torque, deviation: missing torque and its standard deviation by noise alone, (n_windows, n_joints) [N m].
+        theta, theta_rate: joint angles and rates there, (n_windows, n_joints) [rad, rad/s].
+        tension: of the cables, (n_windows, n_cables) [N].
+    """
+
+    run: str
+    times: Array
+    torque: Array
+    deviation: Array
+    theta: Array
+    theta_rate: Array
+    tension: Array
+
+
+def residual_torques(question: Question, model: Model) -> list[ResidualTorque]:
+    """Of every run.
+
+    Args:
+        question: data.
+        model: fitted.
+    """
+    n = model.n_joints
+    extra = ActiveEffect(ExtraTorque(), {"torque": np.zeros(n)})
+    simulator = Simulator(replace(model, effects=(*model.effects, extra)), TOLERANCES)
+    free = [Free("residual_torque.torque", joint) for joint in range(n)]
+    found = []
+    for recording in question.recordings:
+        fitted = fit(simulator, [recording], question.noise, free, iterations=_ITERATIONS)
+        torque, deviation, middle = [], [], []
+        for rows, part in zip(fitted.runs[0].rows, fitted.parts, strict=True):
+            slopes = reduced(part, fitted.unknowns.own_spread)
+            covariance = np.linalg.inv(slopes.T @ slopes + 1e-6 * np.eye(n))
+            at = fitted.coordinates - covariance @ slopes.T @ part.errors
+            torque.append(_TYPICAL * at)
+            deviation.append(_TYPICAL * np.sqrt(np.diag(covariance)))
+            middle.append((rows.start + rows.stop) // 2)
+        times = recording.times[middle]
+        rate = np.gradient(recording.theta, recording.times, axis=0)
+        rate = rate if recording.theta_rate is None else recording.theta_rate
+        tension = np.array([recording.pull.at(t) for t in times])
+        found.append(
+            ResidualTorque(
+                recording.name,
+                times,
+                np.array(torque),
+                np.array(deviation),
+                recording.theta[middle],
+                rate[middle],
+                tension,
+            )
+        )
+    return found

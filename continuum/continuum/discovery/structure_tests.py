@@ -1,0 +1,89 @@
+"""Does the missing torque go with something: position, direction, speed, tension, load, time, order of runs?
+
+Correlations by ranks, so that few large values do not decide. Their probability by chance respects that neighbouring
+windows
+are alike: what chance gives is seen by turning each run's series against the other by random amounts (Theiler 1992),
+which leaves both as alike in themselves as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import rankdata
+
+from continuum.arrays import Array
+from continuum.discovery.residual_torque import ResidualTorque
+
+_DRAWS = 400
+
+_LOOKS: dict[str, Callable[[ResidualTorque, int], Array]] = {
+    "position": lambda r, j: r.theta[:, j],
+    "direction of motion": lambda r, j: np.tanh(r.theta_rate[:, j] / 0.05),
+    "speed": lambda r, j: r.theta_rate[:, j],
+    "speed squared, signed": lambda r, j: r.theta_rate[:, j] * np.abs(r.theta_rate[:, j]),
+    "cube of the angle": lambda r, j: r.theta[:, j] ** 3,
+    "difference of tensions": lambda r, _: r.tension[:, 0] - r.tension[:, 1],
+    "direction times tension": lambda r, j: np.tanh(r.theta_rate[:, j] / 0.05) * r.tension.sum(axis=1),
+    "position of the whole arm": lambda r, _: r.theta.sum(axis=1),
+    "time within the run": lambda r, _: r.times - r.times[0],
+}
+
+
+@dataclass(frozen=True)
+class StructureTest:
+    """One test.
+
+    Attributes:
+        joint: from 0.
+        against: what the missing torque was compared with.
+        correlation: by ranks, -1 to 1.
+        p_value: probability of as large a one by chance.
+    """
+
+    joint: int
+    against: str
+    correlation: float
+    p_value: float
+
+
+def structure_tests(residuals: Sequence[ResidualTorque], random: np.random.Generator) -> list[StructureTest]:
+    """All joints against all looks, the surest first.
+
+    Args:
+        residuals: of every run.
+        random: for the turns.
+    """
+    found = []
+    for joint in range(residuals[0].torque.shape[1]):
+        torque = [r.torque[:, joint] / r.deviation[:, joint] for r in residuals]
+        for against, look in _LOOKS.items():
+            other = [look(r, joint) for r in residuals]
+            if np.std(np.concatenate(other)) < 1e-9:
+                continue
+            found.append(_tested(joint, against, torque, other, random))
+        if len(residuals) > 2:
+            order = [np.full(r.times.size, float(i)) for i, r in enumerate(residuals)]
+            found.append(_tested(joint, "order of the runs", torque, order, random))
+    return sorted(found, key=lambda test: (test.p_value, -abs(test.correlation)))
+
+
+def _tested(
+    joint: int, against: str, torque: Sequence[Array], other: Sequence[Array], random: np.random.Generator
+) -> StructureTest:
+    y = rankdata(np.concatenate(other))
+    found = _correlation(np.concatenate(torque), y)
+    draws = np.empty(_DRAWS)
+    for i in range(_DRAWS):
+        turned = [np.roll(series, random.integers(series.size)) for series in torque]
+        if against == "order of the runs":
+            turned = [turned[k] for k in random.permutation(len(turned))]
+        draws[i] = _correlation(np.concatenate(turned), y)
+    p_value = (1 + np.sum(np.abs(draws) >= abs(found))) / (1 + _DRAWS)
+    return StructureTest(joint, against, found, float(p_value))
+
+
+def _correlation(x: Array, ranks: Array) -> float:
+    return float(np.corrcoef(rankdata(x), ranks)[0, 1])
