@@ -22,7 +22,9 @@ def add_to(commands: Any) -> None:
         "diagnose", help="what a simulation gets wrong about recordings, and why", description=__doc__,
         epilog="Exit codes: 0 adequate, 1 a cause is named, 3 ambiguous, 4 unknown; 2 wrong usage or data.",
     )  # fmt: skip
-    parser.add_argument("data", metavar="DATA", nargs="+", help="recordings: CSV files (t_s,q1_deg,..)")
+    parser.add_argument(
+        "data", metavar="DATA", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
+    )
     parser.add_argument(
         "--model", metavar="FILE.yaml", default="lamecc_prototype.yaml",
         help="model file, or one that comes with the library; default %(default)s",
@@ -76,9 +78,10 @@ def _report(path: str, diagnosis: Diagnosis, found: Findings, seed: int) -> None
 
 
 def _read(path: str) -> Recording:
+    from continuum.identification.recording_bag import read_recording_bag
     from continuum.identification.recording_csv import read_recording_csv
 
-    return read_recording_csv(Path(path))
+    return read_recording_bag(path) if Path(path).is_dir() else read_recording_csv(path)
 
 
 def _show(found: Findings) -> None:

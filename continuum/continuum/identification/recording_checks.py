@@ -1,4 +1,4 @@
-"""What may be wrong with a table of samples, repaired or refused by row; rows count from the header as row 1."""
+"""What may be wrong with samples of a run, repaired or refused by row."""
 
 from __future__ import annotations
 
@@ -15,104 +15,165 @@ _FEWEST_ROWS = 30
 _LONGEST_GAP = 0.25  # s; the arm may do anything in a longer one
 _MOST_BAD = 0.1  # of all rows
 _CLIPPED_ROWS = 3  # of the same extreme value one after the other
+_CLIPPED_STEP = 3  # units of the last digit, by which a signal jumps to its limit
+_LEAST_ANGLE = np.deg2rad(1.0)  # that a run must reach; sensors err by tenths of a degree
+_LARGEST_RATE, _LARGEST_TENSION = 200.0, 1e4  # rad/s, N; no arm of this kind has more
+_ALIKE = 0.5  # correlation of a joint's rate with the slope of its angle from which on their sizes are compared
 
 
 @dataclass(frozen=True)
-class GoodRows:
-    """Rows that are fit for use, (n_rows,) of bool, and a note on each repair."""
+class Samples:
+    """What one run's table holds, NaN where a cell is empty.
 
-    rows: NDArray[np.bool_]
-    notes: tuple[str, ...]
-
-
-def checked(path: Path, times: Array, theta: Array, rate: Array | None, pull: Array | None) -> GoodRows:
-    """The rows to use.
-
-    Args:
+    Attributes:
+        path: of the file or folder.
+        numbers: of the rows in it, as a person counts them, (rows,).
         times: (rows,) [s].
-        theta, rate: (rows, n_joints) [rad, rad/s].
-        pull: (rows, n_cables) [N].
+        theta: (rows, n_joints) [rad].
+        rate: (rows, n_joints) [rad/s], or None.
+        pull: (rows, n_cables) [N], or None.
+        row: what a row is called.
+    """
+
+    path: Path
+    numbers: NDArray[np.int64]
+    times: Array
+    theta: Array
+    rate: Array | None
+    pull: Array | None
+    row: str = "row"
+
+    def chosen(self, rows: NDArray[np.bool_]) -> Samples:
+        """Some of the rows."""
+        rate, pull = (None if block is None else block[rows] for block in (self.rate, self.pull))
+        return Samples(self.path, self.numbers[rows], self.times[rows], self.theta[rows], rate, pull, self.row)
+
+    def told(self, rows: NDArray[np.bool_]) -> str:
+        """`row 7`, or `rows 7, 8, 9, ..`."""
+        numbers = [str(number) for number in self.numbers[rows]]
+        shown = ", ".join(numbers[:8]) + (", .." if len(numbers) > 8 else "")
+        return f"{self.row}{'' if len(numbers) == 1 else 's'} {shown}"
+
+
+def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
+    """The samples fit for use, and a note on each repair.
 
     Raises:
         FileError: backward time, long gaps, negative tensions, too many bad rows, or units that cannot be the
-        stated ones.
+            stated ones.
     """
-    blocks = [times[:, None], theta, *(block for block in (rate, pull) if block is not None)]
-    missing = ~np.all(np.isfinite(np.concatenate(blocks, axis=1)), axis=1)
-    notes = [*_told(missing, "without a finite value in every column, left out")]
-    keep = ~missing
-    keep &= ~_repeated(path, times, keep, notes)
-    if rate is not None:
-        clipped = keep & _clipped(rate)
-        notes += _told(clipped, "with a clipped rate, left out")
-        keep &= ~clipped
-    if keep.sum() < _FEWEST_ROWS:
-        raise FileError(path, f"has {keep.sum()} usable rows; at least {_FEWEST_ROWS} are needed")
-    if (~keep).sum() > _MOST_BAD * keep.size:
-        raise FileError(path, f"has {(~keep).sum()} bad rows of {keep.size}: " + "; ".join(notes))
-    _refuse_gaps(path, times, keep)
-    if pull is not None and np.any(pull[keep] < 0):
-        row = np.flatnonzero(keep)[np.argmax(np.any(pull[keep] < 0, axis=1))]
-        raise FileError(path, f"{_rows([row])}: tension {pull[row].min():g} N; a cable cannot push")
-    _refuse_units(path, times[keep], theta[keep], None if rate is None else rate[keep])
-    return GoodRows(keep, tuple(notes))
+    notes: list[str] = []
+    good = samples
+
+    def leave_out(bad: NDArray[np.bool_], why: str) -> Samples:
+        if np.any(bad):
+            notes.append(f"{good.told(bad)} {why}, left out")
+        return good.chosen(~bad)
+
+    good = leave_out(~_complete(good), "without a finite value in every column")
+    _refuse_backward(good)
+    good = leave_out(np.diff(good.times, prepend=-np.inf) == 0, f"with the time of the {good.row} before")
+    good = leave_out(_clipped(good), "with a clipped rate")
+    if good.times.size < _FEWEST_ROWS:
+        told = "; ".join(["", *notes])
+        raise FileError(
+            good.path, f"has {good.times.size} usable {good.row}s; at least {_FEWEST_ROWS} are needed{told}"
+        )
+    bad = samples.times.size - good.times.size
+    if bad > _MOST_BAD * samples.times.size:
+        raise FileError(good.path, f"has {bad} bad {good.row}s of {samples.times.size}: " + "; ".join(notes))
+    _refuse_gaps(good)
+    _refuse_pushing(good)
+    _refuse_units(good)
+    return good, tuple(notes)
 
 
-def _repeated(path: Path, times: Array, keep: NDArray[np.bool_], notes: list[str]) -> NDArray[np.bool_]:
-    """Rows whose time is that of the row before; the first is kept."""
-    index = np.flatnonzero(keep)
-    step = np.diff(times[index])
-    if np.any(step < 0):
-        at = index[1:][np.argmax(step < 0)]
-        raise FileError(path, f"{_rows([at])}: time runs backward, to {times[at]:g} s; are these two recordings?")
-    repeated = np.zeros(keep.size, dtype=bool)
-    repeated[index[1:][step == 0]] = True
-    notes += _told(repeated, "with the time of the row before, left out")
-    return repeated
+def _complete(samples: Samples) -> NDArray[np.bool_]:
+    """Rows in which every number is finite."""
+    blocks = [block for block in (samples.theta, samples.rate, samples.pull) if block is not None]
+    return np.all(np.isfinite(np.column_stack([samples.times, *blocks])), axis=1)
 
 
-def _clipped(rate: Array) -> NDArray[np.bool_]:
-    """Rows in which a rate stands still at its extreme, as a sensor at the end of its range does."""
-    clipped = np.zeros(rate.shape[0], dtype=bool)
-    for column in rate.T:
-        for extreme in (np.nanmax(column), np.nanmin(column)):
-            at = np.abs(column) > 0
-            at &= column == extreme
-            runs = np.flatnonzero(np.diff(np.concatenate([[False], at, [False]]).astype(int)))
-            for start, end in zip(runs[::2], runs[1::2], strict=True):
-                if end - start >= _CLIPPED_ROWS and abs(extreme) > 0.5 * np.nanmax(np.abs(column)):
+def _refuse_backward(samples: Samples) -> None:
+    backward = samples.times[1:] < samples.times[:-1]
+    if np.any(backward):
+        at = int(np.argmax(backward)) + 1
+        where = f"{samples.row} {samples.numbers[at]}"
+        raise FileError(
+            samples.path, f"{where}: time runs backward, to {samples.times[at]:g} s; are these two recordings?"
+        )
+
+
+def _clipped(samples: Samples) -> NDArray[np.bool_]:
+    """Rows in which a rate stands still at its extreme and jumps there, as a sensor at the end of its range does."""
+    clipped = np.zeros(samples.times.size, dtype=bool)
+    if samples.rate is None:
+        return clipped
+    for column in samples.rate.T:
+        values = np.unique(column)
+        if values.size < 3:
+            continue  # it never moves
+        digit = np.min(np.diff(values))
+        for extreme in (values[0], values[-1]):
+            if abs(extreme) <= np.max(np.abs(values)) / 2:
+                continue
+            edges = np.flatnonzero(np.diff(np.concatenate([[False], column == extreme, [False]]).astype(int)))
+            for start, end in zip(edges[::2], edges[1::2], strict=True):
+                beside = np.abs(column[[max(start - 1, 0), min(end, column.size - 1)]] - extreme)
+                if end - start >= _CLIPPED_ROWS and np.max(beside) > _CLIPPED_STEP * digit:
                     clipped[start:end] = True
     return clipped
 
 
-def _refuse_gaps(path: Path, times: Array, keep: NDArray[np.bool_]) -> None:
-    index = np.flatnonzero(keep)
-    gaps = np.diff(times[index])
-    if np.max(gaps) > _LONGEST_GAP:
-        at = int(np.argmax(gaps))
-        hint = "; or is the time in milliseconds?" if np.median(gaps) > _LONGEST_GAP else ""
-        where = f"rows {index[at] + 2} to {index[at + 1] + 2}: a gap of {gaps[at]:.3g} s"
-        raise FileError(path, f"{where}; up to {_LONGEST_GAP} s is bridged: split the file there{hint}")
-
-
-def _refuse_units(path: Path, times: Array, theta: Array, rate: Array | None) -> None:
-    if np.max(np.abs(theta)) > 2 * np.pi:
-        raise FileError(path, f"has a joint angle of {np.max(np.abs(theta)):.3g} rad: degrees under a column _rad?")
-    if rate is None:
+def _refuse_gaps(samples: Samples) -> None:
+    gaps = np.diff(samples.times)
+    at = int(np.argmax(gaps))
+    if gaps[at] <= _LONGEST_GAP:
         return
-    from_angles, both = np.gradient(theta, times, axis=0), np.std(rate)
-    if both == 0 or np.std(from_angles) == 0 or np.corrcoef(from_angles.ravel(), rate.ravel())[0, 1] < 0.5:
+    hint = "; or is the time in milliseconds?" if np.median(gaps) > _LONGEST_GAP else ""
+    where = f"{samples.row}s {samples.numbers[at]} to {samples.numbers[at + 1]}: a gap of {gaps[at]:.3g} s"
+    raise FileError(samples.path, f"{where}; up to {_LONGEST_GAP} s is bridged: split the recording there{hint}")
+
+
+def _refuse_pushing(samples: Samples) -> None:
+    if samples.pull is None:
+        return
+    least = np.min(samples.pull, axis=1)
+    if np.any(least < 0):
+        at = int(np.argmax(least < 0))
+        where = f"{samples.row} {samples.numbers[at]}"
+        raise FileError(samples.path, f"{where}: tension {least[at]:g} N; a cable cannot push")
+
+
+def _refuse_units(samples: Samples) -> None:
+    """Refuse what is too large or small for its unit."""
+    largest = float(np.max(np.abs(samples.theta)))
+    if largest > 2 * np.pi:
+        raise FileError(samples.path, f"has a joint angle of {largest:.3g} rad: degrees taken for radians?")
+    if largest < _LEAST_ANGLE:
+        raise FileError(
+            samples.path,
+            f"has no joint angle above {np.degrees(largest):.2g} degrees: radians taken for degrees, or arm at rest?",
+        )
+    for block, limit, what in (
+        (samples.rate, _LARGEST_RATE, "joint rate of {:.3g} rad/s: degrees taken for radians?"),
+        (samples.pull, _LARGEST_TENSION, "tension of {:.3g} N: another unit?"),
+    ):
+        if block is not None and np.max(np.abs(block)) > limit:
+            raise FileError(samples.path, "has a " + what.format(np.max(np.abs(block))))
+    if samples.rate is not None:
+        slopes = np.gradient(samples.theta, samples.times, axis=0)
+        for joint, (slope, rate) in enumerate(zip(slopes.T, samples.rate.T, strict=True), start=1):
+            _refuse_mixed(samples.path, joint, slope, rate)
+
+
+def _refuse_mixed(path: Path, joint: int, slope: Array, rate: Array) -> None:
+    """Refuse a joint whose rate is not of the size of its angle's slope."""
+    if np.std(slope) == 0 or np.std(rate) == 0 or np.corrcoef(slope, rate)[0, 1] < _ALIKE:
         return  # too noisy to judge by
-    ratio = np.sum(from_angles * rate) / np.sum(from_angles**2)
-    if ratio > 15 or ratio < 1 / 15:
-        raise FileError(path, f"has rates {ratio:.3g} times as large as its angles change: degrees and radians mixed?")
-
-
-def _told(rows: NDArray[np.bool_], what: str) -> list[str]:
-    return [f"{_rows(np.flatnonzero(rows))} {what}"] if np.any(rows) else []
-
-
-def _rows(index: object) -> str:
-    """`row 7`, or `rows 7, 8, 9, ..` of the file."""
-    numbers = [str(int(i) + 2) for i in np.atleast_1d(np.asarray(index))]
-    return ("row " if len(numbers) == 1 else "rows ") + ", ".join(numbers[:8]) + (", .." if len(numbers) > 8 else "")
+    ratio = np.sum(slope * rate) / np.sum(slope**2)
+    if not 1 / 15 < ratio < 15:
+        raise FileError(
+            path,
+            f"joint {joint}: rates {ratio:.3g} times as large as its angle changes: degrees and radians mixed?",
+        )

@@ -10,12 +10,13 @@ import csv
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
 from continuum.identification.recording import Recording
-from continuum.identification.recording_checks import checked
+from continuum.identification.recording_checks import Samples, repaired
 from continuum.recordings.motion_columns import ANGLE, RATE, TENSION, TIME, Quantity
 
 
@@ -26,7 +27,7 @@ def read_recording_csv(path: str | Path) -> Recording:
         FileError: the file cannot be read, has other columns, or is damaged beyond repair.
     """
     path = Path(path)
-    header, table = _numbers(path)
+    header, numbers, table = _numbers(path)
     columns = {name: table[:, i] for i, name in enumerate(header)}
     if TIME not in columns:
         raise FileError(path, f"has no column {TIME}; it has {', '.join(header)}")
@@ -38,34 +39,31 @@ def read_recording_csv(path: str | Path) -> Recording:
         raise FileError(path, f"has {theta.shape[1]} joint angles but {rate.shape[1]} joint rates")
     if pull is not None and pull.shape[1] != 2:
         raise FileError(path, f"has tensions of {pull.shape[1]} cables; a planar section has u1_N and u2_N")
-    good = checked(path, columns[TIME], theta, rate, pull)
-    times, theta = columns[TIME][good.rows], theta[good.rows]
-    tensions = None if pull is None else Tensions(times, pull[good.rows])
-    return Recording(path.stem, times, theta, None if rate is None else rate[good.rows], tensions, good.notes)
+    good, notes = repaired(Samples(path, numbers, columns[TIME], theta, rate, pull))
+    tensions = None if good.pull is None else Tensions(good.times, good.pull)
+    return Recording(path.stem, good.times, good.theta, good.rate, tensions, notes)
 
 
-def _numbers(path: Path) -> tuple[list[str], Array]:
-    """Header and numbers, (rows, columns); an empty cell is NaN."""
+def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:
+    """Header, numbers of the rows that are not blank, and what they hold, (rows, columns); an empty cell is NaN."""
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
-            lines = list(csv.reader(file))
+            cells = [[cell.strip() for cell in row] for row in csv.reader(file)]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise FileError(path, f"cannot be read as CSV ({error})") from error
+    lines = [(number, row) for number, row in enumerate(cells, start=1) if any(row)]
     if not lines:
         raise FileError(path, "is empty")
-    header = [name.strip() for name in lines[0]]
+    header = lines[0][1]
     for name in header:
         if header.count(name) > 1:
             raise FileError(path, f"has the column {name!r} twice")
     table = np.full((len(lines) - 1, len(header)), np.nan)
-    for row, cells in enumerate(lines[1:]):
-        if not any(cell.strip() for cell in cells):
-            continue  # a blank line; the checks see it as a row without values
-        if len(cells) != len(header):
-            raise FileError(path, f"row {row + 2} has {len(cells)} cells, the header {len(header)}")
-        for column, cell in enumerate(cells):
-            table[row, column] = _number(path, row + 2, header[column], cell.strip())
-    return header, table
+    for row, (number, values) in zip(table, lines[1:], strict=True):
+        if len(values) != len(header):
+            raise FileError(path, f"row {number} has {len(values)} cells, the header {len(header)}")
+        row[:] = [_number(path, number, column, value) for column, value in zip(header, values, strict=True)]
+    return header, np.array([number for number, _ in lines[1:]], dtype=np.int64), table
 
 
 def _number(path: Path, row: int, column: str, cell: str) -> float:

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.errors import FileError
 from continuum.kinematics.configuration import allen_from_jones
 from continuum.recordings.bag import Bag, stamp_ns
+from continuum.recordings.named_values import named_values
 
 Stamps = NDArray[np.int64]
 
@@ -91,12 +91,12 @@ def read_arm_recording(bag: Bag, arm: Arm) -> ArmRecording:
         return Stream(stamps, np.array(values, dtype=float).reshape(len(stamps), *shape))
 
     def lengths_of(message: Any) -> Array:
-        return _values(bag, message, message.position, arm.cable_names)
+        return named_values(bag, message, message.position, arm.cable_names)
 
     def rates_of(message: Any) -> Array:
         if len(message.velocity) == 0:
             return np.full(n_cables, np.nan)
-        return _values(bag, message, message.velocity, arm.cable_names)
+        return named_values(bag, message, message.velocity, arm.cable_names)
 
     return ArmRecording(
         arm=arm,
@@ -133,30 +133,13 @@ def _stamps(messages: list[Any]) -> Stamps:
 def _configuration(bag: Bag, message: Any, arm: Arm) -> Array:
     """Allen coordinates (n_sections, 2) of one joint state message; theta is the sum over a section's joints."""
     names = [name for section in arm.sections for name in (section.phi_joint, *section.theta_joints)]
-    angles = dict(zip(names, _values(bag, message, message.position, names), strict=True))
+    angles = dict(zip(names, named_values(bag, message, message.position, names), strict=True))
     return np.array(
         [
             allen_from_jones(angles[section.phi_joint], sum(angles[name] for name in section.theta_joints))
             for section in arm.sections
         ]
     )
-
-
-def _values(bag: Bag, message: Any, given: Array, wanted: list[str] | tuple[str, ...]) -> Array:
-    """Of the values ``given`` for ``message.name`` those of the names ``wanted``, in their order.
-
-    Raises:
-        FileError: a name is not there, or there are more or fewer values than names, or one is not finite.
-    """
-    if len(given) != len(message.name):
-        raise FileError(bag.path, f"has a message with {len(given)} values for {len(message.name)} names")
-    by_name = dict(zip(message.name, given, strict=True))
-    for name in wanted:
-        if name not in by_name:
-            raise FileError(bag.path, f"holds no {name}; recorded with another arm? It has {list(message.name)}")
-        if not np.isfinite(by_name[name]):
-            raise FileError(bag.path, f"has a message with {by_name[name]} for {name}")
-    return np.array([by_name[name] for name in wanted], dtype=float)
 
 
 def _xyz(vector: Any) -> list[float]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 TIME = "t_s"
-_NUMBERED = re.compile(r"(?P<letter>[a-z]+)(?P<number>[1-9]\d?)_(?P<unit>\w+)", re.ASCII)
+_NUMBERED = re.compile(r"(?P<letter>[a-z]+)(?P<number>[1-9]\d?)(?:_(?P<unit>\w*))?", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Quantity:
     def names(self, column: str) -> tuple[int, str] | None:
         """Number and unit that a column's name gives, whatever the unit; None where it is of something else."""
         match = _NUMBERED.fullmatch(column)
-        return (int(match["number"]), match["unit"]) if match and match["letter"] == self.letter else None
+        return (int(match["number"]), match["unit"] or "") if match and match["letter"] == self.letter else None
 
 
 ANGLE = Quantity("q", {"deg": np.pi / 180, "rad": 1.0})

@@ -1,0 +1,90 @@
+"""Recordings from rosbag2: `joint_states` and `cable_states` of one section that bends in a plane.
+
+What the node `dynamics` publishes, or a real arm in its place: angles and rates of the bending joints, and the cables'
+tensions as `effort`. Damage is told by the number of the `joint_states` message, from 1 in the order of the stamps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.planar.cables import SIDES
+from continuum.dynamics.tensions import Tensions
+from continuum.errors import FileError
+from continuum.identification.recording import Recording
+from continuum.identification.recording_checks import Samples, repaired
+from continuum.joint_names import cable_names, phi_joint, theta_joints
+from continuum.recordings.arm_recording import TOPICS
+from continuum.recordings.bag import Bag, stamp_ns
+from continuum.recordings.named_values import named_values
+
+_JOINTS, _CABLES = "/joint_states", "/cable_states"
+_IN_PLANE = 1e-3  # rad, by which the bending plane may turn
+_FARTHEST = 0.1  # s, from a joint state to the next tension known
+
+
+def read_recording_bag(path: str | Path) -> Recording:
+    """Read one run; the folder's name becomes the run's, time counts from its first joint state.
+
+    Raises:
+        FileError: no readable recording, one of another arm than a section that bends in a plane, or damaged beyond
+            repair.
+    """
+    with Bag(path) as bag:
+        joints = sorted(bag.messages(_JOINTS, TOPICS[_JOINTS]), key=stamp_ns)
+        if not joints:
+            raise FileError(bag.path, f"has no message on {_JOINTS}")
+        start = stamp_ns(joints[0])
+        section, names = _bending_joints(bag, joints)
+        times = _seconds(joints, start)
+        theta = _table(bag, joints, "position", names)
+        rate = _table(bag, joints, "velocity", names) if any(len(one.velocity) for one in joints) else None
+        pull = _pull(bag, section, start, times)
+    numbers = np.arange(1, len(joints) + 1)
+    good, notes = repaired(Samples(bag.path, numbers, times, theta, rate, pull, "message"))
+    tensions = None if good.pull is None else Tensions(good.times, good.pull)
+    if tensions is None:
+        notes = (*notes, f"no efforts on {_CABLES}: cables taken as slack")
+    return Recording(bag.path.name, good.times, good.theta, good.rate, tensions, notes)
+
+
+def _bending_joints(bag: Bag, joints: Sequence[Any]) -> tuple[str, list[str]]:
+    """Name of the section, and of its bending joints from base to tip; its plane must not turn."""
+    known = list(joints[0].name)
+    first = theta_joints("", 1)[0]
+    sections = [name.removesuffix(first) for name in known if name.endswith(first)]
+    if len(sections) != 1:
+        found = ", ".join(sections) or "none"
+        raise FileError(bag.path, f"has the sections {found} on {_JOINTS}; one that bends in a plane is needed")
+    turn = phi_joint(sections[0])
+    if turn in known and np.max(np.abs(_table(bag, joints, "position", [turn]))) > _IN_PLANE:
+        raise FileError(bag.path, f"has an arm that turns its plane by {turn}; one that bends in a plane is needed")
+    return sections[0], [name for name in theta_joints(sections[0], len(known)) if name in known]
+
+
+def _pull(bag: Bag, section: str, start: int, times: Array) -> Array | None:
+    """Tensions at the times of the joint states, (n_times, n_cables) [N]; NaN far from any that is known."""
+    there = sorted(bag.messages(_CABLES, TOPICS[_CABLES]), key=stamp_ns) if _CABLES in bag.topics else []
+    if not any(len(one.effort) for one in there):
+        return None
+    known = _seconds(there, start)
+    tensions = _table(bag, there, "effort", cable_names(section, len(SIDES)))
+    pull = np.stack([np.interp(times, known, column) for column in tensions.T], axis=1)
+    after = np.searchsorted(known, times)
+    near = np.minimum(np.abs(known[np.maximum(after - 1, 0)] - times), np.abs(known.take(after, mode="clip") - times))
+    pull[near > _FARTHEST] = np.nan
+    return pull
+
+
+def _table(bag: Bag, messages: Sequence[Any], field: str, names: Sequence[str]) -> Array:
+    """One row for each message, one column for each name."""
+    return np.array([named_values(bag, one, getattr(one, field), names) for one in messages])
+
+
+def _seconds(messages: Sequence[Any], start: int) -> Array:
+    return np.array([stamp_ns(one) - start for one in messages]) * 1e-9

@@ -1,0 +1,278 @@
+"""Recordings from CSV: what is read back, repaired with a note, or refused by row. The header is row 1."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from dynamics_laws import prototype_model
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+from identification_laws import PULLS, small_simulator
+
+from continuum.cli import main
+from continuum.dynamics.trajectory import Trajectory
+from continuum.errors import FileError
+from continuum.identification.recording_csv import read_recording_csv
+from continuum.recordings.motion_table import write_motion_table
+
+ROWS = 120
+T = np.arange(ROWS) / 120
+ANGLES = np.stack([0.3 * np.cos(6 * T), 0.2 * np.cos(6 * T + 1)], axis=1)
+RATES = np.stack([-1.8 * np.sin(6 * T), -1.2 * np.sin(6 * T + 1)], axis=1)
+PULL = np.stack([4 + 3 * np.sin(5 * T), 4 - 3 * np.sin(5 * T)], axis=1)
+
+type Cells = dict[str, list[str]]
+
+
+def cells(**blocks: np.ndarray) -> Cells:
+    """Columns as text, `t_s` first."""
+    columns = {"t_s": T} | {name: np.asarray(values) for name, values in blocks.items()}
+    return {name: [repr(float(value)) for value in values] for name, values in columns.items()}
+
+
+def sway(unit: str = "rad") -> Cells:
+    """Two joints that sway, their rates, and two cables."""
+    factor = 1.0 if unit == "rad" else 180 / np.pi
+    return cells(
+        **{f"q{j + 1}_{unit}": factor * ANGLES[:, j] for j in range(2)},
+        **{f"dq{j + 1}_{unit}_s": factor * RATES[:, j] for j in range(2)},
+        **{f"u{j + 1}_N": PULL[:, j] for j in range(2)},
+    )
+
+
+def text_of(table: Cells) -> str:
+    return "\n".join([",".join(table), *(",".join(row) for row in zip(*table.values(), strict=True)), ""])
+
+
+def write(folder: Path, table: Cells | str, encoding: str = "utf-8") -> Path:
+    path = folder / "swing 7.csv"
+    path.write_text(table if isinstance(table, str) else text_of(table), encoding=encoding)
+    return path
+
+
+def without(table: Cells, *names: str) -> Cells:
+    return {name: column for name, column in table.items() if name not in names}
+
+
+def renamed(table: Cells, **names: str) -> Cells:
+    return {names.get(name, name): column for name, column in table.items()}
+
+
+@pytest.mark.parametrize("unit", ["deg", "rad"])
+def test_what_was_written_is_read(tmp_path: Path, unit: str) -> None:
+    found = read_recording_csv(write(tmp_path, sway(unit)))
+    assert (found.name, found.notes, found.is_driven) == ("swing 7", (), True)
+    np.testing.assert_array_equal(found.times, T)
+    np.testing.assert_allclose(found.theta, ANGLES, rtol=1e-14, atol=1e-15)
+    np.testing.assert_allclose(found.theta_rate, RATES, rtol=1e-14, atol=1e-15)
+    np.testing.assert_array_equal(found.pull.values, PULL)
+    np.testing.assert_array_equal(found.pull.times, T)
+
+
+def test_angles_alone_are_a_free_run(tmp_path: Path) -> None:
+    found = read_recording_csv(write(tmp_path, without(sway(), "dq1_rad_s", "dq2_rad_s", "u1_N", "u2_N")))
+    assert (found.theta_rate, found.tensions, found.is_driven) == (None, None, False)
+
+
+def test_units_may_differ_from_column_to_column(tmp_path: Path) -> None:
+    table = sway("rad") | {"q2_deg": sway("deg")["q2_deg"]}
+    found = read_recording_csv(write(tmp_path, without(table, "q2_rad")))
+    np.testing.assert_allclose(found.theta, ANGLES, rtol=1e-14, atol=1e-15)
+
+
+def test_a_simulated_motion_is_read_as_written(tmp_path: Path) -> None:
+    simulator = small_simulator()
+    motion: Trajectory = simulator.run(np.array([0.3, 0.2]), T, PULLS)
+    write_motion_table(motion, PULLS, tmp_path / "motion.csv")
+    found = read_recording_csv(tmp_path / "motion.csv")
+    np.testing.assert_allclose(found.times, motion.times, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(found.theta, motion.theta, rtol=1e-8, atol=1e-10)
+    np.testing.assert_allclose(found.theta_rate, motion.theta_rate, rtol=1e-8, atol=1e-10)
+    np.testing.assert_allclose(found.pull.values, [PULLS.at(t) for t in T], rtol=1e-8)
+
+
+def test_the_command_simulate_writes_a_recording(tmp_path: Path) -> None:
+    out = tmp_path / "motion.csv"
+    assert main(["simulate", "--csv", str(out), "--duration", "0.5", "--release", "50"]) == 0
+    found = read_recording_csv(out)
+    assert found.n_joints == prototype_model().n_joints
+    assert found.theta_rate is not None
+    np.testing.assert_allclose(found.theta[0], np.radians(10), rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: "\ufeff" + text,
+        lambda text: text.replace(",", " , "),
+        lambda text: text.replace("\n", "\r\n"),
+        lambda text: text.replace("\n", "\n\n"),
+        lambda text: "\n\n" + text + "\n,,,,,,\n\n",
+        lambda text: '"' + text.replace(",", '","').replace("\n", '"\n"').removesuffix('"'),
+    ],
+    ids=["byte order mark", "spaces", "Windows", "every second line blank", "blank lines around", "quotes"],
+)
+def test_how_a_table_is_laid_out_does_not_matter(tmp_path: Path, change: Callable[[str], str]) -> None:
+    found = read_recording_csv(write(tmp_path, change(text_of(sway()))))
+    assert found.notes == ()
+    np.testing.assert_array_equal(found.theta, ANGLES)
+
+
+def test_rows_are_counted_as_in_the_file_blank_lines_included(tmp_path: Path) -> None:
+    table = sway()
+    table["q1_rad"][10] = "abc"
+    lines = text_of(table).split("\n")
+    with pytest.raises(FileError, match="row 12, column q1_rad: 'abc' is no number"):
+        read_recording_csv(write(tmp_path, "\n".join(lines)))
+    with pytest.raises(FileError, match="row 15, column q1_rad: 'abc' is no number"):
+        read_recording_csv(write(tmp_path, "\n".join(["", *lines[:4], "", " ", *lines[4:]])))
+
+
+@pytest.mark.parametrize("cell", ["", "nan", "inf", "-INF", "NaN"])
+@pytest.mark.parametrize("column", ["t_s", "q2_rad", "dq1_rad_s", "u2_N"])
+def test_rows_that_are_not_whole_are_left_out_and_told(tmp_path: Path, cell: str, column: str) -> None:
+    table = sway()
+    for row in (4, 70):
+        table[column][row] = cell
+    found = read_recording_csv(write(tmp_path, table))
+    assert found.notes == ("rows 6, 72 without a finite value in every column, left out",)
+    np.testing.assert_array_equal(found.theta, np.delete(ANGLES, (4, 70), axis=0))
+
+
+def test_a_repeated_time_is_left_out_and_told(tmp_path: Path) -> None:
+    table = sway()
+    table["t_s"][9] = table["t_s"][8]
+    found = read_recording_csv(write(tmp_path, table))
+    assert found.notes == ("row 11 with the time of the row before, left out",)
+    np.testing.assert_array_equal(found.times, np.delete(T, 9))
+
+
+def test_rates_at_the_end_of_their_range_are_left_out_and_told(tmp_path: Path) -> None:
+    table = sway()
+    table["dq1_rad_s"] = [repr(float(value)) for value in np.clip(RATES[:, 0], -1.75, 3.0)]
+    clipped = np.flatnonzero(RATES[:, 0] < -1.75)
+    assert 3 <= clipped.size <= ROWS / 10
+    found = read_recording_csv(write(tmp_path, table))
+    told = ", ".join(str(row + 2) for row in clipped[:8]) + (", .." if clipped.size > 8 else "")
+    assert found.notes == (f"rows {told} with a clipped rate, left out",)
+    np.testing.assert_array_equal(found.times, np.delete(T, clipped))
+
+
+def test_a_rate_in_coarse_steps_is_not_taken_for_a_clipped_one(tmp_path: Path) -> None:
+    table = sway()
+    table["dq1_rad_s"] = [f"{value:.1f}" for value in RATES[:, 0]]
+    found = read_recording_csv(write(tmp_path, table))
+    assert (found.notes, found.times.size) == ((), ROWS)
+
+
+def changed(column: str, rows: slice, values: str | Callable[[float], float]) -> Cells:
+    """The sway with some cells of one column changed."""
+    table = sway()
+    at = range(ROWS)[rows]
+    for i in at:
+        table[column][i] = values if isinstance(values, str) else repr(values(float(table[column][i])))
+    return table
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        (changed("t_s", slice(50, None), lambda t: t - 0.3), "row 52: time runs backward, to 0.116667 s; are these two"),
+        (changed("t_s", slice(50, None), lambda t: t + 0.3), "rows 51 to 52: a gap of 0.308 s"),
+        (changed("t_s", slice(None), lambda t: 1000 * t), "rows .*: a gap of 8.33 s.*time in milliseconds"),
+        (changed("u2_N", slice(33, 34), "-0.5"), "row 35: tension -0.5 N; a cable cannot push"),
+        (changed("u2_N", slice(33, 34), "1e300"), r"tension of 1e\+300 N: another unit"),
+        (changed("q1_rad", slice(None), np.degrees), "joint angle of 17.2 rad: degrees taken for radians"),
+        (changed("q2_rad", slice(2, 30), ""), r"has 28 bad rows of 120: rows 4, 5, 6, 7, 8, 9, 10, 11, \.\. without"),
+        (changed("dq1_rad_s", slice(None), np.degrees), "joint 1: rates 57.* times as large .* mixed"),
+        (changed("dq2_rad_s", slice(None), np.radians), "joint 2: rates 0.017.* times as large .* mixed"),
+        (changed("dq2_rad_s", slice(5, 6), "1e308"), r"joint rate of 1e\+308 rad/s"),
+        (renamed(sway(), q1_rad="q1_deg", q2_rad="q2_deg"), "no joint angle above 0.3 degrees: radians taken for"),
+        (without(sway(), "t_s"), "has no column t_s; it has q1_rad, q2_rad"),
+        (without(sway(), "q1_rad"), "has q of 2: numbers must run from 1 without a gap"),
+        (without(sway(), "q1_rad", "q2_rad"), "has no joint angles q1_deg .. or q1_rad"),
+        (without(sway(), "q2_rad"), "has 1 joint angles but 2 joint rates"),
+        (without(sway(), "dq2_rad_s"), "has 2 joint angles but 1 joint rates"),
+        (without(sway(), "u2_N"), "has tensions of 1 cables; a planar section has u1_N and u2_N"),
+        (renamed(sway(), q2_rad="q2"), "has the column q2; allowed units of q: deg, rad"),
+        (renamed(sway(), q2_rad="q2_"), "has the column q2_; allowed units of q: deg, rad"),
+        (renamed(sway(), dq2_rad_s="dq2_rad"), "has the column dq2_rad; allowed units of dq: deg_s, rad_s"),
+        (renamed(sway(), u1_N="u1_mN"), "has the column u1_mN; allowed units of u: N"),
+        (sway() | {"q1_deg": sway()["q1_rad"]}, "has q1 twice, in two units"),
+        ({name: column[:20] for name, column in sway().items()}, "has 20 usable rows; at least 30 are needed"),
+        (text_of(sway()).replace("dq1_rad_s", "q1_rad"), "has the column 'q1_rad' twice"),
+        (text_of(sway()).replace("\n", ",\n", 7), "has the column '' twice|row 9 has 7 cells, the header 8"),
+        ("", "is empty"),
+        (" \n,,\n", "is empty"),
+        ("t_s,q1_deg\n", "has 0 usable rows"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_repaired_is_refused(tmp_path: Path, table: Cells | str, message: str) -> None:
+    path = write(tmp_path, table)
+    with pytest.raises(FileError, match="^" + re.escape(str(path)) + f": .*{message}"):
+        read_recording_csv(path)
+
+
+def test_no_file_and_no_text(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match="cannot be read as CSV"):
+        read_recording_csv(tmp_path / "none.csv")
+    with pytest.raises(FileError, match="cannot be read as CSV"):
+        read_recording_csv(tmp_path)
+    with pytest.raises(FileError, match="cannot be read as CSV"):
+        read_recording_csv(write(tmp_path, sway(), encoding="utf-16"))
+
+
+NUMBERS = st.floats(width=64).map(repr) | st.integers(-(10**30), 10**30).map(str)
+NAMES = st.sampled_from(["t_s", "q1_deg", "q1_rad", "q2_deg", "dq1_deg_s", "u1_N", "u2_N", "note", "", "q1", "q99_x"])
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    column=st.sampled_from(list(sway())),
+    rows=st.lists(st.integers(0, ROWS - 1), min_size=1, max_size=5),
+    cell=NUMBERS | st.text(max_size=8),
+)
+@example(column="dq1_rad_s", rows=[3], cell="1e308")
+@example(column="t_s", rows=[0], cell="-1e308")
+@example(column="q1_rad", rows=[119], cell="\x00")
+def test_any_cell_is_read_repaired_or_refused(tmp_path: Path, column: str, rows: list[int], cell: str) -> None:
+    table = sway()
+    for row in rows:
+        table[column][row] = cell
+    path = tmp_path / "run.csv"
+    path.write_text(text_of(table), encoding="utf-8", errors="surrogatepass", newline="")
+    try:
+        found = read_recording_csv(path)
+    except FileError:
+        return
+    assert np.all(np.isfinite(found.theta))
+    assert np.all(np.diff(found.times) > 0)
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(header=st.lists(NAMES | st.text(max_size=6), min_size=1, max_size=7), data=st.data())
+def test_any_table_is_read_or_refused(tmp_path: Path, header: list[str], data: st.DataObject) -> None:
+    column = st.lists(st.floats(-1, 1), min_size=40, max_size=40)
+    columns = [sorted(column_) if name == "t_s" else column_ for name in header for column_ in [data.draw(column)]]
+    lines = [",".join(header), *(",".join(map(repr, row)) for row in zip(*columns, strict=True))]
+    path = tmp_path / "run.csv"
+    path.write_text("\n".join(lines), encoding="utf-8", errors="surrogatepass", newline="")
+    try:
+        found = read_recording_csv(path)
+    except FileError:
+        return
+    assert found.n_joints >= 1
+    assert found.times.size >= 30
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(junk=st.binary(max_size=200), whole=st.booleans())
+def test_any_bytes_are_read_or_refused(tmp_path: Path, junk: bytes, whole: bool) -> None:
+    path = tmp_path / "run.csv"
+    path.write_bytes(junk if whole else text_of(sway()).encode() + junk)
+    try:
+        read_recording_csv(path)
+    except FileError as error:
+        assert str(path) in str(error)
