@@ -49,7 +49,7 @@ def run(options: argparse.Namespace) -> int:
     from continuum.dynamics.model_file import load_model, save_model
     from continuum.identification.dataset import Dataset
 
-    model, recordings = load_model(options.model), tuple(_read(path) for path in options.data)
+    model, recordings = load_model(options.model), tuple(read_recording(path) for path in options.data)
     with told() as tell:
         diagnosis = diagnose(Dataset(recordings), model, processes=options.processes, tell=tell)
         tell("predicting runs that were held out", 1.0)
@@ -77,7 +77,8 @@ def _report(path: str, diagnosis: Diagnosis, found: Findings, seed: int) -> None
     write_report(path, diagnosis, found, (before, after), tests)
 
 
-def _read(path: str) -> Recording:
+def read_recording(path: str) -> Recording:
+    """One run from a CSV file or the folder of a rosbag2 recording."""
     from continuum.identification.recording_bag import read_recording_bag
     from continuum.identification.recording_csv import read_recording_csv
 

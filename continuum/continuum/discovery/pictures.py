@@ -46,11 +46,13 @@ def torque_picture(before: Sequence[ResidualTorque], after: Sequence[ResidualTor
     axes = figure.subplots(2, n, sharey="row", squeeze=False)
     for residuals, color, label in ((before, _BEFORE, "refitted"), (after, _AFTER, "extended")):
         for joint in range(n if residuals else 0):
-            torque = 1e3 * np.concatenate([r.torque[:, joint] for r in residuals or ()])
+            told = np.concatenate([r.is_told[:, joint] for r in residuals or ()])
+            torque = 1e3 * np.concatenate([r.torque[:, joint] for r in residuals or ()])[told]
             for row, what in enumerate(("theta", "theta_rate")):
-                x = np.rad2deg(np.concatenate([getattr(r, what)[:, joint] for r in residuals or ()]))
+                x = np.rad2deg(np.concatenate([getattr(r, what)[:, joint] for r in residuals or ()]))[told]
                 axes[row, joint].plot(x, torque, ".", ms=3, color=color, alpha=0.6, label=label)
-    limit = 1.3e3 * max(1e-4, float(np.quantile(np.abs(np.concatenate([r.torque for r in before])), 0.97)))
+    shown = np.concatenate([np.abs(r.torque[r.is_told]) for r in before])
+    limit = 1.3e3 * max(1e-3, float(np.quantile(shown, 0.97)) if shown.size else 0.0)
     for joint in range(n):
         axes[0, joint].set_title(f"joint {joint + 1}", fontsize=8)
         for row, what in enumerate(("angle [deg]", "rate [deg/s]")):

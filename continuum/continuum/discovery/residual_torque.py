@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.discovery.question import Question
@@ -26,6 +27,7 @@ from continuum.identification.fit import fit
 from continuum.identification.free import Free
 
 _TYPICAL = 0.01  # N m
+_TOLD = 0.005  # N m, largest standard deviation
 _ITERATIONS = 1
 
 
@@ -61,6 +63,11 @@ class ResidualTorque:
     theta: Array
     theta_rate: Array
     tension: Array
+
+    @property
+    def is_told(self) -> NDArray[np.bool_]:
+        """Where the data tell it, (n_windows, n_joints): a joint that sticks shows of a torque only that it is small."""
+        return self.deviation < _TOLD
 
 
 def residual_torques(question: Question, model: Model) -> list[ResidualTorque]:

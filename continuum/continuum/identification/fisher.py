@@ -34,16 +34,18 @@ class Identifiability:
 
     @property
     def untold(self) -> tuple[Free, ...]:
-        """Unknowns that these data do not tell."""
-        return tuple(unknown for unknown, part in zip(self.unknowns, self.learnt, strict=True) if part < _TOLD)
+        """Unknowns that these data do not tell, but for those that are known to be alike anyway."""
+        pairs = zip(self.unknowns, self.learnt, strict=True)
+        return tuple(unknown for unknown, part in pairs if part < _TOLD and unknown.tolerance is None)
 
     @property
     def entangled(self) -> tuple[tuple[Free, Free, float], ...]:
-        """Pairs whose estimates hang together, with their correlation."""
+        """Pairs whose estimates hang together, with their correlation; without those within one batch."""
         pairs = []
         for i, one in enumerate(self.unknowns):
             for j in range(i):
-                if abs(self.correlation[i, j]) > _CORRELATED:
+                within_a_batch = one.tolerance is not None or self.unknowns[j].tolerance is not None
+                if not within_a_batch and abs(self.correlation[i, j]) > _CORRELATED:
                     pairs.append((self.unknowns[j], one, float(self.correlation[i, j])))
         return tuple(pairs)
 
