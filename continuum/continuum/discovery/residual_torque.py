@@ -66,7 +66,7 @@ class ResidualTorque:
 
     @property
     def is_told(self) -> NDArray[np.bool_]:
-        """Where the data tell it, (n_windows, n_joints): a joint that sticks shows of a torque only that it is small."""
+        """Where the data tell it, (n_windows, n_joints); a joint that sticks shows only that it is small."""
         return self.deviation < _TOLD
 
 

@@ -43,7 +43,7 @@ class Fit:
         unknowns: where the fit ended, prior and bounds.
         parts: errors and slopes of every window there, run after run.
         cost: minus the logarithm of likelihood and prior.
-        simulations: how many runs were simulated with slopes.
+        simulations: how many runs were simulated with slopes, windows of single runs summed up to whole ones.
     """
 
     status: FitStatus
@@ -132,5 +132,5 @@ def fit(
 
     found = arrow_least_squares(evaluate, unknowns, iterations)
     ended = replace(unknowns, shared=found.shared, own=list(found.own))
-    simulations = found.evaluations * len(runs)
+    simulations = round(sum(run.windows_simulated / len(run.rows) for run in runs))
     return Fit(found.status, simulator, space, runs, ended, found.parts, found.cost, simulations)

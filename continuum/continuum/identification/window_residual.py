@@ -55,6 +55,9 @@ class WindowResidual:
         noise: of the sensors.
         space: the shared unknowns.
         length: of the windows [s]; None for one window, a free run.
+
+    Attributes:
+        windows_simulated: how often any window was, so far.
     """
 
     def __init__(
@@ -66,7 +69,7 @@ class WindowResidual:
         space: FreeSpace,
         length: float | None,
     ) -> None:
-        self.recording, self.space = recording, space
+        self.recording, self.space, self.windows_simulated = recording, space, 0
         self._directions = space.directions_of(number)
         self._simulator, self._model = simulator, simulator.model
         self.rows = window_rows(recording, length)
@@ -130,6 +133,7 @@ class WindowResidual:
         slope0: Array | None = None,
     ) -> Trajectory | None:
         """One window and the first sample after it, where the states of effects are handed on."""
+        self.windows_simulated += 1
         rows, times = self.rows[window], self.recording.times
         x0 = np.concatenate([self._measured[window] + self._unit * own, extra])
         to = min(rows.stop + 1, times.size)
