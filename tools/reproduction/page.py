@@ -95,9 +95,13 @@ The arm hangs, mu_c = {CAPSTAN_FRICTION:g}, and cable 1 is pulled slowly until t
 | largest | {_cells(_degrees(bend.zone.upper))} |
 
 The last two rows are each joint's extremes over all postures in which no joint is pulled by more than its break-away
-torque of {bend.zone.break_away[0]:.3f} N m; they are not reached together. The dynamic model bends less near the base,
-which carries the weight of all links beyond it, than near the tip, in spite of what the cable loses on the way. Its tip
-is {np.linalg.norm(even_tip - pulled_tip):.0f} mm from that of constant curvature.
+torque of {bend.zone.break_away[0]:.3f} N m; they are not reached together. The cable's losses are those of the pull in
+all of them: under the same tension an arm that came back from a larger bend rests at
+{np.degrees(bend.returning.theta.sum()):.0f} degrees in total, and what the discs hold lets it stay between.
+
+The dynamic model bends less near the base, which carries the weight of all links beyond it, than near the tip, in spite
+of what the cable loses on the way. Its tip is {np.linalg.norm(even_tip - pulled_tip):.0f} mm from that of constant
+curvature.
 
 ![Joint angles and backbone at 90 degrees](pictures/reproduction_bend.png)
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from continuum.dynamics.planar.eq13_joint_friction import break_away_torque
+from continuum.dynamics.statics.equilibrium import EquilibriumStatus
 from tools.reproduction.bend import Bend, bend_by_one_cable, joint_positions
 from tools.reproduction.release import Release, over_all, prototype, reproduce_release
 
@@ -76,6 +77,11 @@ def test_while_it_is_pulled_friction_is_all_that_parts_it_from_the_equilibrium()
     np.testing.assert_allclose(zone.break_away, break_away_torque(bend().model.parameters))
     assert bend().tension > resting.load.tension[0] + 0.5
     np.testing.assert_allclose(np.degrees(bend().pulled), np.degrees(resting.theta), rtol=0, atol=0.5)
+
+
+def test_a_cable_that_is_let_out_holds_a_larger_bend_than_one_that_is_taken_in() -> None:
+    assert bend().returning.status is EquilibriumStatus.STABLE
+    assert bend().returning.theta.sum() > bend().zone.total_bend[1]
 
 
 def test_a_quarter_circle_of_five_joints() -> None:
