@@ -18,7 +18,7 @@ from continuum.identification.recording import Recording
 
 N = 2
 """Joints: the fewest that pull at each other."""
-SMOOTH = {"friction_slope": 20.0}
+SMOOTH = {"friction_slope": 5.0, "cable_slope": 30.0, "capstan_friction": 0.2}
 """Friction that may be differentiated."""
 ANGLE_NOISE, RATE_NOISE = np.deg2rad(0.2), np.deg2rad(1.0)
 """Standard deviation of white noise [rad, rad/s]."""

@@ -148,6 +148,21 @@ def test_a_short_pull_is_not_stepped_over() -> None:
     np.testing.assert_allclose(found, exact, rtol=0, atol=0.05 * np.abs(exact).max())
 
 
+@pytest.mark.parametrize("gap", [0.0, 5e-17, 1e-13, -1e-13, 1e-11])
+def test_tensions_that_bend_or_jump_beside_an_output_are_met(gap: float) -> None:
+    """As 3 * 0.1 and 0.3 do, which are two numbers."""
+    fast, x0, times = two_joints(), start(two_joints()), np.linspace(0.0, 0.15, 4)
+    steady = Tensions(np.zeros(1), np.array([[9.0, 2.0]]))
+    half = fast.run(x0, times[:3], steady)
+    expected = fast.run(half.states[-1], times[2:], Tensions(np.zeros(1), np.array([[1.0, 8.0]]))).states[-1]
+    at = times[2] + gap
+    jump = Tensions(np.array([0.0, at, at + 1e-13]), np.array([[9.0, 2.0], [9.0, 2.0], [1.0, 8.0]]))
+    found = fast.run(x0, times, jump)
+    assert found.status is SimulationStatus.COMPLETE
+    np.testing.assert_allclose(found.states[:3], half.states, rtol=0, atol=1e-7)
+    np.testing.assert_allclose(found.states[-1], expected, rtol=0, atol=1e-6)
+
+
 def test_strided_and_read_only_arrays_are_taken_as_they_are() -> None:
     """Without compiling the integrator for each kind of array, which takes as long as everything else here."""
     fast, x0, times = two_joints(), start(two_joints()), np.linspace(0.0, 0.15, 31)
@@ -189,6 +204,13 @@ def test_a_torque_that_is_no_number_ends_a_simulation(limit: float, expected: li
     model = random_model(33, 1, (active(Broken(), limit=limit),))
     found = Simulator(model).run(np.array([0.0, 3.0]), np.linspace(0.0, 1.0, 11))
     assert found.status in expected
+
+
+def test_a_model_that_cannot_move_ends_a_simulation_with_scipy_too() -> None:
+    massless = prototype_model(2).with_values({"inertia": 0.0, "center_of_mass": 0.0})
+    found = simulate_bdf(massless, np.full(2, 0.1), np.array([0.0, 0.1]), equations=Simulator(massless).equations)
+    assert found.status is SimulationStatus.NOT_FINITE
+    assert np.all(np.isnan(found.states))
 
 
 def test_a_state_that_runs_away_ends_a_simulation() -> None:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -172,14 +173,14 @@ def changed(column: str, rows: slice, values: str | Callable[[float], float]) ->
     table = sway()
     at = range(ROWS)[rows]
     for i in at:
-        table[column][i] = values if isinstance(values, str) else repr(values(float(table[column][i])))
+        table[column][i] = values if isinstance(values, str) else repr(float(values(float(table[column][i]))))
     return table
 
 
 @pytest.mark.parametrize(
     ("table", "message"),
     [
-        (changed("t_s", slice(50, None), lambda t: t - 0.3), "row 52: time runs backward, to 0.116667 s; are these two"),
+        (changed("t_s", slice(50, None), lambda t: t - 0.3), "row 52: time runs backward, to 0.116667 s; are these"),
         (changed("t_s", slice(50, None), lambda t: t + 0.3), "rows 51 to 52: a gap of 0.308 s"),
         (changed("t_s", slice(None), lambda t: 1000 * t), "rows .*: a gap of 8.33 s.*time in milliseconds"),
         (changed("u2_N", slice(33, 34), "-0.5"), "row 35: tension -0.5 N; a cable cannot push"),
@@ -203,7 +204,7 @@ def changed(column: str, rows: slice, values: str | Callable[[float], float]) ->
         (sway() | {"q1_deg": sway()["q1_rad"]}, "has q1 twice, in two units"),
         ({name: column[:20] for name, column in sway().items()}, "has 20 usable rows; at least 30 are needed"),
         (text_of(sway()).replace("dq1_rad_s", "q1_rad"), "has the column 'q1_rad' twice"),
-        (text_of(sway()).replace("\n", ",\n", 7), "has the column '' twice|row 9 has 7 cells, the header 8"),
+        (text_of(sway()).replace("\n", ",\n", 7), "row 8 has 7 cells, the header 8"),
         ("", "is empty"),
         (" \n,,\n", "is empty"),
         ("t_s,q1_deg\n", "has 0 usable rows"),
@@ -272,7 +273,5 @@ def test_any_table_is_read_or_refused(tmp_path: Path, header: list[str], data: s
 def test_any_bytes_are_read_or_refused(tmp_path: Path, junk: bytes, whole: bool) -> None:
     path = tmp_path / "run.csv"
     path.write_bytes(junk if whole else text_of(sway()).encode() + junk)
-    try:
-        read_recording_csv(path)
-    except FileError as error:
-        assert str(path) in str(error)
+    with suppress(FileError):
+        assert read_recording_csv(path).n_joints == 2

@@ -34,6 +34,8 @@ BEHIND = 0.1
 CATCH_UP_PERIOD = 0.001
 """Seconds, by the machine's clock, between two goes while the simulation is behind: others are served in between."""
 
+LONGEST_GO = 0.01
+"""Seconds, by the machine's clock, after which a go ends: one other event is served between two goes, no more."""
 
 LIMITS = ("max_tension", "max_tension_rate", "command_timeout", "slack_time")
 """Parameters that make the `TensionLimits`, in its order."""
@@ -140,10 +142,11 @@ class DynamicsNode(CheckedNode):
 
     def _go(self) -> None:
         """Simulate and publish the instants that are due, a limited number; the rest soon, after commands that wait."""
-        now = self._now()
+        now, began = self._now(), time.monotonic()
         for number in self._pace.due(now):
-            if self._failure is None:
-                self._advance(number)
+            if self._failure is not None or time.monotonic() - began > LONGEST_GO:
+                break
+            self._advance(number)
         self._meter.mark(Mark(time.monotonic(), time.process_time(), self._pace.seconds(self._pace.last)))
         if self._pace.lag(now) > 0.0 and self._failure is None:
             self._catch_up.reset()

@@ -74,6 +74,26 @@ def test_simulated_time_sets_the_pace(domain, probe):
         assert node.stop() == 0
 
 
+def test_who_asks_is_answered_while_the_simulation_is_behind(domain, probe):
+    """A leap of 60 s, which takes seconds to simulate, is broken off by a reset in its midst."""
+    joints = probe.hear(JointState, "joint_states")
+    parameters = {"integrator": "bdf", "use_sim_time": True, "initial_bend": 1.5, "command_timeout": 300.0}
+    with ended_in_any_case(dynamics(domain, **parameters)) as (node,):
+        reset = probe.node.create_client(ResetArm, "dynamics/reset")
+        clock = SimulatedTime(probe)
+        clock.step_until(0.1, lambda: len(joints) > 60 and reset.service_is_ready())
+        before = stamps(joints)[-1]
+        clock.step(60.0)
+        probe.wait_until(lambda: stamps(joints)[-1] > before + NANOSECONDS, "the beginning of the leap")
+        answer = reset.call_async(ResetArm.Request())
+        probe.wait_until(answer.done, "the answer")
+        probe.listen_until_quiet()
+        assert stamps(joints)[-1] < clock.now - 10 * NANOSECONDS
+        asked = clock.now
+        clock.step_until(0.02, lambda: stamps(joints)[-1] > asked)
+        assert node.stop() == 0
+
+
 def test_a_model_file_of_another_arm_is_simulated(domain, probe, tmp_path):
     """Bent by its springs' rest angles alone, as its file says."""
     save_model(MODEL.with_values({"rest_angle": 0.1, "gravity": 0.0}), tmp_path / "found.yaml")

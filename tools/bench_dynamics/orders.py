@@ -57,7 +57,7 @@ def convergence() -> list[Convergence]:
 def slope_error(scene: Scene, limits: Tolerances) -> float:
     """Largest error of the sensitivities at these tolerances, in units of each parameter's largest sensitivity.
 
-    Beside them stand central differences of runs at tolerances a thousand times tighter.
+    Beside them stand central differences of runs at a relative tolerance of 1e-9.
     """
     found = Simulator(scene.model, limits).run(scene.start, scene.times, free=scene.directions).slopes
     tight = Simulator(scene.model, Tolerances(1e-9, 1e-10, 0.01), fourth_order())

@@ -43,7 +43,7 @@ class Scene:
         return shared_directions(self.model, TABLE_3 + OTHERS)
 
     def converged(self) -> Array:
-        """Joint angles at tolerances a thousand times tighter, (n_times, n) [rad]."""
+        """Joint angles at tolerances ten thousand times tighter, (n_times, n) [rad]."""
         tight = Simulator(self.model, Tolerances(1e-8, 1e-9, 0.01), fourth_order())
         found = tight.run(self.start, self.times)
         if found.status is not SimulationStatus.COMPLETE:

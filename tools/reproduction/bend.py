@@ -37,6 +37,7 @@ class Bend:
         tension: of the cable then [N].
         resting: the equilibrium with the same bend, the cable having been taken in.
         zone: what dry friction holds around it.
+        returning: the equilibrium under the same tension if the cable slid the other way last.
     """
 
     model: Model
@@ -44,6 +45,7 @@ class Bend:
     tension: float
     resting: Equilibrium
     zone: StickingZone
+    returning: Equilibrium
 
     @property
     def even(self) -> Array:
@@ -64,7 +66,8 @@ def bend_by_one_cable(total: float = TOTAL_BEND) -> Bend:
     pulled = np.array([np.interp(at, times, joint) for joint in run.theta.T])
     arm, held = RestingArm(model), pulled_posture(model, total)
     resting = equilibrium(arm, Load(held.tension, approach=1), held.theta)
-    return Bend(model, pulled, float(pull.at(float(at))[0]), resting, sticking_zone(arm, resting))
+    returning = equilibrium(arm, Load(held.tension, approach=-1), resting.theta)
+    return Bend(model, pulled, float(pull.at(float(at))[0]), resting, sticking_zone(arm, resting), returning)
 
 
 def joint_positions(theta: Array, half_spacing: float) -> Array:

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from continuum.arrays import Array
+from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
@@ -54,10 +55,15 @@ def over_all(distance: Array) -> float:
     return float(np.sqrt(np.mean(distance**2)))
 
 
-def reproduce_release() -> Release:
-    """Simulate with Tables 1 and 3 from the author's first row, at rest, and with the initial rates free."""
+def prototype(**changed: float) -> Model:
+    """Tables 1 and 3, and what neither prints, or other values."""
+    return load_model("lamecc_prototype.yaml").with_values(changed)
+
+
+def reproduce_release(model: Model) -> Release:
+    """Simulate from the author's first row, at rest, and with the initial rates free."""
     measured, published = (read_recording_csv(DATA / f"rep7_{name}.csv") for name in ("measured", "simulated"))
-    simulator = Simulator(load_model("lamecc_prototype.yaml"))
+    simulator = Simulator(model)
     start, times = published.theta[0], published.times
     n, n_p = start.size, simulator.equations.values.size
     by_rates = np.eye(2 * n, n, k=-n)  # the initial state by the initial rates

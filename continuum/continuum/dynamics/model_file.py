@@ -1,7 +1,11 @@
 """Model files: YAML with every parameter's value, unit and source, and the effects that extend Eq. 12.
 
-n_joints: 5 parameters: stiffness: {value: 1.2379, unit: N m/rad, source: thesis Table 3} effects: tip_payload: mass:
-{value: 0.05, unit: kg, source: diagnosis of run_3.csv}
+n_joints: 5
+parameters:
+  stiffness: {value: 1.2379, unit: N m/rad, source: thesis Table 3}
+effects:
+  tip_payload:
+    mass: {value: 0.05, unit: kg, source: diagnosis of run_3.csv}
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
+from numpy.typing import NDArray
 
 from continuum.arrays import Array
 
@@ -175,12 +176,23 @@ def _damped_step(
         solved = np.linalg.solve(damped, np.column_stack([g, coupling.T]))
         inner.append((solved[:, 0], solved[:, 1:]))
         right, schur = right + coupling @ solved[:, 0], schur - coupling @ solved[:, 1:]
-    step = np.zeros(shared.size)
-    if np.any(free):
-        step[free] = np.linalg.solve(schur[np.ix_(free, free)], right[free])
-    step = np.clip(shared + step, unknowns.lower, unknowns.upper) - shared
+    step = _bounded_step(schur, right, free, unknowns.lower - shared, unknowns.upper - shared)
     own_steps = [-at_once - through @ step for at_once, through in inner]
     gain = -gradient @ step - step @ matrix @ step / 2
     for (g, coupling, square), change in zip(windows, own_steps, strict=True):
         gain -= g @ change + change @ square @ change / 2 + step @ coupling @ change
     return step, own_steps, float(gain)
+
+
+def _bounded_step(matrix: Array, right: Array, free: NDArray[np.bool_], lower: Array, upper: Array) -> Array:
+    """Solution of ``matrix step = right`` in the free coordinates; those that reach a bound stay there."""
+    step, free = np.zeros(right.size), free.copy()
+    while np.any(free):
+        held = right[free] - matrix[np.ix_(free, ~free)] @ step[~free]
+        step[free] = np.linalg.solve(matrix[np.ix_(free, free)], held)
+        beyond = (step < lower) | (step > upper)
+        step = np.clip(step, lower, upper)
+        if not np.any(beyond):
+            break
+        free &= ~beyond
+    return step

@@ -11,6 +11,7 @@ from continuum.dynamics.planar.eq18_state_space import numpy_state_space
 from tools.bench_dynamics.growth import Size, exponent
 from tools.bench_dynamics.lean_rates import lean_rates
 from tools.bench_dynamics.orders import convergence, slope_error
+from tools.bench_dynamics.page import Result, Score
 from tools.bench_dynamics.rivals import BASELINE, Rival, rivals
 from tools.bench_dynamics.scene import Scene, longer_arm, prototype_release
 
@@ -63,3 +64,11 @@ def test_sensitivities_come_to_those_of_neighbouring_runs() -> None:
 def test_the_exponent_of_a_power_is_the_power() -> None:
     sizes = [Size(n, 0.0, 3e-5 * n**2.5, 1.0) for n in (5, 10, 20)]
     assert exponent(sizes) == pytest.approx(2.5)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "error", "reached"), [(0.02, 0.05, True), (0.021, 0.05, False), (0.02, 0.06, False)]
+)
+def test_the_page_tells_whether_the_goal_is_reached(seconds: float, error: float, reached: bool) -> None:
+    scores = [Score(BASELINE, 1.0, 0.03, None), Score("fast", seconds, error, None)]
+    assert Result(scores, [], [], {}).is_reached is reached

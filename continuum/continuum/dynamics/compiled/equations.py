@@ -6,7 +6,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
 
 from continuum.arrays import Array
 from continuum.dynamics.compiled.machine_code import compile_function
@@ -14,6 +13,8 @@ from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance
 from continuum.dynamics.model import Model
 from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.values import parameter_vector
+
+_NO_STAGE = np.zeros(1)  # h g
 
 
 class CompiledEquations:
@@ -63,9 +64,15 @@ class CompiledEquations:
         return out[m * (1 + m + self.n_x) :].reshape(n_p, m).T
 
     def rates(self, x: Array, u: Array, p: Array | None = None) -> Array:
-        """Eq. 18: (theta', theta'', z'), (n_x,)."""
+        """Eq. 18: (theta', theta'', z'), (n_x,).
+
+        Raises:
+            ValueError: the equations are not finite, or leave the rates open.
+        """
         r, by_v, _ = self.balance(x, np.zeros(self.n_rates), u, p)
-        return np.concatenate([x[self.n_joints : 2 * self.n_joints], -lu_solve(lu_factor(by_v), r)])
+        if not (np.isfinite(r).all() and np.isfinite(by_v).all()):
+            raise ValueError("the equations are not finite")
+        return np.concatenate([x[self.n_joints : 2 * self.n_joints], -np.linalg.solve(by_v, r)])
 
     def jacobian(self, x: Array, u: Array, p: Array | None = None) -> Array:
         """Derivative of the rates by the state, (n_x, n_x): exact, as r = 0 gives dv/dx = -(dr/dv)^-1 dr/dx."""
@@ -73,12 +80,14 @@ class CompiledEquations:
         _, by_v, by_x = self.balance(x, self.rates(x, u, p)[n:], u, p)
         kinematic = np.zeros((n, self.n_x))
         kinematic[:, n : 2 * n] = np.eye(n)
-        return np.concatenate([kinematic, -lu_solve(lu_factor(by_v), by_x)])
+        return np.concatenate([kinematic, -np.linalg.solve(by_v, by_x)])
 
     def _call(self, function: Any, size: int, x: Array, v: Array, u: Array, p: Array | None) -> Array:
-        packed = np.concatenate([x, v, u, self.values if p is None else p])
-        if packed.size != self.n_x + self.n_rates + len(SIDES) + self.values.size:  # the machine code reads unchecked
-            raise ValueError(f"{packed.size} numbers of state, rates, tensions and parameters")
-        packed, out = np.append(packed, 0.0), np.empty(size)  # no stage: h g is zero
+        packed = np.concatenate([x, v, u, self.values if p is None else p, _NO_STAGE])
+        if (
+            packed.size != self.n_x + self.n_rates + len(SIDES) + self.values.size + 1
+        ):  # the machine code reads unchecked
+            raise ValueError(f"{packed.size - 1} numbers of state, rates, tensions and parameters")
+        out = np.empty(size)
         function(packed.ctypes.data, out.ctypes.data)
         return out

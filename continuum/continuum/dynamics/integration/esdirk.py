@@ -24,6 +24,7 @@ STATUSES = (SimulationStatus.COMPLETE, SimulationStatus.STEP_TOO_SMALL, Simulati
 """What the numbers mean with which `integrate` ends."""
 _COMPLETE, _STEP_TOO_SMALL, _NOT_FINITE = range(len(STATUSES))
 _MOST_STEPS = 200_000  # between two outputs
+_ONE_INSTANT = 1e-12  # apart [s], or in parts of the time: rounding, no time to step through
 
 
 @compiled
@@ -49,8 +50,14 @@ def _build(digest: str) -> Callable[..., Any]:
             most = taken + refused + _MOST_STEPS
             while t < times[k]:
                 stop = min(times[k], _next_bend(problem.input_times, t))
+                shortest = _ONE_INSTANT * max(1.0, abs(t))
+                if stop - t < shortest:  # an output and a bend, or two bends; the tensions may jump
+                    t = stop
+                    if not first_stage(problem, method, work, t, x, slope):
+                        return states, slopes, taken, refused, _NOT_FINITE
+                    continue
                 step, ends = step_towards(stop, t, min(wanted, method.max_step))
-                if (not ends and step < 1e-12 * max(1.0, abs(t))) or taken + refused > most:
+                if step < shortest or taken + refused > most:
                     return states, slopes, taken, refused, _STEP_TOO_SMALL
                 size, new = np.inf, work.states[-1]
                 if solve_stages(problem, method, work, t, x, step):

@@ -40,21 +40,23 @@ def simulate_bdf(
     pull, limits = tensions or slack(), tolerances or Tolerances()
     rates = numpy_state_space(model) if equations is None else equations.rates
     jacobian = None if equations is None else (lambda t, x: equations.jacobian(x, pull.at(t)))
-    done = solve_ivp(
-        lambda t, x: rates(x, pull.at(t)),
-        (times[0], times[-1]),
-        x0,
-        method="BDF",
-        t_eval=times,
-        dense_output=True,
-        jac=jacobian,
-        rtol=limits.relative,
-        atol=limits.absolute,
-        max_step=limits.max_step,
-    )
+    nothing, no_slopes = np.full((times.size, x0.size), np.nan), np.zeros((times.size, x0.size, 0))
+    try:
+        done = solve_ivp(
+            lambda t, x: rates(x, pull.at(t)),
+            (times[0], times[-1]),
+            x0,
+            method="BDF",
+            t_eval=times,
+            dense_output=True,
+            jac=jacobian,
+            rtol=limits.relative,
+            atol=limits.absolute,
+            max_step=limits.max_step,
+        )
+    except ValueError:  # linear algebra was given what is not finite, or singular
+        return Trajectory(SimulationStatus.NOT_FINITE, times, nothing, model.n_joints, 0, 0, no_slopes)
     status = SimulationStatus.COMPLETE if done.success else SimulationStatus.STEP_TOO_SMALL
-    states = np.full((times.size, x0.size), np.nan)
+    states = nothing
     states[: done.y.shape[1]] = done.y.T
-    return Trajectory(
-        status, times, states, model.n_joints, done.sol.ts.size - 1, 0, np.zeros((times.size, x0.size, 0))
-    )
+    return Trajectory(status, times, states, model.n_joints, done.sol.ts.size - 1, 0, no_slopes)

@@ -23,6 +23,7 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import BDF
+from scipy.linalg.lapack import dgetrf, dgetrs
 
 from continuum.arrays import Array
 from continuum.dynamics.compiled.equations import CompiledEquations
@@ -78,7 +79,7 @@ class BdfStepper:
 
     def _new_solver(self, x: Array, end: float) -> BDF:
         rates, jacobian, limits = self._equations.rates, self._equations.jacobian, self._tolerances
-        return BDF(
+        solver = BDF(
             lambda t, y: rates(y, self._tension(t)),
             0.0,
             x,
@@ -88,6 +89,10 @@ class BdfStepper:
             atol=limits.absolute,
             max_step=limits.max_step,
         )
+        # The same LAPACK as SciPy's lu_factor and lu_solve, whose checks take far longer than these small systems.
+        solver.lu = dgetrf
+        solver.solve_lu = lambda factors, b: dgetrs(*factors[:2], b)[0]
+        return solver
 
     def _step_to(self, end: float) -> SimulationStatus:
         solver = self._solver

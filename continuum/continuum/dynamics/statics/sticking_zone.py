@@ -6,6 +6,10 @@ joint, the smallest and the largest angle over the whole zone, the other joints 
 is wider than what the joint may do with the others at equilibrium. At such an extreme every joint is on the verge of
 slipping: the torque is at a corner of the box, the one whose signs are those of d theta_i / d tau_j.
 
+The cables' friction is no part of the zone: their tensions are those of the load's approach, as if they slid. Cables
+that slid the other way have a zone of their own, that of the load with the other approach; between the two, what the
+discs hold lets the arm stay too.
+
 Eq. 13's friction is smooth, so within the zone the joints do creep, at speeds around 1 / k_v or below.
 """
 

@@ -1,0 +1,181 @@
+"""Recordings from rosbag2: what the node `dynamics` publishes comes back as a run."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from recorded_runs import START, TYPES, Topics, message, write
+from recorded_runs import run as kinematic_run
+
+from continuum.cli.diagnose import read_recording
+from continuum.errors import FileError
+from continuum.identification.recording_bag import read_recording_bag
+
+ROWS, JOINTS = 90, 3
+T = np.arange(ROWS) / 120
+STAMPS = START + np.round(T * 1e9).astype(np.int64)
+PHASES = np.arange(JOINTS)
+ANGLES, RATES = 0.3 * np.cos(6 * T[:, None] + PHASES), -1.8 * np.sin(6 * T[:, None] + PHASES)
+PULL = np.stack([4 + 3 * np.sin(5 * T), 4 - 3 * np.sin(5 * T)], axis=1)
+JOINT_NAMES = ["section_1_phi", *(f"section_1_theta_{j + 1}" for j in range(JOINTS)), "section_1_phi_back"]
+CABLE_NAMES = ["section_1_cable_1", "section_1_cable_2"]
+
+
+def swing() -> Topics:
+    """Three joints that sway and two cables, as the node publishes them."""
+    topics: Topics = {"/joint_states": [], "/cable_states": []}
+    for stamp, angles, rates, pull in zip(STAMPS, ANGLES, RATES, PULL, strict=True):
+        topics["/joint_states"].append(
+            message(
+                TYPES["/joint_states"],
+                stamp,
+                name=list(JOINT_NAMES),
+                position=np.concatenate([[0.0], angles, [0.0]]),
+                velocity=np.concatenate([[0.0], rates, [0.0]]),
+            )
+        )
+        topics["/cable_states"].append(
+            message(TYPES["/cable_states"], stamp, name=list(CABLE_NAMES), position=np.ones(2), effort=pull)
+        )
+    return topics
+
+
+def backwards(topics: Topics) -> None:
+    """Every list of names and values the other way round."""
+    for one in topics["/joint_states"]:
+        one.name, one.position, one.velocity = one.name[::-1], one.position[::-1].copy(), one.velocity[::-1].copy()
+    for one in topics["/cable_states"]:
+        one.name, one.position, one.effort = one.name[::-1], one.position[::-1].copy(), one.effort[::-1].copy()
+
+
+def shuffled(topics: Topics) -> None:
+    """Messages in the order in which a network may deliver them."""
+    for messages in topics.values():
+        messages[10], messages[13] = messages[13], messages[10]
+
+
+@pytest.mark.parametrize("change", [lambda topics: None, backwards, shuffled], ids=["as sent", "names", "arrival"])
+def test_what_was_published_is_read(tmp_path: Path, change: Callable[[Topics], None]) -> None:
+    topics = swing()
+    change(topics)
+    found = read_recording_bag(write(tmp_path / "swing 7", topics))
+    assert (found.name, found.notes, found.is_driven) == ("swing 7", (), True)
+    np.testing.assert_allclose(found.times, T, rtol=0, atol=1e-8)
+    np.testing.assert_array_equal(found.theta, ANGLES)
+    np.testing.assert_array_equal(found.theta_rate, RATES)
+    np.testing.assert_allclose(found.pull.values, PULL, rtol=0, atol=1e-12)
+
+
+def test_the_command_takes_folders_and_files(tmp_path: Path) -> None:
+    assert read_recording(str(write(tmp_path / "swing", swing()))).n_joints == JOINTS
+    table = tmp_path / "swing.csv"
+    table.write_text("t_s,q1_rad\n" + "".join(f"{t},{q}\n" for t, q in zip(T, ANGLES[:, 0], strict=True)))
+    assert read_recording(str(table)).n_joints == 1
+
+
+def no_cables(topics: Topics) -> None:
+    del topics["/cable_states"]
+
+
+def no_efforts(topics: Topics) -> None:
+    for one in topics["/cable_states"]:
+        one.effort = np.zeros(0)
+
+
+@pytest.mark.parametrize("change", [no_cables, no_efforts])
+def test_without_tensions_the_cables_are_slack_which_is_told(tmp_path: Path, change: Callable[[Topics], None]) -> None:
+    topics = swing()
+    change(topics)
+    found = read_recording_bag(write(tmp_path / "swing", topics))
+    assert (found.is_driven, found.notes) == (False, ("no efforts on /cable_states: cables taken as slack",))
+
+
+def test_without_rates(tmp_path: Path) -> None:
+    topics = swing()
+    for one in topics["/joint_states"]:
+        one.velocity = np.zeros(0)
+    assert read_recording_bag(write(tmp_path / "swing", topics)).theta_rate is None
+
+
+def test_lost_and_repeated_messages(tmp_path: Path) -> None:
+    topics = swing()
+    topics["/joint_states"].insert(20, topics["/joint_states"][19])
+    del topics["/joint_states"][40], topics["/cable_states"][60:63]
+    found = read_recording_bag(write(tmp_path / "swing", topics))
+    assert found.notes == ("message 21 with the time of the message before, left out",)
+    np.testing.assert_array_equal(found.theta, np.delete(ANGLES, 39, axis=0))
+    np.testing.assert_allclose(found.pull.values, np.delete(PULL, 39, axis=0), rtol=0, atol=0.02)
+
+
+def other_name(topics: Topics) -> None:
+    topics["/joint_states"][50].name[2] = "elbow"
+
+
+def other_cable(topics: Topics) -> None:
+    topics["/cable_states"][50].name[0] = "section_1_cable_9"
+
+
+def no_bending_joint(topics: Topics) -> None:
+    for one in topics["/joint_states"]:
+        one.name = ["a", "b", "c", "d", "e"]
+
+
+def turned(topics: Topics) -> None:
+    topics["/joint_states"][50].position[0] = 0.2
+
+
+def broken(topics: Topics) -> None:
+    topics["/joint_states"][50].position[2] = np.nan
+
+
+def pushing(topics: Topics) -> None:
+    topics["/cable_states"][50].effort = np.array([1.0, -2.0])
+
+
+def tensions_end_early(topics: Topics) -> None:
+    del topics["/cable_states"][45:]
+
+
+def a_rate_missing(topics: Topics) -> None:
+    topics["/joint_states"][7].velocity = np.zeros(0)
+
+
+def in_two_parts(topics: Topics) -> None:
+    del topics["/joint_states"][30:65]
+
+
+def silent(topics: Topics) -> None:
+    topics["/joint_states"].clear()
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (other_name, "holds no section_1_theta_2"),
+        (other_cable, "holds no section_1_cable_1"),
+        (no_bending_joint, "has the sections none on /joint_states; one that bends in a plane"),
+        (turned, "turns its plane by section_1_phi"),
+        (broken, "has a message with nan for section_1_theta_2"),
+        (pushing, "message 51: tension -2 N; a cable cannot push"),
+        (tensions_end_early, r"has 3\d bad messages of 90: messages 5\d, .*\.\. without a finite value"),
+        (a_rate_missing, "has a message with 0 values for 5 names"),
+        (in_two_parts, "messages 30 to 31: a gap of 0.3 s"),
+        (silent, "has no message on /joint_states"),
+    ],
+)
+def test_what_cannot_be_repaired_is_refused(tmp_path: Path, change: Callable[[Topics], None], told: str) -> None:
+    topics = swing()
+    change(topics)
+    with pytest.raises(FileError, match=f"swing: .*{told}"):
+        read_recording_bag(write(tmp_path / "swing", topics))
+
+
+def test_an_arm_of_two_sections_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match="has the sections section_2, section_1 on /joint_states"):
+        read_recording_bag(write(tmp_path / "run", kinematic_run()))
+
+
+def test_no_recording(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match="not a readable rosbag2 recording"):
+        read_recording_bag(tmp_path)

@@ -1,0 +1,122 @@
+"""What a fit may move: coordinates around a model's values, bounds, and what belongs to which recording."""
+
+import numpy as np
+import pytest
+from dynamics_laws import active, prototype_model
+from effects_laws import effect_of
+from hypothesis import given
+from hypothesis import strategies as st
+
+from continuum.dynamics.model import Model
+from continuum.dynamics.values import parameter_slots, with_vector
+from continuum.errors import InvalidValueError
+from continuum.identification.baseline import BATCH, DRY_SLOPE, baseline_unknowns, with_dry_friction
+from continuum.identification.free import Free, FreeSpace
+
+MODEL = Model(
+    prototype_model(3).parameters, tuple(active(effect_of(name), 3) for name in ("angle_offset", "tip_payload"))
+)
+UNEVEN = MODEL.with_values({"stiffness": [1.0, 1.5, 2.0]})
+UNKNOWNS = [
+    Free("stiffness"),
+    Free("stiffness", 1, tolerance=0.02),
+    Free("coulomb_friction"),
+    Free("tip_payload.mass"),
+    Free("angle_offset.offset", 2, 0),
+    Free("angle_offset.offset", 2, 1),
+]
+
+
+def values_at(space: FreeSpace, model: Model, coordinates: np.ndarray, recording: int = -1) -> Model:
+    return with_vector(model, space.origin + space.directions_of(recording) @ coordinates)
+
+
+def test_nothing_moved_is_the_model_itself() -> None:
+    space = FreeSpace(UNEVEN, UNKNOWNS)
+    for name, values in values_at(space, UNEVEN, np.zeros(len(UNKNOWNS))).values().items():
+        np.testing.assert_array_equal(values, UNEVEN.values()[name])
+
+
+@pytest.mark.parametrize("i", range(len(UNKNOWNS)))
+def test_a_unit_of_one_coordinate_moves_its_parameter_by_the_scale(i: int) -> None:
+    space, unknown = FreeSpace(UNEVEN, UNKNOWNS), UNKNOWNS[i]
+    moved = values_at(space, UNEVEN, np.eye(len(UNKNOWNS))[i], unknown.recording or 0).values()
+    for name, values in UNEVEN.values().items():
+        expected = np.array(values, dtype=float)
+        if name == unknown.name:
+            where = slice(None) if unknown.joint is None else unknown.joint
+            expected[where] += space.scale[i]
+        np.testing.assert_allclose(moved[name], expected, rtol=1e-14)
+    assert space.amounts(np.eye(len(UNKNOWNS))[i])[i] == space.scale[i]
+
+
+@given(st.lists(st.floats(-1e3, 1e3), min_size=len(UNKNOWNS), max_size=len(UNKNOWNS)))
+def test_within_the_bounds_every_value_is_allowed(far: list[float]) -> None:
+    space = FreeSpace(UNEVEN, [Free(u.name, u.joint, u.recording) for u in UNKNOWNS if u.tolerance is None])
+    clipped = space.clipped(np.array(far[: len(space.unknowns)]))
+    meanings = UNEVEN.meanings()
+    for name, values in values_at(space, UNEVEN, clipped, 0).values().items():
+        assert np.all(values >= meanings[name].lower - 1e-9 * abs(meanings[name].lower) - 1e-12)
+        assert np.all(values <= meanings[name].upper * (1 + 1e-9) + 1e-12)
+
+
+def test_bounds_are_reached() -> None:
+    space = FreeSpace(UNEVEN, [Free("coulomb_friction"), Free("tip_payload.mass")])
+    meanings = UNEVEN.meanings()
+    for ends, which in ((space.lower, "lower"), (space.upper, "upper")):
+        moved = values_at(space, UNEVEN, ends).values()
+        for unknown in space.unknowns:
+            np.testing.assert_allclose(moved[unknown.name], getattr(meanings[unknown.name], which), atol=1e-12)
+
+
+def test_parts_of_a_batch_stay_within_two_and_a_half_deviations() -> None:
+    space = FreeSpace(UNEVEN, [Free("stiffness", j, tolerance=0.02) for j in range(3)])
+    np.testing.assert_allclose(space.scale, 0.02 * UNEVEN.parameters.stiffness)
+    np.testing.assert_array_equal(space.spread, 1.0)
+    np.testing.assert_array_equal(space.clipped(np.full(3, 99.0)), 2.5)
+    np.testing.assert_array_equal(space.clipped(np.full(3, -99.0)), -2.5)
+
+
+def test_where_a_bound_is_nearer_than_the_batch_it_holds() -> None:
+    model = prototype_model(3).with_values({"stiffness": MODEL.meanings()["stiffness"].upper * 0.99})
+    space = FreeSpace(model, [Free("stiffness", 0, tolerance=0.02)])
+    moved = values_at(space, model, space.upper).values()["stiffness"][0]
+    assert moved == pytest.approx(MODEL.meanings()["stiffness"].upper)
+
+
+def test_what_belongs_to_a_recording_moves_no_other() -> None:
+    space = FreeSpace(MODEL, UNKNOWNS)
+    at = np.array([0.0, 0.0, 0.0, 0.0, 1.0, 2.0])
+    slot, typical = parameter_slots(MODEL)["angle_offset.offset"], MODEL.meanings()["angle_offset.offset"].typical
+    for recording, expected in ((0, 1.0), (1, 2.0), (2, 0.0), (-1, 0.0)):
+        moved = (space.origin + space.directions_of(recording) @ at)[slot]
+        np.testing.assert_allclose(moved, [0.0, 0.0, expected * typical])
+    np.testing.assert_array_equal(space.common_values(at)[slot], 0.0)
+
+
+@pytest.mark.parametrize(
+    "unknown", [Free("stifness"), Free("inertia.factor"), Free("stiffness", 3), Free("gravity", 1)]
+)
+def test_what_the_model_does_not_have_is_refused(unknown: Free) -> None:
+    with pytest.raises(InvalidValueError, match=r"free parameter is|joint of"):
+        FreeSpace(MODEL, [unknown])
+
+
+def test_unknowns_tell_joint_and_run_counted_from_one() -> None:
+    assert [str(u) for u in UNKNOWNS[:2]] == ["stiffness", "stiffness[2]"]
+    assert str(UNKNOWNS[5]) == "angle_offset.offset[3] of run 2"
+
+
+def test_every_joint_has_what_may_differ_in_a_batch() -> None:
+    unknowns = baseline_unknowns(MODEL)
+    assert len(unknowns) == len(set(unknowns))
+    for name, tolerance in BATCH.items():
+        mine = [u for u in unknowns if u.name == name and u.joint is not None]
+        assert [(u.joint, u.tolerance) for u in mine] == [(j, tolerance) for j in range(3)]
+    FreeSpace(MODEL, unknowns)
+
+
+def test_dry_friction_is_steeper_never_smoother() -> None:
+    smooth, steep = (MODEL.with_values({"friction_slope": slope}) for slope in (5.0, 5000.0))
+    assert with_dry_friction(smooth).values()["friction_slope"][0] == DRY_SLOPE
+    assert with_dry_friction(steep).values()["friction_slope"][0] == 5000.0
