@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import Gain, gain, is_adequate
+from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
 from continuum.discovery.workers import Make, Task, first_look
 
@@ -82,7 +83,7 @@ def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[fl
         looks.append(trial)
         tell(0.6 * len(looks) / len(extensions))
     looks.sort(key=lambda trial: trial.cost)
-    tasks = [Task(look.extension, look, _ITERATIONS, True) for look in looks[:_LEADERS]]
+    tasks = [Task(look.extension, carried(look, before), _ITERATIONS, True) for look in looks[:_LEADERS]]
     leaders = []
     for trial in make(tasks):
         leaders.append(trial)

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from continuum.discovery.candidate import Addition, Extension, acts_at_joints
 from continuum.discovery.joints import acting_joints
 from continuum.discovery.question import Question
+from continuum.discovery.some_runs import some_runs
 from continuum.discovery.trial import Trial, fit_extension, judged
 
 _FIRST_LOOK = 4  # iterations: what helps has shown itself by then
+_MANY_RUNS = 4
 
 
 @dataclass(frozen=True)
@@ -25,21 +27,26 @@ class Task:
         near: a trial to start from.
         iterations: of the fit, at most.
         find_joints: whether to find out at which joints the last effect acts, and to fit it there alone.
+        on_part: whether half of the runs are enough.
     """
 
     extension: Extension
     near: Trial | None
     iterations: int
     find_joints: bool = False
+    on_part: bool = False
 
 
 def first_look(extension: Extension, near: Trial) -> Task:
-    """A few iterations."""
-    return Task(extension, near, _FIRST_LOOK)
+    """A few iterations on half of the runs."""
+    return Task(extension, near, _FIRST_LOOK, on_part=True)
 
 
 def make(question: Question, task: Task) -> Trial:
     """One trial."""
+    if task.on_part and task.near is not None and len(question.recordings) >= _MANY_RUNS:
+        part, near = some_runs(question, task.near)
+        return judged(task.extension, fit_extension(part, task.extension, near, task.iterations))
     fitted = fit_extension(question, task.extension, task.near, task.iterations)
     whole = judged(task.extension, fitted)
     last = task.extension[-1] if task.extension else None

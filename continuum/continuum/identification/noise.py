@@ -117,7 +117,7 @@ def _white_covariance(signals: Sequence[Array], floor: float) -> Array:
     correlation: Array = np.eye(n)
     if n > 1 and len(quiet) > 3:
         parts = np.concatenate(quiet)
-        if np.all(np.std(parts, axis=0) > 0):
+        if np.all(np.std(parts, axis=0) > 1e-9):  # angles read off a picture may stand quite still
             correlation = np.asarray(
                 np.corrcoef(np.clip(parts, -3 * np.std(parts, axis=0), 3 * np.std(parts, axis=0)).T)
             )

@@ -2,16 +2,14 @@
 
 What an analysis may know of the files, whatever is hidden in them:
 
-- Rows come at 120 Hz. Joint 1 is nearest the base; positive angles bend the arm towards cable 1. - ``u1_N, u2_N`` are
-commanded tensions. Those of a row act until the next row (``hold=False``: they change linearly). - A recording begins
-at rest, its first rows' tensions having been held for half a second. Where both tensions fall to zero
-  for good within the first rows, the arm was bent by that tension and both cables' base ends were let go at the row.
+- Rows come at 120 Hz. Joint 1 is nearest the base; positive angles bend the arm towards cable 1.
+- ``u1_N, u2_N`` are commanded tensions. Those of a row act until the next row (``hold=False``: they change linearly).
+- A recording begins at rest, its first rows' tensions having been held for half a second. Where both tensions fall to
+  zero for good within the first rows, the arm was bent by that tension and both cables' base ends were let go then.
 - Angles are integrals of gyros' rates, one gyro on each link, from a posture known to a tenth of a degree; neighbours
-are
-  subtracted. Sensors see what links do in the room, so a base that turns is within joint 1.
+  are subtracted. Sensors see what links do in the room, so a base that turns is within joint 1.
 - Dry friction is exact (no smoothing), with the thesis's Stribeck term; a cable turns at each disc by half the sum of
-the
-  angles of the joints before and behind it.
+  the angles of the joints before and behind it.
 """
 
 from blind.plant.case import KINDS, Case, Plan, Truth, draw_case, draw_plan, make_case
