@@ -29,8 +29,8 @@ class Gain:
 
     @property
     def is_significant(self) -> bool:
-        """Whether chance does not give it, with some forty hypotheses tried."""
-        return self.log_likelihood > max(15.0, 3.5 * self.deviation)
+        """Whether it is more than chance gives with some forty hypotheses tried, and not the doing of few stretches."""
+        return self.log_likelihood > max(15.0, 2.2 * self.deviation)
 
     @property
     def is_distinct(self) -> bool:
