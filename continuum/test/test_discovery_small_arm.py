@@ -1,0 +1,154 @@
+"""A diagnosis from data to verdict on a small arm, with few effects to choose from; and runs held out."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from dynamics_laws import prototype_model
+from effects_laws import extended as with_effect
+from identification_laws import BENDS, FINE, N, recorded, releases, small_simulator, white_noise
+
+from continuum.cli import main
+from continuum.discovery.diagnose import Diagnosis, diagnose
+from continuum.discovery.findings import Findings, findings
+from continuum.discovery.held_out import held_out_misfits
+from continuum.discovery.trial import TOLERANCES
+from continuum.discovery.verdict import Kind
+from continuum.discovery.verdict_json import as_mapping
+from continuum.dynamics.model_file import load_model, save_model
+from continuum.dynamics.simulator import Simulator
+from continuum.errors import InvalidValueError
+from continuum.identification.arrow_least_squares import misfit_of
+from continuum.identification.dataset import Dataset
+from continuum.identification.fit import Fit, fit
+from continuum.identification.free import Free
+from continuum.identification.recording import Recording
+from continuum.identification.window_residual import WindowResidual
+from continuum.identification.window_settling import descended
+
+FREE = (Free("stiffness"), Free("viscous_friction"), Free("coulomb_friction"))
+ROUGH = small_simulator(None, TOLERANCES)
+
+
+def fitted(runs: list[Recording]) -> Fit:
+    return fit(ROUGH, runs, white_noise(), FREE)
+
+
+@pytest.mark.parametrize("left_out", range(3))
+def test_a_run_is_predicted_as_by_a_fit_without_it(left_out: int) -> None:
+    runs = [run.rows(slice(0, 41)) for run in releases(3, small_simulator(), 21, {"stiffness": 1.4})]
+    whole = fitted(runs)
+    rest = fitted([run for i, run in enumerate(runs) if i != left_out])
+    alone = WindowResidual(ROUGH, runs[left_out], 0, white_noise(), rest.space, 0.067)
+    windows = descended(alone, rest.coordinates, alone.start, False)
+    assert windows is not None
+    refitted = np.array([misfit_of(at.part) for at in windows])
+    predicted, own = held_out_misfits(whole)[left_out], whole.misfits[left_out]
+    assert predicted.size == refitted.size
+    assert refitted.sum() > own.sum()  # what was fitted looks better than it is
+    assert predicted.sum() == pytest.approx(refitted.sum(), rel=0.05)
+    assert predicted.sum() > own.sum()
+
+
+def test_what_a_run_has_for_itself_is_paid_for() -> None:
+    """Half the logarithm of the number of errors for each unknown, twice in a misfit."""
+    simulator, random = small_simulator("angle_offset", TOLERANCES), np.random.default_rng(1)
+    runs = [recorded(small_simulator(), bend, random) for bend in BENDS[:2]]
+    own = fit(simulator, runs, white_noise(), [Free("angle_offset.offset", j, i) for i in range(2) for j in range(N)])
+    for predicted, misfits in zip(held_out_misfits(own), own.misfits, strict=True):
+        errors = 2 * N * runs[0].times.size
+        assert predicted.sum() == pytest.approx(misfits.sum() + N * np.log(errors), rel=1e-6)
+
+
+def test_one_run_alone_is_held_out_in_stretches() -> None:
+    one = fitted(releases(1, small_simulator(), 3))
+    pieces = held_out_misfits(one)
+    assert len(pieces) > 1
+    predicted = np.concatenate(pieces)
+    assert predicted.shape == one.misfits[0].shape
+    assert predicted.sum() > one.misfits[0].sum()
+
+
+DRY = {"friction_slope": 1000.0}
+TRIED = ("tip_payload", "sensor_delay")
+
+
+@lru_cache
+def simulator(effect: str | None = None) -> Simulator:
+    model = prototype_model(N).with_values(DRY)
+    return Simulator(model if effect is None else with_effect(model, effect), FINE)
+
+
+def runs_of(effect: str | None, seed: int, **hidden: float) -> tuple[Recording, ...]:
+    random = np.random.default_rng(seed)
+    truth = {f"{effect}.{name}": value for name, value in hidden.items()}
+    return tuple(
+        recorded(simulator(effect), (2 * bend[0], 2 * bend[1]), random, truth, 0.7, name=f"run_{i}")
+        for i, bend in enumerate(BENDS)
+    )
+
+
+@lru_cache
+def diagnosed(effect: str | None, seed: int, **hidden: float) -> Diagnosis:
+    nominal = prototype_model(N)
+    return diagnose(Dataset(runs_of(effect, seed, **hidden)), nominal, processes=1, effects=TRIED)
+
+
+@lru_cache
+def payload_found() -> Findings:
+    return findings(diagnosed("tip_payload", 3, mass=0.4), np.random.default_rng(0))
+
+
+def test_a_hidden_payload_is_named_and_its_size_found() -> None:
+    found = payload_found()
+    assert found.verdict.kind is Kind.CAUSE
+    (cause,) = found.verdict.causes
+    assert str(cause.addition) == "tip_payload"
+    told = as_mapping(found)["causes"][0]["parameters"]["mass"]
+    assert told["low"] < 0.4 < told["high"]
+    assert told["value"] == pytest.approx(0.4, rel=0.1)
+    assert found.closed > 0.5
+    assert {score.name for score in found.after} == {f"run_{i}" for i in range(4)}
+
+
+def test_the_extended_model_is_a_model(tmp_path: Path) -> None:
+    found = payload_found()
+    save_model(found.model, tmp_path / "extended.yaml")
+    loaded = load_model(tmp_path / "extended.yaml")
+    for name, values in found.model.values().items():
+        np.testing.assert_array_equal(loaded.values()[name], values)
+    assert "run_0, run_1" in loaded.sources["tip_payload.mass"]
+
+
+def test_data_of_the_model_itself_accuse_nothing() -> None:
+    diagnosis = diagnosed(None, 2)
+    assert diagnosis.verdict.kind is Kind.ADEQUATE
+    assert diagnosis.verdict.extension == ()
+    found = findings(diagnosis, np.random.default_rng(0))
+    assert found.before == found.after
+    low, value, high = next((e.low, e.value, e.high) for e in found.estimates if e.unknown == Free("stiffness"))
+    assert low < value < high
+    assert low < prototype_model(N).parameters.stiffness[0] < high
+
+
+def test_one_seed_one_answer() -> None:
+    again = findings(diagnosed("tip_payload", 3, mass=0.4), np.random.default_rng(0))
+    assert as_mapping(again) == as_mapping(payload_found())
+
+
+def test_an_arm_of_another_number_of_joints() -> None:
+    with pytest.raises(InvalidValueError, match="joints in the recordings is 2; allowed: 5, as the model has"):
+        diagnose(Dataset(runs_of(None, 0)[:1]), prototype_model(5), processes=1)
+
+
+def test_the_command_refuses_bad_data_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    table = tmp_path / "run.csv"
+    table.write_text("t_s,q1_deg\n0,1\n")
+    assert main(["diagnose", str(table), "--json", str(tmp_path / "out.json")]) == 2
+    told = capsys.readouterr().err
+    assert "run.csv: has 1 usable rows" in told
+    assert told.count("\n") == 1
+    assert not (tmp_path / "out.json").exists()
