@@ -53,7 +53,7 @@ BAD_PARAMETERS = {
         "dynamics",
         (),
         {"initial_bend": 90.0},
-        "initial_bend is 90.0; allowed: up to 15.71 rad to either side, pi at each of 5 joints; 90 degrees are 1.571 rad",
+        "initial_bend is 90.0; allowed: up to 15.71 rad to either side, pi at each of 5 joints; 90 degrees are 1.571",
     ),
     "angles of another arm": (
         "dynamics",

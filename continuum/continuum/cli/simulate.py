@@ -40,7 +40,8 @@ def add_to(commands: Any) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--release", metavar="DEG",
-        help="bend [degrees] in which the arm starts at rest: in total, the same at every joint, or q1,q2,.. of each joint; default 0",
+        help="bend [degrees] in which the arm starts at rest: in total, the same at every joint, or q1,q2,.. of each "
+        "joint; default 0",
     )  # fmt: skip
     parser.add_argument(
         "--pulled", action="store_true",

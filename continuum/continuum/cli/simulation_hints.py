@@ -18,7 +18,7 @@ _LONG, _RARE = 100.0, 1.0
 
 
 def hints(posture: Array, tensions: Tensions, p: Parameters, times: Array) -> Iterator[str]:
-    """Lines about the joint angles at the start (n_joints,) [rad], the tensions, and the times simulated (n_times,) [s]."""
+    """Lines about the start (n_joints,) [rad], the tensions, and the times simulated (n_times,) [s]."""
     bend = float(np.abs(np.degrees(posture)).sum())
     if 0 < bend <= _SMALL_BEND:
         yield f"--release is in degrees, and {bend:.3g} in total is little: were these radians?"

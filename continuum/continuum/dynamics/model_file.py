@@ -21,8 +21,8 @@ from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import ActiveEffect, Model
-from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
 from continuum.dynamics.model_path import model_path
+from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
 from continuum.errors import FileError, InvalidValueError
 from continuum.parameter_file import read_parameter_file
 
