@@ -59,7 +59,9 @@ def page(result: Result) -> str:
     return f"""# Numerics: how Eq. 12 is integrated
 
 Made by `make bench-dynamics`, which writes every figure here. Times are processor times on one core, the shortest of
-several runs: read them as ratios within the page.
+several runs, of the integration alone with all code compiled and loaded: read them as ratios within the page. A
+program waits longer: for the elapsed time on a machine with other work, and before its first run for loading
+(`continuum simulate` tells the two apart).
 {machine()}
 
 ## One release, every integrator

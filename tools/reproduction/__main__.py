@@ -1,4 +1,7 @@
-"""`make reproduction`: the thesis's dynamic results made again, docs/reproduction.md and its pictures."""
+"""`make reproduction`: the thesis's dynamic results made again, docs/reproduction.md and its pictures.
+
+Overwrites these files, which are under version control, unless `--out` names another folder.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,12 @@ from tools.reproduction.release import over_all, reproduce_release
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=Path("docs"), help="folder of the page; default %(default)s")
+    parser.add_argument(
+        "--out",
+        type=Path,
+        default=Path("docs"),
+        help="folder of the page and its pictures, which are overwritten; default %(default)s",
+    )
     folder: Path = parser.parse_args().out
     release, bend = reproduce_release(), bend_by_one_cable()
     as_released = bend_by_one_cable(float(np.abs(release.published.theta[0]).sum()))
