@@ -19,15 +19,15 @@ demo: setup ## follow the thesis's helix with real nodes, results in out/demo
 test: check ## run the checks and every test (ARGS="-k name" are given to pytest)
 	@$(IN_WORKSPACE) pytest $(ARGS)
 
-reproduction: setup ## make the thesis's dynamic results again: docs/reproduction.md
+reproduction: setup ## make the thesis's dynamic results again; overwrites docs/reproduction.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.reproduction $(ARGS)
 
-bench-dynamics: setup ## measure the integrators against each other: docs/numerics.md (about 6 minutes)
+bench-dynamics: setup ## measure the integrators (6 minutes); overwrites docs/numerics.md unless ARGS="--out FILE" or --quick
 	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/bench_dynamics/extra \
 	  -r tools/bench_dynamics/requirements.txt || echo "scikit-sundae cannot be installed and is left out"
 	@$(IN_WORKSPACE) python3 -m tools.bench_dynamics $(ARGS)
 
-bench-ik: setup ## measure the inverse kinematics against its rivals: docs/ik-benchmark.md (about 10 minutes)
+bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/ik-benchmark.md unless ARGS say otherwise
 	@$(IN_WORKSPACE) python3 -m tools.bench_ik $(ARGS)
 
 check: setup ## style, lint and types, without the tests

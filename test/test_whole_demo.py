@@ -44,6 +44,9 @@ QUARTER_TURN = COMMON | {
 }
 """A quarter turn of the thesis's helix."""
 
+LONG_REST = QUARTER_TURN | {"rest_time": 600.0, "rate": 20.0}
+"""The same, ending in a rest so long that whatever happens to the demo happens before its end."""
+
 ARC = COMMON | {
     "path": "circle",
     "circle": {"start": [0.08, 0.0, 0.28], "center": [0.0, 0.0, 0.28], "toward": [0.0, 0.08, 0.28], "angle": 0.6},
@@ -156,6 +159,11 @@ def trajectory(tmp_path: Path) -> Path:
     return trajectory_file(tmp_path, QUARTER_TURN)
 
 
+@pytest.fixture
+def endless(tmp_path: Path) -> Path:
+    return trajectory_file(tmp_path, LONG_REST)
+
+
 def test_a_node_that_dies_at_start_is_told(domain: int, tmp_path: Path, trajectory: Path) -> None:
     with DemoProcess(tmp_path / "out", domain, arm=ARMS / "prototype.yaml", trajectory=trajectory) as demo:
         code, _, err = demo.end()
@@ -166,8 +174,8 @@ def test_a_node_that_dies_at_start_is_told(domain: int, tmp_path: Path, trajecto
     )
 
 
-def test_a_node_that_is_killed_is_told(domain: int, tmp_path: Path, trajectory: Path) -> None:
-    with DemoProcess(tmp_path / "out", domain, trajectory=trajectory) as demo:
+def test_a_node_that_is_killed_is_told(domain: int, tmp_path: Path, endless: Path) -> None:
+    with DemoProcess(tmp_path / "out", domain, trajectory=endless) as demo:
         demo.wait_for_node_line(" begins")
         (robot,) = demo.processes("lib/continuum_manipulator/robot")
         os.kill(robot, signal.SIGKILL)
@@ -177,8 +185,8 @@ def test_a_node_that_is_killed_is_told(domain: int, tmp_path: Path, trajectory: 
     assert re.fullmatch(r"demo: robot-4 died: .*\(exit code -9\); see .*nodes.log\n", err)
 
 
-def test_an_interrupt_leaves_no_process_and_a_whole_recording(domain: int, tmp_path: Path, trajectory: Path) -> None:
-    with DemoProcess(tmp_path / "out", domain, trajectory=trajectory) as demo:
+def test_an_interrupt_leaves_no_process_and_a_whole_recording(domain: int, tmp_path: Path, endless: Path) -> None:
+    with DemoProcess(tmp_path / "out", domain, trajectory=endless) as demo:
         demo.wait_for_node_line(" begins")
         demo.send(signal.SIGINT)
         code, _, err = demo.end()

@@ -224,6 +224,10 @@ def load_arm(path: str | Path) -> Arm:
     """
     block = read_parameter_file(path)
     arm = block.get("arm", block)
+    if "n_joints" in block and "parameters" in block:
+        raise FileError(
+            path, "is a model file, of `simulate` and `diagnose`; expected an arm file, with a block `arm:`"
+        )
     if not isinstance(arm, Mapping) or "sections" not in arm:
         raise FileError(path, "holds no arm; expected a block `arm:` with `sections: [...]` in it")
     try:

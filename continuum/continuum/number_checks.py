@@ -81,5 +81,7 @@ def _fits(found: tuple[int, ...], shape: tuple[int, ...]) -> bool:
 
 
 def _words(shape: tuple[int, ...]) -> str:
+    if shape == (-1,):
+        return "a list of finite numbers"
     lengths = " x ".join("n" if count < 0 else str(count) for count in shape)
     return "three finite numbers" if shape == (3,) else f"finite numbers, {lengths}"

@@ -15,7 +15,9 @@ from recorded_runs import ARM, arm_file, run, tips, write
 
 from continuum.arm import load_arm
 from continuum.cli.tables import print_pairs
+from continuum.dynamics.model_path import model_path
 
+MODEL = model_path("lamecc_prototype.yaml")
 ARM_FILES = sorted(CONFIG.glob("*.yaml"))
 
 
@@ -65,6 +67,23 @@ def test_the_installed_command() -> None:
     assert done.returncode == 2
     assert done.stderr.startswith("continuum: nowhere.yaml: cannot be read")
     assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("words", [("--help",), ("info", THREE), ("solve", THREE, "0.1", "0", "0.4", "--json")])
+def test_nobody_reads_on(words: tuple[str, ...]) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    command = [str(shutil.which("continuum")), *words]
+    done = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, text=True, env=os.environ)
+    os.close(writer)
+    assert done.stderr == ""
+    assert done.returncode in (0, 1)  # argparse ends with 0, read or not
+
+
+def test_a_model_is_no_arm_and_an_arm_no_model(capsys: Captured) -> None:
+    for words in (("info", "lamecc_prototype.yaml"), ("solve", MODEL, 0, 0, 0.1)):
+        assert "lamecc_prototype.yaml: is a model file, of `simulate` and `diagnose`; " in refused(capsys, *words)
+    assert refused(capsys, "simulate", "--model", THREE).startswith(f"{THREE}: is an arm file, of `info` and `solve`; ")
 
 
 @pytest.mark.parametrize("file", ARM_FILES, ids=lambda path: path.stem)

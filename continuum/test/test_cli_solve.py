@@ -25,7 +25,9 @@ def test_solve_tells_a_posture_that_reaches_the_point(capsys: Captured) -> None:
     figures = np.array([row[1:] for row in rows_of(output, [s.name for s in arm.sections])], dtype=float)
     w = allen_from_jones(np.radians(figures[:, 1]), np.radians(figures[:, 0]))
     np.testing.assert_allclose(arm_pose(w, arm)[:3, 3], target, atol=2e-4)
-    np.testing.assert_allclose(figures[:, 2:].ravel(), 1e3 * tangle(w, arm), atol=0.05)
+    lengths = rows_of(output, list(arm.cable_names))
+    assert [name for name, _ in lengths] == list(arm.cable_names)
+    np.testing.assert_allclose([float(length) for _, length in lengths], 1e3 * tangle(w, arm), atol=0.05)
     assert all(unit in output for unit in ("[deg]", "[mm]"))
 
 
@@ -53,7 +55,12 @@ def test_solve_turns_the_tip_all_the_way(capsys: Captured) -> None:
     assert code("solve", THREE, *pose[:3, 3], "--quaternion", *quaternion, "--json") == 0
     answer = json.loads(capsys.readouterr().out)
     assert answer["status"] == "SOLVED"
-    np.testing.assert_allclose(arm_pose(np.array(answer["configuration"]), arm), pose, atol=3e-6)
+    w = np.array(answer["configuration"])
+    np.testing.assert_allclose(arm_pose(w, arm), pose, atol=3e-6)
+    np.testing.assert_allclose(answer["target"]["position"], pose[:3, 3])
+    np.testing.assert_allclose(answer["target"]["rotation"], pose[:3, :3], atol=1e-12)
+    assert answer["sections"] == [section.name for section in arm.sections]
+    assert answer["cable_lengths"] == pytest.approx(dict(zip(arm.cable_names, tangle(w, arm), strict=True)))
 
 
 def test_solve_answers_a_file_of_targets(capsys: Captured, tmp_path: Path) -> None:
@@ -79,6 +86,19 @@ def test_solve_stays_near_a_start_and_bends_little(capsys: Captured) -> None:
     assert np.linalg.norm(found["least_bending"]) < 0.99 * np.linalg.norm(w)
 
 
+def test_a_start_beyond_a_limit_is_told(capsys: Captured) -> None:
+    assert code("solve", THREE, 0.1, 0, 0.4, "--start", 10, 0, -200, 0, 180, 0) == 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("continuum: --start bends section_2 by 200 degrees; its limit is 180")
+
+
+def test_a_direction_beside_a_file_is_wrong_usage(capsys: Captured, tmp_path: Path) -> None:
+    file = tmp_path / "targets.txt"
+    file.write_text("0.1 0 0.4\n")
+    assert code("solve", THREE, "--targets", file, "--direction", 0, 0, 1) == 2
+    assert "--direction and --quaternion are of X Y Z" in capsys.readouterr().err
+
+
 def test_millimetres_are_suspected(capsys: Captured) -> None:
     assert code("solve", THREE, 100, 0, 400) == 1
     assert "millimetres?" in capsys.readouterr().out
@@ -86,11 +106,37 @@ def test_millimetres_are_suspected(capsys: Captured) -> None:
     assert "millimetres?" not in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("text", ["", "1 2\n", "1 2 3\n1 2 3 4 5 6\n", "a b c\n"])
-def test_a_file_without_targets_is_refused(capsys: Captured, tmp_path: Path, text: str) -> None:
+@pytest.mark.parametrize("heading", ["x,y,z", "x_m, y_m, z_m, dx, dy, dz", "# X Y Z\nX Y Z qx qy qz qw"])
+def test_a_file_of_targets_may_have_a_heading(capsys: Captured, tmp_path: Path, heading: str) -> None:
+    file = tmp_path / "targets.csv"
+    columns = len(heading.splitlines()[-1].replace(",", " ").split())
+    file.write_text(f"\ufeff{heading}\n{' '.join(['0.1', '0', '0.4', '0', '0', '0', '1'][: columns - 1])} 1\n")
+    code("solve", THREE, "--targets", file, "--json")
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["target"]["position"][:2] == [0.1, 0.0]
+    assert set(answer["target"]) == {"position", *{6: ["direction"], 7: ["rotation"]}.get(columns, [])}
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("", "holds no targets"),
+        ("x y z\n", "holds no targets"),
+        ("1 2\n", "line 1 has 2 columns; wanted are lines of 3"),
+        ("\n1 2 3\n1 2 3 4 5 6\n", "line 3 has 6 columns; wanted are lines of 3"),
+        ("a b c\n", "line 1: 'a' is no number; a heading begins with x y z"),
+        ("x_mm y_mm z_mm\n1 2 3\n", "line 1: 'x_mm' is no number"),
+        ("x y z\n1 2 3\n# four\n1 nan 3\n", "line 4: 'nan'; allowed: a finite number"),
+        ("1 2 3 0 0 1\n1 2 3 0 0 0\n", "line 2: a direction of nothing but zeros"),
+        ("1 2 3 0 0 0 0\n", "line 1: a quaternion of nothing but zeros"),
+    ],
+)
+def test_a_file_without_targets_is_refused_by_its_line(
+    capsys: Captured, tmp_path: Path, text: str, problem: str
+) -> None:
     file = tmp_path / "targets.txt"
     file.write_text(text)
-    assert refused(capsys, "solve", THREE, "--targets", file).startswith(f"{file}: holds no targets")
+    assert refused(capsys, "solve", THREE, "--targets", file).startswith(f"{file}: {problem}")
     assert "cannot be read" in refused(capsys, "solve", THREE, "--targets", tmp_path)
 
 
@@ -111,9 +157,15 @@ def test_a_target_out_of_reach_is_no(capsys: Captured) -> None:
         ((0, 0, 0.3, "--tolerance", 0), "--tolerance is 0.0; allowed: a number > 0"),
         ((0, 0, 0.3, "--tolerance", "nan"), "--tolerance is nan"),
         ((0, 0, 0.3, "--quaternion", 0, 0, 0, 0), "--quaternion is [0.0, 0.0, 0.0, 0.0]"),
-        ((0, 0, 0.3, "--quaternion", 0, 0, 0, 1, "--direction", 0, 0, 1), "directions is"),
-        ((0, 0, 0.3, "--start", 10, 20), "--start is [10.0, 20.0]; allowed: bend and azimuth of each of 3"),
-        ((0, 0, 0.3, "--start", *[0] * 5, "nan"), "--start is"),
+        (
+            (0, 0, 0.3, "--quaternion", 0, 0, 0, 1, "--direction", 0, 0, 1),
+            "--direction is [0.0, 0.0, 1.0]; allowed: none",
+        ),
+        (
+            (0, 0, 0.3, "--start", 10, 20),
+            "--start is [10.0, 20.0]; allowed: finite numbers, bend and azimuth of each of 3",
+        ),
+        ((0, 0, 0.3, "--start", *[90] * 5, "nan"), "--start is [90.0, 90.0, 90.0, 90.0, 90.0, nan]; allowed: finite"),
     ],
 )
 def test_solve_refuses_values(capsys: Captured, words: tuple[object, ...], problem: str) -> None:

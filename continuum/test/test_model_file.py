@@ -204,6 +204,13 @@ def test_a_file_that_is_no_model(tmp_path: Path, text: bytes) -> None:
         load_model(path)
 
 
+def test_an_error_names_its_file(tmp_path: Path) -> None:
+    path = tmp_path / "model.yaml"
+    path.write_text(yaml.safe_dump(content() | {"effects": {"ghost": {}}}), encoding="utf-8")
+    with pytest.raises(InvalidValueError, match=f"^{path}: effect is 'ghost'; allowed: one of "):
+        load_model(path)
+
+
 def test_files_that_cannot_be_read_or_written(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="cannot be read"):
         load_model(tmp_path / "none.yaml")

@@ -13,12 +13,14 @@ from hypothesis import strategies as st
 
 from continuum.cli import main
 from continuum.cli.negative_numbers import written_out
+from continuum.cli.output_files import check_picture, check_writable
 from continuum.cli.simulate import release_posture
 from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.pulled_posture import pulled_posture
+from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError, InvalidValueError
-from continuum.recordings.motion_figure import backbone
+from continuum.recordings.motion_figure import backbone, write_motion_figure
 from continuum.recordings.tension_table import read_tension_table
 
 MODEL = load_model("lamecc_prototype.yaml")
@@ -105,6 +107,14 @@ def test_the_picture_is_drawn(tmp_path):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_picture_has_a_panel_of_tensions_where_there_are_any(tmp_path):
+    motion = Simulator(MODEL).run(np.zeros(5), np.linspace(0, 0.1, 3))
+    for tension in (0.0, 2.0):
+        path = tmp_path / f"{tension}.svg"
+        write_motion_figure(motion, Tensions(np.zeros(1), np.array([[tension, 0.0]])), MODEL.parameters, path)
+        assert ("Cable tensions at the base" in path.read_text()) == (tension > 0)
+
+
 def test_the_backbone_is_as_long_as_the_arm_and_hangs_down():
     p = MODEL.parameters
     points = backbone(np.radians([10, -5, 20, 5, 60.0]), p)
@@ -161,8 +171,53 @@ BAD_OPTIONS = {
     "no model": (["--model", "nowhere.yaml"], "nowhere.yaml: "),
     "no tensions": (["--tensions", "nowhere.csv"], "nowhere.csv: cannot be read"),
     "no folder": (["--duration", "0.05", "--csv", "/nowhere/a.csv"], "/nowhere/a.csv: cannot be written (No such"),
-    "no such format": (["--duration", "0.05", "--picture", "a.xyz"], "a.xyz: cannot be drawn (Format 'xyz'"),
+    "no such format": (["--duration", "0.05", "--picture", "a.xyz"], "a.xyz: cannot be drawn (format 'xyz'"),
+    "pulled by nothing": (["--pulled"], "--release is None; allowed: with --pulled, one total bend in degrees"),
+    "pulled to angles": (["--pulled", "--release", "1,2,3,4,5"], "--release is '1,2,3,4,5'; allowed: with --pulled"),
 }
+
+
+HINTS = {
+    "radians": (["--release", "1.57"], None, "--release is in degrees, and 1.57 in total is little: were these rad"),
+    "too far": (["--release", "400"], None, "at the start joint 1 is bent by 80 degrees; from 62 on its discs are in"),
+    "millinewtons": ([], "t_s,u1_N,u2_N\n0,0,0\n1,20000,0\n", "tensions are in newtons, and 20000 N is more than "),
+    "milliseconds": ([], "t_s,u1_N,u2_N\n0,1,0\n100,2,0\n200,0,0\n", "t_s is in seconds, and 200 s are simulated: we"),
+}
+
+
+@pytest.mark.parametrize("case", HINTS)
+def test_other_units_are_suspected(case, tmp_path, capsys):
+    options, content, expected = HINTS[case]
+    if content is not None:
+        (tmp_path / "tensions.csv").write_text(content)
+        options = ["--tensions", str(tmp_path / "tensions.csv")]
+    main(["simulate", *options, "--rate", "10"])
+    assert capsys.readouterr().err.startswith(f"continuum: {expected}")
+
+
+def test_usual_units_are_not_suspected(tmp_path, capsys):
+    (tmp_path / "tensions.csv").write_text("t_s,u1_N,u2_N\n0.1,20,0\n1,0,5\n")
+    assert main(["simulate", "--release", "90", "--tensions", str(tmp_path / "tensions.csv")]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_what_no_joint_can_do_is_not_written(tmp_path, capsys):
+    (tmp_path / "tensions.csv").write_text("t_s,u1_N,u2_N\n0,0,0\n1,20000,0\n")
+    out = tmp_path / "out.csv"
+    assert main(["simulate", "--tensions", str(tmp_path / "tensions.csv"), "--csv", str(out)]) == 1
+    assert "no joint bends by more than half a turn; nothing is written" in capsys.readouterr().err
+    assert not out.exists()
+
+
+def test_files_are_looked_at_first_and_left_as_they_were(tmp_path):
+    there = tmp_path / "there.csv"
+    there.write_text("kept")
+    check_writable(str(there))
+    check_picture(str(tmp_path / "new.PNG"))
+    assert [path.name for path in tmp_path.iterdir()] == ["there.csv"]
+    assert there.read_text() == "kept"
+    with pytest.raises(FileError, match="cannot be written"):
+        check_writable(str(tmp_path))
 
 
 @pytest.mark.parametrize("case", BAD_OPTIONS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 
 import numpy as np
 from rclpy.clock import Clock
@@ -59,7 +60,7 @@ class DynamicsNode(CheckedNode):
         ParameterSpec("rate", float, "states a second", "Hz", 1.0, 2000.0, default=120.0),
         ParameterSpec("integrator", str, "bdf is SciPy's, with the thesis's settings; esdirk is the fast one",
                       choices=tuple(INTEGRATORS), default="bdf"),
-        ParameterSpec("initial_bend", float, "total bend at the start, the same at every joint", "rad", -100.0, 100.0,
+        ParameterSpec("initial_bend", float, "total bend at the start, the same at every joint", "rad", -1e4, 1e4,
                       default=0.0),
         ParameterSpec("initial_angles", float, "joint angles at the start from base to tip, in the place of a bend",
                       "rad", -np.pi, np.pi, is_list=True, default=[]),
@@ -109,6 +110,12 @@ class DynamicsNode(CheckedNode):
         self._catch_up = self.create_timer(CATCH_UP_PERIOD, self._go, clock=steady)
         self._catch_up.cancel()
 
+    def in_words(self) -> str:
+        """Which arm is simulated, and how."""
+        name, bend = Path(self.values["model"]).name, np.degrees(self._posture.sum())
+        bent = f"{self._n_joints} joints, bent by {bend:.0f} degrees in total"
+        return f"{name}, {bent}, at {self.values['rate']:g} Hz by {self.values['integrator']}"
+
     def _now(self) -> int:
         """ROS time [ns], 0 until simulated time begins."""
         return self.get_clock().now().nanoseconds
@@ -137,7 +144,8 @@ class DynamicsNode(CheckedNode):
             return
         lag = self._pace.lag(self._pace.seen if self._by_clock else now)  # /clock may take large steps
         if lag > BEHIND:
-            self.diagnostics.warnings.note("behind", f"{lag:.3f} s; no time is skipped")
+            busy = "the machine is too busy, or /clock too fast" if self._by_clock else "the machine is too busy"
+            self.diagnostics.warnings.note("behind", f"{lag:.3f} s: {busy}; no time is skipped")
         self._go()
 
     def _go(self) -> None:

@@ -44,6 +44,10 @@ class SectionNode(CheckedNode):
         self.listen(JointState, "joint_states", self._on_joints)
         self.listen(CableStates, "section_cable_commands", self._on_cables)
 
+    def in_words(self) -> str:
+        """Which section of the arm it is."""
+        return f"{self._section.name}, {self._number} of {self.arm.n_sections}"
+
     def _on_joints(self, message: JointState) -> None:
         messages.stamped(message.header.stamp)
         messages.named(message.name, "joints", self._joints)

@@ -41,13 +41,19 @@ BAD_PARAMETERS = {
     "a value where a block is due": ("markers", ARM, {"arm.section_1.a.b": 1}, "arm.section_1.a"),
     "no arm": ("markers", (), {}, "arm is None; allowed: a block"),
     "no model": ("dynamics", (), {"model": "nowhere.yaml"}, "nowhere.yaml: "),
-    "an arm in the place of a model": ("dynamics", (), {"model": ARM_FILE}, "allowed: not known here; one of n_joints"),
+    "an arm in the place of a model": ("dynamics", (), {"model": ARM_FILE}, "three_sections.yaml: is an arm file"),
     "unknown integrator": ("dynamics", (), {"integrator": "euler"}, "allowed: one of bdf, esdirk"),
     "two postures": (
         "dynamics",
         (),
         {"initial_bend": 1.0, "initial_angles": "[0.1, 0.1, 0.1, 0.1, 0.1]"},
         "initial_bend is 1.0; allowed: 0, or no initial_angles",
+    ),
+    "bend in degrees": (
+        "dynamics",
+        (),
+        {"initial_bend": 90.0},
+        "initial_bend is 90.0; allowed: up to 15.71 rad to either side, pi at each of 5 joints; 90 degrees are 1.571",
     ),
     "angles of another arm": (
         "dynamics",
@@ -131,4 +137,4 @@ def test_signal_ends_a_node_cleanly_from_its_first_moment(domain, probe, number,
         if twice:
             node.send(number)
         assert node.exit_code() == 0
-        assert node.stderr == ""
+        assert all(line.startswith("[INFO]") for line in node.stderr.splitlines())  # no more than that it began

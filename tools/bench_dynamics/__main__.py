@@ -1,6 +1,7 @@
 """`make bench-dynamics`: the integrators on one release, longer arms, orders of convergence; docs/numerics.md.
 
 Times are processor times on one core, the shortest of several runs, so that other work on the machine counts little.
+Overwrites docs/numerics.md, which is under version control, unless `--out` names another file; `--quick` writes none.
 """
 
 from __future__ import annotations
@@ -42,7 +43,9 @@ class Effort:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="20 joints at most, a minute; writes no page")
-    quick = parser.parse_args().quick
+    parser.add_argument("--out", type=Path, default=PAGE, help="the page, which is overwritten; default %(default)s")
+    options = parser.parse_args()
+    quick: bool = options.quick
     effort = Effort(SIZES[:3], 1, 5) if quick else Effort(SIZES, 3, 30)
     result = Result(_scores(effort), _sizes(effort), convergence(), _slope_errors())
     for method in result.convergence:
@@ -50,8 +53,8 @@ def main() -> None:
     print(f"{result.speed_up:.0f} times as fast as the baseline, {result.best.error:.4f} degrees from convergence")
     print(f"time grows with the joints to the power {result.exponent:.2f}")
     if not quick:
-        PAGE.write_text(page(result), encoding="utf-8")
-        print(f"written: {PAGE}")
+        options.out.write_text(page(result), encoding="utf-8")
+        print(f"written: {options.out}")
 
 
 def _scores(effort: Effort) -> list[Score]:

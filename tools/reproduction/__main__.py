@@ -1,4 +1,7 @@
-"""`make reproduction`: the thesis's dynamic results made again, docs/reproduction.md and its pictures."""
+"""`make reproduction`: the thesis's dynamic results made again, docs/reproduction.md and its pictures.
+
+Overwrites these files, which are under version control, unless `--out` names another folder.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,12 @@ NOT_PRINTED = tuple(("center_of_mass", 1e-3 * mm) for mm in (13.5, 25.0)) + tupl
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=Path("docs"), help="folder of the page; default %(default)s")
+    parser.add_argument(
+        "--out",
+        type=Path,
+        default=Path("docs"),
+        help="folder of the page and its pictures, which are overwritten; default %(default)s",
+    )
     folder: Path = parser.parse_args().out
     release, bend = reproduce_release(prototype()), bend_by_one_cable()
     otherwise = {change: reproduce_release(prototype(**dict([change]))) for change in NOT_PRINTED}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 
 from continuum.cli import diagnose, info, report, simulate, solve
@@ -28,7 +29,18 @@ Exit codes: 0 done, 1 the answer is no (a target out of reach, a simulation that
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command; returns the process's exit code."""
+    """Run the command; returns the process's exit code, 1 where nobody reads on."""
+    try:
+        try:
+            return _run(sys.argv[1:] if arguments is None else arguments)
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:  # whoever read, as `head` does, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+
+
+def _run(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="continuum",
         description="Multi-section, cable-driven snake arms: kinematics, dynamics, and what recordings show of them.",
@@ -38,7 +50,7 @@ def main(arguments: list[str] | None = None) -> int:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in (info, solve, simulate, diagnose, report):
         command.add_to(commands)
-    options = parser.parse_args(written_out(sys.argv[1:] if arguments is None else arguments))
+    options = parser.parse_args(written_out(arguments))
     try:
         return int(options.run(options))
     except ContinuumError as error:

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from continuum.cli.output_files import check_writable
 from continuum.cli.tables import print_pairs
 
 if TYPE_CHECKING:
@@ -49,6 +50,8 @@ def run(options: argparse.Namespace) -> int:
     from continuum.dynamics.model_file import load_model, save_model
     from continuum.identification.dataset import Dataset
 
+    for path in (options.json, options.report, options.extended):
+        check_writable(path)
     model, recordings = load_model(options.model), tuple(read_recording(path) for path in options.data)
     with told() as tell:
         diagnosis = diagnose(Dataset(recordings), model, processes=options.processes, tell=tell)

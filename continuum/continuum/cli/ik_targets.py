@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 
 import numpy as np
@@ -22,32 +23,56 @@ def target_of(position: list[float], options: argparse.Namespace) -> Target:
     Raises:
         InvalidValueError: it is malformed, or has a direction and a quaternion.
     """
+    if options.quaternion and options.direction:
+        raise InvalidValueError("--direction", options.direction, "none beside --quaternion, which has it already")
     rotation = _rotations("--quaternion", [options.quaternion])[0] if options.quaternion else None
     return Target(position, options.direction, rotation)
 
 
 def read_targets(path: str) -> Targets:
-    """Targets of a text file; commas and what follows a # count as blanks.
+    """Targets of a text file; commas and what follows a # count as blanks, a heading may come before the numbers.
 
     Raises:
-        FileError: it cannot be read, or its lines are not of numbers.
-        InvalidValueError: a target is malformed.
+        FileError: it cannot be read, has no targets, or a line, which is named, holds none.
     """
     try:
-        lines = Path(path).read_text(encoding="utf-8").splitlines()
+        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise FileError(path, f"cannot be read ({error})") from error
-    words = [line.partition("#")[0].replace(",", " ").split() for line in lines]
-    try:
-        rows = np.array([[float(word) for word in row] for row in words if row])
-    except ValueError as error:
-        raise FileError(path, f"holds no targets ({error}); wanted are {_COLUMNS}") from error
-    if rows.ndim != 2 or rows.shape[1] not in (3, 6, 7):
+    words = {k: line.partition("#")[0].replace(",", " ").split() for k, line in enumerate(lines, start=1)}
+    written = [(k, row) for k, row in words.items() if row]
+    if written and _is_heading(written[0][1]):
+        written = written[1:]
+    if not written:
         raise FileError(path, f"holds no targets; wanted are {_COLUMNS}")
-    more = rows[:, 3:] if rows.shape[1] > 3 else None
-    if rows.shape[1] == 7:
+    width = len(written[0][1])
+    rows = np.array([_numbers(path, k, row, width) for k, row in written])
+    for (k, _), row in zip(written, rows[:, 3:], strict=True):
+        if row.size and not np.any(row):
+            raise FileError(path, f"line {k}: a {'quaternion' if width == 7 else 'direction'} of nothing but zeros")
+    if width == 7:
         return Targets(rows[:, :3], rotations=_rotations("quaternion", rows[:, 3:]))
-    return Targets(rows[:, :3], more)
+    return Targets(rows[:, :3], rows[:, 3:] if width == 6 else None)
+
+
+def _is_heading(words: list[str]) -> bool:
+    """Whether a line names the columns, x, y and z first: in metres, as ``x`` or ``x_m``."""
+    return [word.lower().removesuffix("_m") for word in words[:3]] == ["x", "y", "z"]
+
+
+def _numbers(path: str, k: int, words: list[str], width: int) -> list[float]:
+    """The ``width`` numbers of line ``k``."""
+    if len(words) != width or width not in (3, 6, 7):
+        raise FileError(path, f"line {k} has {len(words)} columns; wanted are {_COLUMNS}")
+    numbers = []
+    for word in words:
+        try:
+            numbers.append(float(word))
+        except ValueError:
+            raise FileError(path, f"line {k}: {word!r} is no number; a heading begins with x y z") from None
+        if not math.isfinite(numbers[-1]):
+            raise FileError(path, f"line {k}: {word!r}; allowed: a finite number")
+    return numbers
 
 
 def _rotations(name: str, quaternions: object) -> Array:

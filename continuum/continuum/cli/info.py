@@ -8,6 +8,7 @@ from typing import Any
 
 from continuum.arm import load_arm
 from continuum.cli.tables import print_table
+from continuum.dynamics.model_path import model_path
 
 
 def add_to(commands: Any) -> None:
@@ -19,7 +20,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print a table of the sections."""
-    arm = load_arm(options.arm)
+    arm = load_arm(model_path(options.arm))  # a model's name is found too, and told to be none of an arm
     sections = "1 section" if arm.n_sections == 1 else f"{arm.n_sections} sections"
     title = f"{sections}, {1e3 * arm.length:.1f} mm long, {len(arm.cable_names)} cables"
     headings = (

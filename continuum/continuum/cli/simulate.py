@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.cli.output_files import check_picture, check_writable
 from continuum.cli.tables import print_pairs
 from continuum.errors import InvalidValueError
 
@@ -28,21 +31,27 @@ def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
         "simulate", help="how an arm moves when it is let go or pulled", description=__doc__,
-        epilog="Exit codes: 0 done, 1 the integration failed, 2 wrong usage, file or value.",
+        epilog="Exit codes: 0 done, 1 the integration failed or bends a joint by more than half a turn, 2 wrong usage, "
+        "file or value.",
     )  # fmt: skip
     parser.add_argument(
         "--model", metavar="FILE.yaml", default="lamecc_prototype.yaml",
         help="model file, or one that comes with the library; default %(default)s",
     )  # fmt: skip
     parser.add_argument(
-        "--release", metavar="DEG", default="0",
-        help="bend in which the arm starts at rest: in total, the same at every joint, or q1,q2,.. of each joint",
+        "--release", metavar="DEG",
+        help="bend [degrees] in which the arm starts at rest: in total, the same at every joint, or q1,q2,.. of each "
+        "joint; default 0",
     )  # fmt: skip
     parser.add_argument(
         "--pulled", action="store_true",
         help="the total bend of --release is held by one cable, which is cut: not the same at every joint",
     )  # fmt: skip
-    parser.add_argument("--tensions", metavar="FILE.csv", help="cable tensions over time: columns t_s,u1_N,u2_N")
+    parser.add_argument(
+        "--tensions", metavar="FILE.csv",
+        help="cable tensions over time: columns t_s,u1_N,u2_N, linear between rows; a table that begins after 0 s "
+        "holds its first row from 0 s on",
+    )  # fmt: skip
     parser.add_argument(
         "--duration", metavar="S", type=float,
         help=f"[s]; default to the end of the tensions, or {_RELEASE_DURATION:g}",
@@ -60,22 +69,37 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Simulate, print a summary, and write what was asked for; 1 where the integration fails."""
     # Here, so that the other commands need neither CasADi and numba nor the time to load them and Matplotlib.
+    from continuum.cli.simulation_hints import beyond_contact, hints
     from continuum.dynamics.model_file import load_model
     from continuum.dynamics.tensions import slack
     from continuum.dynamics.trajectory import SimulationStatus
     from continuum.recordings.motion_table import write_motion_table
     from continuum.recordings.tension_table import read_tension_table
 
+    if options.pulled and (options.release is None or "," in options.release):
+        raise InvalidValueError("--release", options.release, "with --pulled, one total bend in degrees")
     model = load_model(options.model)
-    posture = release_posture(options.release, model.n_joints)
-    if options.pulled:
-        posture = _pulled(model, posture)
+    posture = release_posture(options.release or "0", model.n_joints)
     tensions = slack() if options.tensions is None else read_tension_table(options.tensions)
     times = _times(options, tensions)
+    check_writable(options.csv)
+    check_picture(options.picture)
+    for hint in hints(posture, tensions, model.parameters, times):
+        print(f"continuum: {hint}", file=sys.stderr)
+    if options.pulled:
+        posture = _pulled(model, posture, options.release)
     began = time.perf_counter()
-    motion = _simulate(model, posture, times, tensions, options.integrator)
-    _show(motion, time.perf_counter() - began)
+    simulate = _simulation(model, posture, times, tensions, options.integrator)
+    loaded = time.perf_counter()
+    motion = simulate()
+    _show(motion, loaded - began, time.perf_counter() - loaded)
     if motion.status is not SimulationStatus.COMPLETE:
+        return 1
+    bent = beyond_contact(motion.theta, model.parameters)
+    if bent:
+        print(f"continuum: {bent}, which the model does not know", file=sys.stderr)
+    if np.abs(motion.theta).max() > math.pi:
+        print("continuum: no joint bends by more than half a turn; nothing is written", file=sys.stderr)
         return 1
     if options.csv is not None:
         write_motion_table(motion, tensions, options.csv)
@@ -106,11 +130,14 @@ def release_posture(text: str, n_joints: int) -> Array:
     return np.radians(degrees)
 
 
-def _pulled(model: Model, posture: Array) -> Array:
+def _pulled(model: Model, posture: Array, release: str) -> Array:
     """Joint angles (n_joints,) [rad] in which one cable holds the same total bend; tells its tension."""
     from continuum.dynamics.pulled_posture import pulled_posture
 
-    held = pulled_posture(model, float(posture.sum()))
+    try:
+        held = pulled_posture(model, float(posture.sum()))
+    except InvalidValueError as error:  # of an angle in radians, which nobody typed
+        raise InvalidValueError("--release", release, f"with --pulled, {error.allowed}") from None
     angles = ", ".join(f"{angle:.2f}" for angle in np.degrees(held.theta))
     print_pairs([("held by", f"{held.tension.max():.2f} N"), ("joint angles", f"{angles} degrees")])
     return held.theta
@@ -131,22 +158,30 @@ def _times(options: argparse.Namespace, tensions: Tensions) -> Array:
     return begin + np.arange(int(samples + 1e-6) + 1) / float(options.rate)
 
 
-def _simulate(model: Model, posture: Array, times: Array, tensions: Tensions, integrator: str) -> Trajectory:
+def _simulation(
+    model: Model, posture: Array, times: Array, tensions: Tensions, integrator: str
+) -> Callable[[], Trajectory]:
+    """What is to be called for the integration alone: equations are compiled here, and all code is loaded."""
     if integrator == "bdf":
         from continuum.dynamics.compiled.equations import CompiledEquations
         from continuum.dynamics.integration.scipy_bdf import simulate_bdf
 
-        return simulate_bdf(model, posture, times, tensions, equations=CompiledEquations(model))
+        equations = CompiledEquations(model)
+        return lambda: simulate_bdf(model, posture, times, tensions, equations=equations)
     from continuum.dynamics.simulator import Simulator
 
-    return Simulator(model).run(posture, times, tensions)
+    simulator = Simulator(model)
+    simulator.run(posture, times[:1])  # nothing to integrate, but the compiled loops are loaded
+    return lambda: simulator.run(posture, times, tensions)
 
 
-def _show(motion: Trajectory, took: float) -> None:
+def _show(motion: Trajectory, loading: float, integrating: float) -> None:
+    """Print what happened; ``loading`` and ``integrating`` took so long [s]."""
     bend = np.degrees(motion.theta.sum(axis=1))
     pairs = [
         ("integration", motion.status.value),
-        ("simulated", f"{motion.times[-1] - motion.times[0]:g} s, {motion.times.size} samples, in {took:.2f} s"),
+        ("simulated", f"{motion.times[-1] - motion.times[0]:g} s, {motion.times.size} samples"),
+        ("time taken", f"{integrating:.3g} s for the integration, {loading:.2f} s before it to load the equations"),
     ]
     if np.all(np.isfinite(motion.states)):
         speed = np.degrees(np.abs(motion.theta_rate))

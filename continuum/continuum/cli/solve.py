@@ -5,19 +5,20 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import sys
 from typing import Any
 
 import numpy as np
 
 from continuum.arm import Arm, load_arm
+from continuum.arrays import Array
 from continuum.cli.ik_targets import read_targets, target_of
 from continuum.cli.tables import print_table
 from continuum.errors import InvalidValueError
 from continuum.kinematics.configuration import allen_from_jones, jones_from_allen
 from continuum.kinematics.ik_result import IkResult
-from continuum.kinematics.ik_target import POSITION
+from continuum.kinematics.ik_target import POSITION, Targets
 from continuum.kinematics.routing import tangle
-from continuum.number_checks import finite_of_shape
 
 _WORDS = {
     "SOLVED": "reached",
@@ -42,10 +43,14 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "--targets",
         metavar="FILE",
-        help="many targets: lines of x y z, and a direction or a quaternion",
+        help="many targets: lines of x y z [m], and a direction or a quaternion; a heading x,y,z.. may come first",
     )
     parser.add_argument(
-        "--start", metavar="DEG", nargs="+", type=float, help="bend and azimuth of every section, near which to answer"
+        "--start",
+        metavar="DEG",
+        nargs="+",
+        type=float,
+        help="bend and azimuth of every section [degrees], near which to answer",
     )
     parser.add_argument(
         "--objective",
@@ -65,6 +70,8 @@ def run(options: argparse.Namespace) -> int:
     point = [value for value in (options.x, options.y, options.z) if value is not None]
     if len(point) != (0 if options.targets else 3):
         options.refuse("a target is X Y Z, or there is a file of --targets")
+    if options.targets and (options.direction or options.quaternion):
+        options.refuse("--direction and --quaternion are of X Y Z; a file of --targets has them in its lines")
     if not options.tolerance > 0:
         raise InvalidValueError("--tolerance", options.tolerance, "a number > 0 [m] and [rad]")
     arm = load_arm(options.arm)
@@ -74,7 +81,7 @@ def run(options: argparse.Namespace) -> int:
     answers = solver.solve_many(targets, None if start is None else [start] * len(targets))
     for k in range(len(targets)):
         if options.json:
-            print(json.dumps(_plain(answers[k])))
+            print(json.dumps(_plain(arm, targets, k, answers[k])))
         else:
             _show(arm, answers[k], targets.kind > POSITION)
     farthest = math.hypot(*targets.positions[int(np.argmax(answers.distances))])
@@ -83,20 +90,39 @@ def run(options: argparse.Namespace) -> int:
     return 0 if answers.solved.all() else 1
 
 
-def _start(arm: Arm, degrees: list[float]) -> Any:
-    if len(degrees) != 2 * arm.n_sections:
-        raise InvalidValueError("--start", degrees, f"bend and azimuth of each of {arm.n_sections} sections [deg]")
-    pairs = finite_of_shape("--start", [math.radians(value) for value in degrees], (-1,)).reshape(-1, 2)
+def _start(arm: Arm, degrees: list[float]) -> Array:
+    """Configuration (n_sections, 2) [rad] of bends and azimuths [degrees]; bends beyond a limit are told."""
+    if len(degrees) != 2 * arm.n_sections or not all(map(math.isfinite, degrees)):
+        allowed = f"finite numbers, bend and azimuth of each of {arm.n_sections} sections [degrees]"
+        raise InvalidValueError("--start", degrees, allowed)
+    pairs = np.radians(degrees).reshape(-1, 2)
+    for section, bend in zip(arm.sections, np.abs(pairs[:, 0]), strict=True):
+        if bend > section.bend_limit + 1e-9:
+            bent, limit = math.degrees(bend), math.degrees(section.bend_limit)
+            print(
+                f"continuum: --start bends {section.name} by {bent:g} degrees; its limit is {limit:g}, and the answer "
+                "keeps it",
+                file=sys.stderr,
+            )
     return allen_from_jones(pairs[:, 1], pairs[:, 0])
 
 
-def _plain(result: IkResult) -> dict[str, object]:
+def _plain(arm: Arm, targets: Targets, k: int, result: IkResult) -> dict[str, object]:
+    """All of an answer in SI units, and the k-th target that it is of."""
+    target = {"position": targets.positions[k].tolist()}
+    if targets.directions is not None:
+        target["direction"] = targets.directions[k].tolist()
+    if targets.rotations is not None:
+        target["rotation"] = targets.rotations[k].tolist()
     return {
+        "target": target,
         "status": result.status.name,
         "distance": result.distance,
         "angle": result.angle,
         "iterations": result.iterations,
+        "sections": [section.name for section in arm.sections],
         "configuration": result.configuration.tolist(),
+        "cable_lengths": dict(zip(arm.cable_names, tangle(result.configuration, arm).tolist(), strict=True)),
     }
 
 
@@ -104,14 +130,12 @@ def _show(arm: Arm, result: IkResult, with_direction: bool) -> None:
     angle = f", {math.degrees(result.angle):.3g} degrees off its direction" if with_direction else ""
     print(f"{_WORDS[result.status.name]}; the tip is {1e3 * result.distance:.3g} mm from the target{angle}.")
     phi, theta = jones_from_allen(result.configuration)
-    totals = iter(1e3 * tangle(result.configuration, arm))
     rows = [
-        (
-            section.name,
-            f"{math.degrees(theta[i]):.2f}",
-            f"{math.degrees(phi[i]):.2f}",
-            "  ".join(f"{next(totals):.2f}" for _ in section.cable_azimuths),
-        )
+        (section.name, f"{math.degrees(theta[i]):.2f}", f"{math.degrees(phi[i]):.2f}")
         for i, section in enumerate(arm.sections)
     ]
-    print_table(("section", "bend theta\n[deg]", "azimuth phi\n[deg]", "total cable lengths\n[mm]"), rows)
+    print_table(("section", "bend theta\n[deg]", "azimuth phi\n[deg]"), rows)
+    totals = 1e3 * tangle(result.configuration, arm)
+    lengths = [(name, f"{total:.2f}") for name, total in zip(arm.cable_names, totals, strict=True)]
+    print()
+    print_table(("cable", "total length\n[mm]"), lengths)

@@ -1,11 +1,22 @@
 """Model files: YAML with every parameter's value, unit and source, and the effects that extend Eq. 12.
 
+<<<<<<< HEAD
 n_joints: 5
 parameters:
   stiffness: {value: 1.2379, unit: N m/rad, source: thesis Table 3}
 effects:
   tip_payload:
     mass: {value: 0.05, unit: kg, source: diagnosis of run_3.csv}
+=======
+::
+
+    n_joints: 5
+    parameters:
+      stiffness: {value: 1.2379, unit: N m/rad, source: thesis Table 3}
+    effects:
+      tip_payload:
+        mass: {value: 0.05, unit: kg, source: diagnosis of run_3.csv}
+>>>>>>> e304c8f34f074253a6a4dd30c7c454b89ac271b4
 """
 
 from __future__ import annotations
@@ -19,6 +30,7 @@ from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.model_path import model_path
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
 from continuum.errors import FileError, InvalidValueError
 from continuum.parameter_file import read_parameter_file
@@ -30,16 +42,27 @@ def load_model(path: str | Path) -> Model:
     """The model that a file describes; a bare name that is no file here is a model that comes with the library.
 
     Raises:
-        FileError: the file cannot be read or is no YAML mapping.
-        InvalidValueError: a name, value or unit that is not allowed, or a required parameter that is missing.
+        FileError: the file cannot be read, is no YAML mapping, or describes an arm's geometry.
+        InvalidValueError: a name, value or unit that is not allowed, or a required parameter that is missing; the
+            message begins with the file's name.
     """
-    path = Path(path)
-    shipped = Path(__file__).parent / "models" / path
-    return model_from_mapping(read_parameter_file(shipped if shipped.exists() and not path.exists() else path))
+    block = read_parameter_file(model_path(path))
+    if "arm" in block or "sections" in block:
+        raise FileError(
+            path, "is an arm file, of `info` and `solve`; a model file has n_joints, parameters and effects"
+        )
+    try:
+        return model_from_mapping(block)
+    except InvalidValueError as error:
+        raise InvalidValueError(f"{path}: {error.name}", error.value, error.allowed) from None
 
 
 def model_from_mapping(block: Mapping[str, object]) -> Model:
-    """As :func:`load_model`, of a file's contents."""
+    """As :func:`load_model`, of a file's contents.
+
+    Raises:
+        InvalidValueError: a name, value or unit that is not allowed, or a required parameter that is missing.
+    """
     _only(block, ("n_joints", "parameters", "effects"), "")
     n = block.get("n_joints")
     if not isinstance(n, int) or isinstance(n, bool) or not 1 <= n <= 1000:

@@ -114,6 +114,11 @@ class Parameters:
         return self.half_spacing + np.append(self.half_spacing[1:], self.half_spacing[-1:])
 
     @property
+    def contact_angle(self) -> Numbers:
+        """Angle of each joint at which the cable holes of its two discs meet, 2 atan(b / a), (n,) [rad]."""
+        return 2 * np.arctan2(self.half_spacing, self.hole_radius)
+
+    @property
     def n_joints(self) -> int:
         """Number of joints."""
         return len(self.mass)

@@ -1,4 +1,4 @@
-"""A simulated motion as a picture: joint angles, joint rates, cable tensions, and the arm at a few instants."""
+"""A simulated motion as a picture: joint angles, joint rates, cable tensions if any, the arm at a few instants."""
 
 from __future__ import annotations
 
@@ -28,24 +28,24 @@ def write_motion_figure(motion: Trajectory, tensions: Tensions, p: Parameters, p
     Raises:
         FileError: the file cannot be written, or its format is not known.
     """
+    pull = np.array([tensions.at(t) for t in motion.times])
+    heights = {"angles": 1.5, "rates": 1.2} | ({"tensions": 0.8} if np.any(pull > 0) else {})
     figure = Figure(figsize=(12.5, 6.6), layout="constrained")
-    panels = figure.subplot_mosaic([["angles", "arm"], ["rates", "arm"], ["tensions", "arm"]], width_ratios=(1.7, 1),
-                                   height_ratios=(1.5, 1.2, 0.8))  # fmt: skip
+    panels = figure.subplot_mosaic(
+        [[name, "arm"] for name in heights], width_ratios=(1.7, 1), height_ratios=list(heights.values())
+    )
     colours = _shades(motion.n_joints)
     for name, values in (("angles", motion.theta), ("rates", motion.theta_rate)):
         for joint, column in enumerate(np.degrees(values).T):
             panels[name].plot(motion.times, column, color=colours[joint], linewidth=1.3, label=f"joint {joint + 1}")
     if motion.n_joints <= 12:
         panels["angles"].legend(**_BESIDE, title="from the base", title_fontsize=8)
-    pull = np.array([tensions.at(t) for t in motion.times])
-    for cable, (colour, column) in enumerate(zip(("#202020", "#b07800"), pull.T, strict=True)):
-        panels["tensions"].plot(motion.times, column, color=colour, linewidth=1.3, label=f"cable {cable + 1}")
-    panels["tensions"].legend(**_BESIDE)
-    panels["tensions"].set_ylim(0, max(1.0, 1.15 * float(pull.max())))
+    if "tensions" in panels:
+        _draw_tensions(panels["tensions"], motion.times, pull)
     panels["angles"].set(title="Joint angles", ylabel="[deg]")
     panels["rates"].set(title="Joint rates", ylabel="[deg/s]")
-    panels["tensions"].set(title="Cable tensions at the base", ylabel="[N]", xlabel="time [s]")
-    for name in ("angles", "rates", "tensions"):
+    panels[list(heights)[-1]].set(xlabel="time [s]")
+    for name in heights:
         panels[name].grid(alpha=0.3)
         panels[name].margins(x=0.01)
     _draw_arm(panels["arm"], motion, p)
@@ -55,6 +55,15 @@ def write_motion_figure(motion: Trajectory, tensions: Tensions, p: Parameters, p
         raise FileError(path, f"cannot be written ({error.strerror or error})") from error
     except ValueError as error:  # Matplotlib: a format that it does not know
         raise FileError(path, f"cannot be drawn ({error})") from error
+
+
+def _draw_tensions(axes: Axes, times: Array, pull: Array) -> None:
+    """Tension of each cable at the base, (n_times, n_cables) [N]."""
+    for cable, (colour, column) in enumerate(zip(("#202020", "#b07800"), pull.T, strict=True)):
+        axes.plot(times, column, color=colour, linewidth=1.3, label=f"cable {cable + 1}")
+    axes.legend(**_BESIDE)
+    axes.set_ylim(0, max(1.0, 1.15 * float(pull.max())))
+    axes.set(title="Cable tensions at the base", ylabel="[N]")
 
 
 def _draw_arm(axes: Axes, motion: Trajectory, p: Parameters) -> None:

@@ -175,6 +175,17 @@ class CheckedNode(Node):
         """
         refuse_unknown_overrides(self, self._qos_parameters)
 
+    def in_words(self) -> str:
+        """What the node is at work on, where there is more to say than its topics."""
+        return ""
+
+    def greet(self) -> None:
+        """Say in one line that the node works, what on, and by which topics."""
+        topics = {"takes": self.diagnostics.received, "gives": self.diagnostics.published}
+        parts = [self.in_words(), *(f"{word} {', '.join(names)}" for word, names in topics.items() if names)]
+        if any(parts):
+            self.get_logger().info("; ".join(filter(None, parts)))
+
     def draining(self) -> bool:
         """Asked after a request to stop: whether the node still has to be served before it is closed."""
         return False

@@ -88,6 +88,7 @@ def _run(node_class: type[CheckedNode], stop: StopRequest) -> int:
         rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
         node = node_class()
         node.refuse_unknown_overrides()
+        node.greet()
     except START_ERRORS as error:
         rclpy.try_shutdown()
         return _fail(node_class, one_line(error))

@@ -32,8 +32,10 @@ def test_name_and_version_agree(package: Path) -> None:
 
 @pytest.mark.parametrize("package", PYTHON_PACKAGES, ids=lambda path: path.name)
 def test_every_executable_has_its_module(package: Path) -> None:
-    entry_points = setup_arguments(package).get("entry_points", ast.Constant({}))
-    for line in ast.literal_eval(entry_points).get("console_scripts", []):
+    entry_points = setup_arguments(package).get("entry_points", ast.Dict([], []))
+    assert isinstance(entry_points, ast.Dict)
+    groups = {ast.literal_eval(key): value for key, value in zip(entry_points.keys, entry_points.values, strict=True)}
+    for line in ast.literal_eval(groups.get("console_scripts", ast.List([]))):
         module, function = line.split("=")[1].strip().split(":")
         path = package / f"{module.replace('.', '/')}.py"
         path = path if path.exists() else path.with_suffix("") / "__init__.py"

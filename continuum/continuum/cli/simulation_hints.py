@@ -1,0 +1,53 @@
+"""What looks as if other units were meant, in what `continuum simulate` is given and in what comes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.tensions import Tensions
+
+_SMALL_BEND = 3.2
+"""Total bend [degrees] up to which a number looks like one in radians: half a turn is 3.14."""
+
+_LONG, _RARE = 100.0, 1.0
+"""Length of a table, and time between its rows [s], from which on its times look like milliseconds."""
+
+
+def hints(posture: Array, tensions: Tensions, p: Parameters, times: Array) -> Iterator[str]:
+    """Lines about the start (n_joints,) [rad], the tensions, and the times simulated (n_times,) [s]."""
+    bend = float(np.abs(np.degrees(posture)).sum())
+    if 0 < bend <= _SMALL_BEND:
+        yield f"--release is in degrees, and {bend:.3g} in total is little: were these radians?"
+    bent = beyond_contact(posture[None], p)
+    if bent:
+        yield f"at the start {bent}"
+    most, enough = float(tensions.values.max()), enough_tension(p)
+    if most > enough:
+        yield (
+            f"tensions are in newtons, and {most:g} N is more than the {enough:.0f} N that fold this arm's stiffest "
+            "joint by half a turn: were these millinewtons?"
+        )
+    lasts = float(times[-1] - times[0])
+    if lasts >= _LONG and tensions.times.size > 1 and np.median(np.diff(tensions.times)) >= _RARE:
+        yield f"t_s is in seconds, and {lasts:g} s are simulated: were these milliseconds? --duration S simulates less"
+
+
+def enough_tension(p: Parameters) -> float:
+    """Tension [N] whose torque about any joint bends its spring by half a turn, and lifts the whole arm held out."""
+    weight = float(p.gravity[0] * np.sum(p.mass) * np.sum(p.joint_spacing))
+    return float((np.pi * np.max(p.stiffness) + weight) / np.min(p.hole_radius))
+
+
+def beyond_contact(theta: Array, p: Parameters) -> str:
+    """In words, the joint that is bent furthest beyond the contact of its discs in (n_times, n_joints) [rad]; or ''."""
+    furthest = np.abs(theta).max(axis=0)
+    excess = furthest - p.contact_angle
+    joint = int(np.argmax(excess))
+    if not excess[joint] > 0:
+        return ""
+    angle, contact = np.degrees([furthest[joint], p.contact_angle[joint]])
+    return f"joint {joint + 1} is bent by {angle:.0f} degrees; from {contact:.0f} on its discs are in each other's way"
