@@ -69,6 +69,26 @@ def test_bounds_are_reached() -> None:
             np.testing.assert_allclose(moved[unknown.name], getattr(meanings[unknown.name], which), atol=1e-12)
 
 
+def test_a_unit_is_the_nominal_value_or_the_typical_size() -> None:
+    """However wide the bounds are: the prior and the swarm's range are in these units."""
+    names = ("inertia", "stiffness", "viscous_friction", "stribeck_speed", "friction_slope")
+    space = FreeSpace(MODEL, [Free(name) for name in names])
+    np.testing.assert_array_equal(space.scale, [MODEL.values()[name][0] for name in names])
+    np.testing.assert_array_equal(space.spread, 1.0)
+    assert FreeSpace(UNEVEN, [Free("stiffness")]).scale[0] == 2.0  # of the largest
+    payload = FreeSpace(MODEL, [Free("tip_payload.mass")])
+    assert payload.scale[0] == MODEL.meanings()["tip_payload.mass"].typical
+    assert FreeSpace(MODEL, [Free("capstan_friction")]).scale[0] > 0  # nominally there is none
+
+
+def test_parts_that_are_not_there_do_not_differ() -> None:
+    bare = MODEL.with_values({"coulomb_friction": 0.0})
+    space = FreeSpace(bare, [Free("coulomb_friction", 0, tolerance=0.03), Free("coulomb_friction")])
+    assert (space.lower[0], space.upper[0]) == (0.0, 0.0)
+    assert not np.any(space.directions[:, 0])
+    assert space.upper[1] > 0
+
+
 def test_parts_of_a_batch_stay_within_two_and_a_half_deviations() -> None:
     space = FreeSpace(UNEVEN, [Free("stiffness", j, tolerance=0.02) for j in range(3)])
     np.testing.assert_allclose(space.scale, 0.02 * UNEVEN.parameters.stiffness)

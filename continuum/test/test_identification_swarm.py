@@ -130,6 +130,8 @@ def test_the_swarm_identifies_and_counts_its_simulations() -> None:
     again = swarm_identification(simulator, runs, space, np.random.default_rng(1), settings)
     np.testing.assert_array_equal(again.coordinates, found.coordinates)
     at = space.common_values(found.coordinates)
+    nominal = np.array([simulator.model.values()[name][0] for name in TRUTH])
+    assert np.all(nominal + space.amounts(found.coordinates) <= 3 * nominal)
     assert found.objective == pytest.approx(np.mean([rate_error(simulator, run, at) for run in runs]))
 
 

@@ -70,10 +70,11 @@ class Simulator:
         directions, slope0 = self._free(p.size, x0.size, free, free_initial)
         equations, tableau, limits = self.equations, self._tableau, self.tolerances
         input_times, inputs = tensions.rows()
+        rows, columns = np.nonzero(directions)
         problem = Problem(
             address_of(equations.residual), address_of(equations.stage),
             address_of(equations.slopes) if directions.shape[1] else 0,
-            n, p, input_times - times[0], inputs, np.ascontiguousarray(directions),
+            n, p, input_times - times[0], inputs, rows, columns, directions[rows, columns],
         )  # fmt: skip
         method = Method(
             tableau.a, tableau.c, tableau.error, tableau.order, limits.relative, limits.absolute, limits.max_step

@@ -73,11 +73,14 @@ class FreeSpace:
                     raise InvalidValueError(f"joint of {unknown.name}", unknown.joint + 1, f"1 to {at.size}")
                 at = at[unknown.joint : unknown.joint + 1]
             values = self.origin[at]
-            self.scale[i] = meaning.typical or max(np.max(np.abs(values)), 1e-3 * (meaning.upper - meaning.lower))
+            size = float(np.max(np.abs(values)))
+            self.scale[i] = meaning.typical or size or 1e-3 * (meaning.upper - meaning.lower)
             self.spread[i] = _BASELINE_SPREAD if meaning.typical is None else _EFFECT_SPREAD
             if unknown.tolerance is not None:
-                self.scale[i], self.spread[i] = unknown.tolerance * np.max(np.abs(values)), 1.0
+                self.scale[i], self.spread[i] = unknown.tolerance * size, 1.0
             self.directions[at, i] = self.scale[i]
+            if self.scale[i] == 0:  # parts that are not there are all alike
+                continue
             self.lower[i] = (meaning.lower - values.min()) / self.scale[i]
             self.upper[i] = (meaning.upper - values.max()) / self.scale[i]
             if unknown.tolerance is not None:  # parts that differ by more are not of one batch: a cause of its own

@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.dynamics.integration.compiled_loops import compiled
+
+IntArray = NDArray[np.int64]
 
 
 class Problem(NamedTuple):
@@ -18,7 +21,8 @@ class Problem(NamedTuple):
         n_joints: number of joints.
         p: parameter values, (n_p,).
         input_times, inputs: tensions of the cables, (rows,) [s] and (rows, n_cables) [N], as `Tensions`.
-        directions: in the parameters, by which to differentiate, (n_p, n_free); n_free may be 0.
+        direction_rows, direction_columns, direction_values: directions in the parameters by which to differentiate,
+            entries of a matrix (n_p, n_free) that is mostly zero, (n_entries,) each.
     """
 
     residual: int
@@ -28,7 +32,9 @@ class Problem(NamedTuple):
     p: Array
     input_times: Array
     inputs: Array
-    directions: Array
+    direction_rows: IntArray
+    direction_columns: IntArray
+    direction_values: Array
 
 
 class Method(NamedTuple):
@@ -52,6 +58,7 @@ class Work(NamedTuple):
         out: what the equations answer.
         matrix, pivots: of Newton's method, factorised, (n_v, n_v) and (n_v,).
         change: of the rates in one iteration, (n_v, 1).
+        row: of a matrix of slopes, (n_free,).
         base, base_slope: a stage's state but for its own rates, and its slope, (n_x,) and (n_x, n_free).
         states, rates, rate_slopes: of every stage, (stages, n_x), (stages, n_x) and (stages, n_x, n_free).
     """
@@ -62,6 +69,7 @@ class Work(NamedTuple):
     matrix: Array
     pivots: Array
     change: Array
+    row: Array
     base: Array
     base_slope: Array
     states: Array
@@ -82,6 +90,7 @@ def work_for(problem, n_x, n_free, stages):  # type: ignore[no-untyped-def]
         matrix=np.empty((n_v, n_v)),
         pivots=np.zeros(n_v, dtype=np.int64),
         change=np.empty((n_v, 1)),
+        row=np.empty(n_free),
         base=np.empty(n_x),
         base_slope=np.empty((n_x, n_free)),
         states=np.empty((stages, n_x)),

@@ -20,7 +20,7 @@ def stage_slopes(problem, work, base_slope, hg, rate_slopes):  # type: ignore[no
     """
     n, n_v = problem.n_joints, work.pivots.size
     n_x, n_free = base_slope.shape
-    out, matrix, pivots, directions = work.out, work.matrix, work.pivots, problem.directions
+    out, matrix, pivots, row = work.out, work.matrix, work.pivots, work.row
     work.packed[-1] = hg
     call_at(problem.slopes, work.packed, out)
     if not factorise_stage_matrix(out, matrix, pivots):
@@ -30,17 +30,17 @@ def stage_slopes(problem, work, base_slope, hg, rate_slopes):  # type: ignore[no
     at_x = n_v + n_v * n_v
     at_p = at_x + n_v * n_x
     for k in range(n_x):
-        for c in range(n_free):
-            x_slope = base_slope[k, c]
-            if k < n:  # theta moves with theta' of this very stage, which moves with its base
-                x_slope += hg * base_slope[n + k, c]
-            for r in range(n_v):
-                v_slopes[r, c] -= out[at_x + n_v * k + r] * x_slope
-    for k in range(directions.shape[0]):
-        for c in range(n_free):
-            if directions[k, c] != 0.0:
-                for r in range(n_v):
-                    v_slopes[r, c] -= out[at_p + n_v * k + r] * directions[k, c]
+        row[:] = base_slope[k]
+        if k < n:  # theta moves with theta' of this very stage, which moves with its base
+            row += hg * base_slope[n + k]
+        for r in range(n_v):
+            slope = out[at_x + n_v * k + r]
+            for c in range(n_free):
+                v_slopes[r, c] -= slope * row[c]
+    for i in range(problem.direction_rows.size):
+        at, c = at_p + n_v * problem.direction_rows[i], problem.direction_columns[i]
+        for r in range(n_v):
+            v_slopes[r, c] -= out[at + r] * problem.direction_values[i]
     solve_factorised(matrix, pivots, v_slopes)
     for r in range(n):
         for c in range(n_free):
