@@ -97,11 +97,12 @@ def test_parts_of_a_batch_stay_within_two_and_a_half_deviations() -> None:
     np.testing.assert_array_equal(space.clipped(np.full(3, -99.0)), -2.5)
 
 
-def test_where_a_bound_is_nearer_than_the_batch_it_holds() -> None:
-    model = prototype_model(3).with_values({"stiffness": MODEL.meanings()["stiffness"].upper * 0.99})
-    space = FreeSpace(model, [Free("stiffness", 0, tolerance=0.02)])
-    moved = values_at(space, model, space.upper).values()["stiffness"][0]
-    assert moved == pytest.approx(MODEL.meanings()["stiffness"].upper)
+@pytest.mark.parametrize(("name", "end"), [("stiffness", "upper"), ("half_spacing", "lower")])
+def test_where_a_bound_is_nearer_than_the_batch_it_holds(name: str, end: str) -> None:
+    bound = getattr(MODEL.meanings()[name], end)
+    model = prototype_model(3).with_values({name: bound * (0.99 if end == "upper" else 1.01)})
+    space = FreeSpace(model, [Free(name, 0, tolerance=0.02)])
+    assert values_at(space, model, getattr(space, end)).values()[name][0] == pytest.approx(bound)
 
 
 def test_what_belongs_to_a_recording_moves_no_other() -> None:

@@ -14,6 +14,7 @@ from continuum.identification.arrow_least_squares import (
     Part,
     Solution,
     Unknowns,
+    _bounded_step,
     arrow_least_squares,
     misfit_of,
     reduced,
@@ -227,3 +228,15 @@ def test_bad_windows_are_sought_anew_where_the_search_settles() -> None:
     found = arrow_least_squares(evaluate, one.unknowns(), 30)
     assert sought >= 1
     np.testing.assert_array_less(np.abs(found.shared - one.solved().shared), NEAR * one.deviation())
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_step_solves_its_equations_but_where_a_bound_holds_it(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    root, right = random.normal(size=(6, 6)), random.normal(size=6)
+    matrix, free = root @ root.T + np.eye(6), random.random(6) < 0.8
+    step = _bounded_step(matrix, right, free, np.full(6, -0.1), np.full(6, 0.1))
+    inside = free & (np.abs(step) < 0.1)
+    assert np.all(np.abs(step) <= 0.1)
+    assert not np.any(step[~free])
+    np.testing.assert_allclose((matrix @ step)[inside], right[inside], atol=1e-12)

@@ -80,7 +80,7 @@ def test_a_swarm_stays_within_bounds_and_never_gets_worse(seed: int) -> None:
         tried.append(x.copy())
         return float(np.sum(x))  # least in a corner
 
-    settings = SwarmSettings()
+    settings = SwarmSettings(constriction=1.0)  # particles shoot beyond their leader
     place, lowest = particle_swarm(objective, LOWER, UPPER, np.random.default_rng(seed), settings)
     assert np.all((np.array(tried) >= LOWER) & (np.array(tried) <= UPPER))
     assert len(tried) <= settings.particles * (settings.iterations + 1)

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import solve_triangular
 
 from continuum.arrays import Array
 from continuum.identification.recording import Recording
@@ -19,6 +18,7 @@ from continuum.identification.recording import Recording
 _ANGLE_FLOOR = np.deg2rad(0.1)  # no joint angle from inertial sensors is better [rad]
 _RATE_FLOOR = np.deg2rad(0.1)  # [rad/s]
 _STRETCH = 16  # samples
+_LONGEST = 240  # samples in which the wander is looked for at once
 _QUIET = 0.15  # of the stretches are quiet in most recordings
 _QUIET_FACTOR = 0.484  # mean square of white noise in the stretch at that quantile, measured on white noise
 _WANDER_TRIED = np.concatenate([[0.0], np.geomspace(0.05, 30, 25)])  # sizes in units of the white noise
@@ -127,22 +127,40 @@ def _white_covariance(signals: Sequence[Array], floor: float) -> Array:
 def _wander(recordings: Sequence[Recording], white: Array, rate_white: Array, time: float) -> float:
     """Size of the angles' slow part in units of the white one: the likeliest, given the rates."""
     score = np.zeros((2, _WANDER_TRIED.size))  # angles that are integrals of these rates, and angles of their own
+    share = float(np.mean(np.diag(rate_white) / np.diag(white)))
     for recording in recordings:
-        t, rate = recording.times - recording.times[0], recording.theta_rate
-        if rate is None:
+        if recording.theta_rate is None:
             continue
-        dt = np.diff(t)
-        integral = np.concatenate(
-            [np.zeros((1, rate.shape[1])), np.cumsum((rate[1:] + rate[:-1]) / 2 * dt[:, None], 0)]
-        )
-        away = np.stack([np.ones(t.size), t], axis=1)  # an angle's start and a rate's bias are no wander
-        basis = np.linalg.qr(np.column_stack([away, np.eye(t.size)[:, : t.size - 2]]))[0][:, 2:]
-        gap = (basis.T @ (recording.theta - integral)) / np.sqrt(np.diag(white))
-        walk = float(np.mean(np.diag(rate_white) / np.diag(white)) * np.mean(dt)) * np.minimum(t[:, None], t[None, :])
-        slow = basis.T @ np.exp(-np.abs(t[:, None] - t[None, :]) / time) @ basis
-        for own, rest in enumerate((np.eye(basis.shape[1]), np.eye(basis.shape[1]) + basis.T @ walk @ basis)):
-            for k, size in enumerate(_WANDER_TRIED):
-                factor = np.linalg.cholesky(rest + size**2 * slow)
-                score[own, k] -= gap.shape[1] * np.log(np.diag(factor)).sum()
-                score[own, k] -= (solve_triangular(factor, gap, lower=True) ** 2).sum() / 2
+        for first in range(0, recording.times.size - _LONGEST // 2, _LONGEST):
+            rows = slice(first, first + _LONGEST)
+            gap = recording.theta[rows] - _integral(recording.times[rows], recording.theta_rate[rows])
+            score += _wander_score(recording.times[rows], gap / np.sqrt(np.diag(white)), share, time)
     return float(_WANDER_TRIED[np.argmax(score.max(axis=0))])
+
+
+def _integral(times: Array, rate: Array) -> Array:
+    """Of the rates from the first sample on, (n_times, n_joints) [rad]."""
+    steps = (rate[1:] + rate[:-1]) / 2 * np.diff(times)[:, None]
+    return np.concatenate([np.zeros((1, rate.shape[1])), np.cumsum(steps, axis=0)])
+
+
+def _wander_score(times: Array, gap: Array, share: float, time: float) -> Array:
+    """Log-likelihood of each size that is tried, (2, n_sizes), if the gap holds no walk of the rates, and if it does.
+
+    In coordinates in which both white and slow part are independent, each size costs next to nothing.
+    """
+    t = times - times[0]
+    away = np.stack([np.ones(t.size), t], axis=1)  # an angle's start and a rate's bias are no wander
+    basis = np.linalg.qr(np.column_stack([away, np.eye(t.size)[:, : t.size - 2]]))[0][:, 2:]
+    gap = basis.T @ gap
+    slow = basis.T @ np.exp(-np.abs(t[:, None] - t[None, :]) / time) @ basis
+    walk = share * float(np.mean(np.diff(t))) * (basis.T @ np.minimum(t[:, None], t[None, :]) @ basis)
+    scores = []
+    for rest in (np.eye(slow.shape[0]), np.eye(slow.shape[0]) + walk):
+        factor = np.linalg.cholesky(rest)
+        sizes, vectors = np.linalg.eigh(np.linalg.solve(factor, np.linalg.solve(factor, slow).T))
+        energy = ((vectors.T @ np.linalg.solve(factor, gap)) ** 2).sum(axis=1)
+        spread = 1 + _WANDER_TRIED[:, None] ** 2 * np.maximum(sizes, 0.0)
+        fixed = gap.shape[1] * np.log(np.diag(factor)).sum()
+        scores.append(-(gap.shape[1] * np.log(spread) + energy / spread).sum(axis=1) / 2 - fixed)
+    return np.array(scores)
