@@ -86,4 +86,6 @@ def _tested(
 
 
 def _correlation(x: Array, ranks: Array) -> float:
+    if np.ptp(x) == 0:  # nothing told of this joint
+        return 0.0
     return float(np.corrcoef(rankdata(x), ranks)[0, 1])
