@@ -27,7 +27,7 @@ from continuum.identification.fit import fit
 from continuum.identification.free import Free
 
 _TYPICAL = 0.01  # N m
-_TOLD = 0.005  # N m, largest standard deviation
+_TOLD = 0.02  # N m, largest standard deviation
 _ITERATIONS = 1
 
 

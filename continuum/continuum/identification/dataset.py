@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -67,8 +67,8 @@ def halves(recordings: Sequence[Recording]) -> Split:
         run = recordings[0]
         cut = int(_PART_FOR_FIT * run.times.size)
         return Split(
-            (run.rows(slice(0, cut)),),
-            (run.rows(slice(cut, None)),),
+            (replace(run.rows(slice(0, cut)), name=f"{run.name}, beginning"),),
+            (replace(run.rows(slice(cut, None)), name=f"{run.name}, end"),),
             "one recording only: its end tests its beginning, so nothing shows that the answer holds for another run",
         )
     order = sorted(range(len(recordings)), key=lambda i: _kind(recordings[i]))
