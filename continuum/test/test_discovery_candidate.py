@@ -14,7 +14,8 @@ from continuum.discovery.candidate import Addition, acts_at_joints, beginning, e
 from continuum.discovery.joints import acting_joints
 from continuum.dynamics.reading import Reading
 from continuum.errors import InvalidValueError
-from continuum.identification.free import FreeSpace
+from continuum.identification.baseline import baseline_unknowns
+from continuum.identification.free import Free, FreeSpace
 
 N = 5
 MODEL = prototype_model(N)
@@ -67,10 +68,8 @@ def test_unknowns_are_those_of_its_parameters(effect: str, joints: tuple[int, ..
 @pytest.mark.parametrize("effect", EFFECTS)
 def test_a_fit_begins_at_a_size_only_where_no_slope_shows_the_way(effect: str) -> None:
     """What may have either sign begins absent; the baseline begins at its values."""
-    from continuum.identification.baseline import baseline_unknowns
-
     model, added = extended(MODEL, (Addition(effect),)), unknowns_of(Addition(effect), N, 2)
-    space = FreeSpace(model, [*baseline_unknowns(model), *added])
+    space = FreeSpace(model, [Free("capstan_friction"), *baseline_unknowns(model), *added])
     start = beginning(space, len(added))
     assert not np.any(start[: -len(added)])
     for at, unknown in zip(start[-len(added) :], added, strict=True):
@@ -97,7 +96,7 @@ def loss(precision: np.ndarray, found: np.ndarray, free: list[int]) -> float:
 def test_joints_that_act_are_named(where: tuple[int, ...]) -> None:
     random = np.random.default_rng(len(where))
     found = 0.02 * random.normal(size=N)
-    found[list(where)] = 1.0
+    found[list(where)] = 1 + 0.05 * np.arange(len(where))
     assert acting_joints(quadratic("rest_angle", found, 400 * np.eye(N)), "rest_angle") == where
 
 

@@ -49,8 +49,7 @@ def test_a_run_is_predicted_as_by_a_fit_without_it(left_out: int) -> None:
     predicted, own = held_out_misfits(whole)[left_out], whole.misfits[left_out]
     assert predicted.size == refitted.size
     assert refitted.sum() > own.sum()  # what was fitted looks better than it is
-    assert predicted.sum() == pytest.approx(refitted.sum(), rel=0.05)
-    assert predicted.sum() > own.sum()
+    assert predicted.sum() - own.sum() == pytest.approx(refitted.sum() - own.sum(), rel=0.25, abs=0.15)
 
 
 def test_what_a_run_has_for_itself_is_paid_for() -> None:

@@ -140,6 +140,7 @@ def test_the_start_does_not_decide() -> None:
     one = problem(2)
     far = replace(one.unknowns(), shared=np.full(SHARED, 20.0), own=[np.full(OWN, -9.0) for _ in one.begin])
     found = arrow_least_squares(one.evaluate, far, 50)
+    np.testing.assert_allclose(np.concatenate(list(found.own)), np.concatenate(list(one.solved().own)), atol=0.05)
     np.testing.assert_array_less(np.abs(found.shared - one.solved().shared), NEAR * one.deviation())
 
 

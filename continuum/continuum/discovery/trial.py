@@ -19,7 +19,7 @@ from continuum.identification.free import Free, FreeSpace
 TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # over a window errors stay below a hundredth of a degree
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Trial:
     """How well one extension does.
 
@@ -78,10 +78,10 @@ def fit_extension(question: Question, extension: Extension, near: Trial | None =
 
 
 def judged(extension: Extension, fitted: Fit) -> Trial:
-    """The trial of an extension that was fitted."""
-    held_out = held_out_misfits(fitted)
+    """The trial of an extension that was fitted; one that could not be simulated explains no window."""
+    held_out = held_out_misfits(fitted) if fitted.parts else [np.full(len(run.rows), np.inf) for run in fitted.runs]
     own = fitted.unknowns.own_spread.size
-    sizes = iter([max(part.errors.size - own, 1) for part in fitted.parts])
+    sizes = np.maximum(np.concatenate([run.errors_by_window for run in fitted.runs]) - own, 1.0)
     return Trial(
         extension,
         fitted.status,
@@ -91,6 +91,6 @@ def judged(extension: Extension, fitted: Fit) -> Trial:
         tuple(fitted.unknowns.own),
         fitted.cost,
         tuple(held_out),
-        tuple(np.array([next(sizes) for _ in run], dtype=float) for run in held_out),
+        tuple(np.split(sizes, np.cumsum([group.size for group in held_out])[:-1])),
         fitted.simulations,
     )

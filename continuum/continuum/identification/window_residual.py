@@ -81,6 +81,13 @@ class WindowResidual:
         self._senses = any(type(a.effect).measure is not Effect.measure for a in self._model.effects)
 
     @property
+    def errors_by_window(self) -> Array:
+        """Number of measured values in each window, (n_windows,)."""
+        channels = 1 if self._whiten[0].rate_in_time is None else 2
+        rows = np.array([rows.stop - rows.start for rows in self.rows], dtype=float)
+        return np.asarray(rows * channels * self._model.n_joints)
+
+    @property
     def start(self) -> list[Array]:
         """Coordinates of the windows' own unknowns before any fit: as measured."""
         return [np.zeros(self._unit.size) for _ in self.rows]
