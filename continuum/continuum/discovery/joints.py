@@ -12,7 +12,7 @@ _ENOUGH = 8.0  # or all but this much log-likelihood
 
 
 def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
-    """Joints that are named, from 0, in the order of what they gain; all where no few of them do.
+    """Joints that are named, from 0, in their order along the arm; all where no few of them do.
 
     Near the fit the cost is a parabola in the effect's own unknowns, the others following; what is lost by holding
     some of them at zero is read off it.

@@ -1,13 +1,5 @@
 """Model files: YAML with every parameter's value, unit and source, and the effects that extend Eq. 12.
 
-<<<<<<< HEAD
-n_joints: 5
-parameters:
-  stiffness: {value: 1.2379, unit: N m/rad, source: thesis Table 3}
-effects:
-  tip_payload:
-    mass: {value: 0.05, unit: kg, source: diagnosis of run_3.csv}
-=======
 ::
 
     n_joints: 5
@@ -16,7 +8,6 @@ effects:
     effects:
       tip_payload:
         mass: {value: 0.05, unit: kg, source: diagnosis of run_3.csv}
->>>>>>> e304c8f34f074253a6a4dd30c7c454b89ac271b4
 """
 
 from __future__ import annotations

@@ -3,9 +3,8 @@
 Levenberg and Marquardt's method. Eliminating each window's own unknowns (Schur complement) leaves a system in the
 shared ones, so that the cost grows with the number of windows only linearly. Every unknown has a prior, which keeps
 the system regular where the data say nothing; the shared ones have bounds. Few windows in which nothing fits, where
-something knocked
-or stuck, shall not decide: beyond what noise explains, a window's misfit counts by its logarithm (Student's
-distribution).
+something knocked or stuck, shall not decide: beyond what noise explains, a window's misfit counts by its logarithm
+(Student's distribution).
 """
 
 from __future__ import annotations

@@ -2,9 +2,8 @@
 
 An arm that sticks and slips forgets nothing: a parameter wrong by a hundredth soon makes one joint stick that should
 slip, and from there on a free run tells as little about the parameter as chance. Over a tenth of a second the same
-model is
-nearly linear in its parameters, and still every torque shows: links are light, sensors see what they do in a few
-samples.
+model is nearly linear in its parameters, and still every torque shows: links are light, sensors see what they do in a
+few samples.
 """
 
 from __future__ import annotations
@@ -49,8 +48,7 @@ class Whitener:
 
     Attributes:
         angle_in_time, rate_in_time: inverse Cholesky factors of the covariance in time, (n_times, n_times); no rates
-        where
-            none were measured.
+            where none were measured.
         angle_joints, rate_joints: the same over the joints, (n_joints, n_joints).
     """
 
