@@ -172,3 +172,13 @@ def test_no_file_is_too_long(package: str) -> None:
         if (lines := len(path.read_text(encoding="utf-8").splitlines())) > LONGEST_FILE
     }
     assert wrong == {}
+
+
+def test_no_merge_left_its_marks() -> None:
+    """In documents and docstrings nothing else would fail on them."""
+    mark = re.compile(r"^(<{7}|>{7}) ", re.MULTILINE)
+    folders = [ROOT / folder for folder in (*PACKAGES, "docs", "test", "tools", ".ci")]
+    kinds = (*CODE, "*.md", "*.toml", "*.sh")
+    files = [path for folder in folders for kind in kinds for path in folder.rglob(kind)]
+    files += [path for kind in kinds for path in ROOT.glob(kind)] + [ROOT / "Makefile"]
+    assert [str(path) for path in files if mark.search(path.read_text(encoding="utf-8", errors="replace"))] == []

@@ -63,7 +63,7 @@ def page(result: Result) -> str:
     best, largest, verdict = result.best, result.sizes[-1], "Reached" if result.is_reached else "Missed"
     return f"""# Numerics: how Eq. 12 is integrated
 
-Made by `make bench-dynamics`, which writes every figure here. Times are processor times on one core, the shortest of
+Made by `make bench-dynamics`, which writes every table here. Times are processor times on one core, the shortest of
 several runs, of the integration alone with all code compiled and loaded: read them as ratios within the page. A
 program waits longer: for the elapsed time on a machine with other work, and before its first run for loading
 (`continuum simulate` tells the two apart).
