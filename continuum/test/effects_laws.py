@@ -93,7 +93,8 @@ def resting_state(model: Model, theta: np.ndarray, u: np.ndarray) -> np.ndarray:
 def torque_of(name: str, now: Instant, state: np.ndarray | None = None, **values: float) -> np.ndarray:
     """Torque that the effect adds, (n,)."""
     one = active(effect_of(name), now.p.n_joints, **values)
-    return one.effect.torque(now, one.values, np.zeros(0) if state is None else state) * np.ones(now.p.n_joints)
+    state = np.zeros(0) if state is None else state
+    return one.effect.torque(now, one.values, state, np.zeros(state.size)) * np.ones(now.p.n_joints)
 
 
 def instants(seed: int, count: int = 30, u: np.ndarray = LOOSE) -> list[Instant]:

@@ -35,6 +35,7 @@ class Effect:
         experiment: what to measure so that it stands out from what resembles it, one sentence.
         state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
             units; 0 where it is certain.
+        looks_back: how much of the motion before a reading `measure` asks for [s].
     """
 
     name: ClassVar[str]
@@ -44,6 +45,7 @@ class Effect:
     looks_like: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
     state_spread: ClassVar[float] = 0.0
+    looks_back: ClassVar[float] = 0.0
 
     def n_states(self, n_joints: int) -> int:
         """Number of states that the effect adds."""
@@ -61,7 +63,7 @@ class Effect:
         """Tensions of the cables at the base, (n_cables,) [N], of those commanded."""
         return u
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         """Added to the left side of Eq. 12, (n,) or (1,) [N m]: a torque that resists."""
         return np.zeros(1)
 

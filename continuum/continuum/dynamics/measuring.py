@@ -7,9 +7,16 @@ from continuum.dynamics.reading import Reading
 from continuum.dynamics.trajectory import Trajectory
 
 
-def readings(model: Model, trajectory: Trajectory) -> Reading:
-    """Angles and rates after all effects on measuring, one after the other; without any, those of the motion."""
-    seen = Reading(trajectory.times, trajectory.theta, trajectory.theta_rate)
+def readings(model: Model, trajectory: Trajectory, begun: float | None = None) -> Reading:
+    """Angles and rates after all effects on measuring, one after the other; without any, those of the motion.
+
+    Args:
+        model: whose effects may change what is read.
+        trajectory: the motion, or a part of one.
+        begun: when the motion began [s]; with the trajectory without.
+    """
+    start = float(trajectory.times[0]) if begun is None else begun
+    seen = Reading(trajectory.times, trajectory.theta, trajectory.theta_rate, start)
     for active in model.effects:
         seen = active.effect.measure(seen, active.values)
     return seen

@@ -15,8 +15,10 @@ class Reading:
         times: (n_times,) [s].
         theta: joint angles, (n_times, n_joints) [rad].
         theta_rate: joint rates, (n_times, n_joints) [rad/s].
+        begun: when the recording began of which this may be a part [s].
     """
 
     times: Array
     theta: Array
     theta_rate: Array
+    begun: float

@@ -28,5 +28,5 @@ class GyroDrift(Effect):
     experiment = "Record the arm at rest for half a minute before and after each release."
 
     def measure(self, seen: Reading, own: Own) -> Reading:
-        passed = (seen.times - seen.times[0])[:, None]
+        passed = (seen.times - seen.begun)[:, None]
         return replace(seen, theta=seen.theta + own["bias"] * passed, theta_rate=seen.theta_rate + own["bias"])

@@ -1,7 +1,8 @@
 """All sensors show what was a little while ago: theta(t - delay), and its rate.
 
 Between samples the motion is the cubic of angles and rates at both (Hermite); its slope is the rate. Before the first
-sample it goes on straight. Filters and radio links take 5 to 30 ms; at 3 rad/s 10 ms are 1.7 degrees.
+sample it goes on straight; parts of a recording are simulated from 50 ms before their first sample. Filters and radio
+links take 5 to 30 ms; at 3 rad/s 10 ms are 1.7 degrees.
 """
 
 from __future__ import annotations
@@ -32,10 +33,11 @@ class SensorDelay(Effect):
     experiment = (
         "Film the release with a lamp that the recording switches on, or tap the arm and compare with a contact."
     )
+    looks_back = 0.05
 
     def measure(self, seen: Reading, own: Own) -> Reading:
         times = np.append(seen.times[0] - 2 * _LONGEST, seen.times)  # straight on backwards
         theta = np.concatenate([seen.theta[:1] - 2 * _LONGEST * seen.theta_rate[:1], seen.theta])
         motion = CubicHermiteSpline(times, theta, np.concatenate([seen.theta_rate[:1], seen.theta_rate]))
         then = seen.times - own["delay"]
-        return Reading(seen.times, motion(then), motion(then, 1))
+        return replace(seen, theta=motion(then), theta_rate=motion(then, 1))

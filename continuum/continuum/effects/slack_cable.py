@@ -1,14 +1,15 @@
-"""A cable held at the base with slack: it goes taut when the arm has taken the slack up.
+"""A cable that is not pulled hangs loose, and pulls only when its motor has wound up what hangs: u exp(-g / 1 mm).
 
-  T = k y (1 + lambda L')(1 - g),      y = L - slack where positive,      g = u^2 / (u^2 + (0.1 N)^2),
+g is the way that is still to be wound up, between 0 and slack, L the cable's way through the arm. It grows and
+shrinks with the arm and the motor, and stops within 1 mm of both ends:
 
-L being how much longer the cable's way is than through the straight arm: some a theta per joint on the outer side. The
-loss, Hunt and Crossley's with lambda = 4 s/m (a restitution of 0.7 at 0.1 m/s), acts against lengthening only. y is
-rounded within 0.5 mm, the onset of the loss within 5 mm/s. g: a cable that a motor pulls is wound up and has no slack;
-held is what is told nothing. T runs through the discs as any other tension does.
+  g' = r,      r = -L' - speed (2 d - 1),      d = u^2 / (u^2 + (0.1 N)^2): 1 where the motor is told to pull,
+  times tanh((slack - g) / 1 mm) where r > 0, tanh(g / 1 mm) where r < 0.
 
-Bending by 1 rad in all draws 32 mm of cable at a = 32 mm. 300 N/m, a soft line, stretched by 10 mm pull with 3 N, which
-is 0.1 N m at every joint.
+Without slack g stays 0 and the cable pulls as it is told.
+
+Lines that leave a pulley or sag between motor and base hang loose by some millimetres; geared motors wind up 0.1 to
+1 m/s, so that 10 mm take 10 to 100 ms.
 """
 
 from __future__ import annotations
@@ -18,46 +19,42 @@ from typing import ClassVar
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.parameters import Parameter
-from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation
-from continuum.dynamics.planar.eq16_link_wrenches import link_wrenches
-from continuum.dynamics.planar.eq17_serial_jacobian import serial_jacobian_transposed_times
+from continuum.dynamics.expressions import Numbers, positive_part
+from continuum.dynamics.parameters import Parameter, Parameters
+from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.cables import driven, lengthening, lengthening_rate
-from continuum.effects.parts.rounded import rounded_part
+from continuum.effects.parts.cables import driven, lengthening_rate
 
-_CORNER = 5e-4  # m
-_ONSET = 5e-3  # m/s
-_LOSS = 4.0  # s/m
+_TAUT = 1e-3  # m: so near to an end the cable is nearly there
 
 
 class SlackCable(Effect):
-    """Cables that stop the arm when it bends far."""
+    """Slack between motors and arm."""
 
     name = "slack_cable"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "stiffness": Parameter("k", "N/m", 0.0, 1e5, False, "stiffness of a held cable", 0.0, 300.0),
-        "slack_1": Parameter("s_1", "m", -0.05, 0.5, False, "slack of cable 1 with the arm straight", 0.02, 0.02),
-        "slack_2": Parameter("s_2", "m", -0.05, 0.5, False, "slack of cable 2 with the arm straight", 0.02, 0.02),
+        "slack": Parameter("s", "m", 0.0, 0.2, False, "by which a cable that is not pulled hangs loose", 0.0, 0.01),
+        "speed": Parameter("v", "m/s", 0.02, 5.0, False, "at which a motor winds up what hangs loose", 0.3, 0.2),
     }
-    source = "Hunt and Crossley, ASME J. Applied Mechanics 42, 1975, 440-445"
-    in_words = "A cable that should hang loose goes taut when the arm bends far."
-    looks_like = "Beyond a certain bend to one side the arm is held back and thrown back, all joints at once."
-    experiment = "Take the cables off, or give them more slack, and release again."
+    source = "Agrawal, Peine and Yao, IEEE Trans. Robotics 26, 2010, 914-924 (slack of cables in conduits)"
+    in_words = "The cables hang loose when they are not pulled, and pull only after the motor has wound that up."
+    looks_like = "When a cable begins to pull nothing happens for a moment; cables that stay taut do as the model says."
+    experiment = "Keep some newtons on both cables all the time and repeat the motion: slack then plays no part."
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
-        """-J_s^T W B T, (n,) [N m]: not by way of the commanded tensions, whose corner at 0 is where k begins."""
-        move, p = now.motion, now.p
-        local = tension_propagation(move.theta, move.theta_rate, p) * held_tension(now, own)
-        return -serial_jacobian_transposed_times(link_wrenches(local, move.theta, p), move.link_angle, p)
+    def n_states(self, n_joints: int) -> int:
+        """g of each cable [m]."""
+        return len(SIDES)
 
+    def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
+        return u * np.exp(-state / _TAUT)
 
-def held_tension(now: Instant, own: Own) -> Numbers:
-    """T of each cable, (n_cables,) [N]."""
-    rate = lengthening_rate(now.motion, now.p)
-    slack = np.concatenate([own["slack_1"], own["slack_2"]])
-    stretch = rounded_part(lengthening(now.motion, now.p) - slack, _CORNER)
-    lengthening_only = rate * (1 + np.tanh(rate / _ONSET)) / 2
-    return own["stiffness"] * stretch * (1 + _LOSS * lengthening_only) * (1 - driven(now.u))
+    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+        rate = -lengthening_rate(now.motion, now.p) - own["speed"] * (2 * driven(now.u) - 1)
+        loosening, tightening = positive_part(rate), positive_part(-rate)
+        return state_rate - loosening * np.tanh((own["slack"] - state) / _TAUT) + tightening * np.tanh(state / _TAUT)
+
+    def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
+        """Wound up where the motor pulls."""
+        return np.asarray(np.where(2 * driven(u) > 1, 0.0, own["slack"]))

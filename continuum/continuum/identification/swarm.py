@@ -116,4 +116,4 @@ def _run_objective(simulator: Simulator, recording: Recording, values: Array) ->
     run = simulator.run(start, recording.times, recording.pull, values)
     if run.status is not SimulationStatus.COMPLETE:
         return float("inf")
-    return rate_nrmse(Reading(run.times, run.theta, run.theta_rate), recording)
+    return rate_nrmse(Reading(run.times, run.theta, run.theta_rate, float(run.times[0])), recording)

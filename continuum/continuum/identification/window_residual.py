@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.measuring import readings
+from continuum.dynamics.model import Model
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
-from continuum.dynamics.values import with_vector
+from continuum.dynamics.values import parameter_slots, with_vector
 from continuum.identification.arrow_least_squares import Part
 from continuum.identification.free import FreeSpace
 from continuum.identification.noise import Noise
@@ -45,8 +47,9 @@ class WindowAt:
 class WindowResidual:
     """The residual of one recording as a function of the shared unknowns and of each window's own.
 
-    A window's own unknowns are the joints' angles and rates where it begins, (2 n,). States of effects run on from
-    window to window, with their slopes; their own beginning is that of an arm at rest.
+    A window's own unknowns are the joints' angles and rates where it begins, (2 n,); that is before its first sample
+    if sensors show what was. States of effects run on from window to window, with their slopes; their own beginning is
+    that of an arm at rest.
 
     Args:
         simulator: of the model.
@@ -76,9 +79,10 @@ class WindowResidual:
         n = self._model.n_joints
         self._unit = np.concatenate([np.full(n, _ANGLE_UNIT), np.full(n, _RATE_UNIT)])
         self.spread = np.concatenate([np.full(n, _ANGLE_SPREAD), np.full(n, _RATE_SPREAD)])
-        self._measured = [first_state(recording, rows.start) for rows in self.rows]
+        self._begin = [_row_before(recording, rows.start, self._model) for rows in self.rows]
+        self._measured = [first_state(recording, begin) for begin in self._begin]
         self._whiten = [whitener(noise, recording, rows) for rows in self.rows]
-        self._senses = any(type(a.effect).measure is not Effect.measure for a in self._model.effects)
+        self._of_sensors = _parameters_of_sensors(self._model)
 
     @property
     def errors_by_window(self) -> Array:
@@ -103,12 +107,12 @@ class WindowResidual:
         run = self._run(window, p, own, extra, free, slope0)
         if run is None or not np.all(np.isfinite(run.slopes)):
             return None
-        rows = self.rows[window]
-        run, end, end_slope = _shortened(run, rows.stop - rows.start)
-        seen = readings(with_vector(self._model, p), run)
-        jacobian = self._whiten[window](*self._reading_slopes(p, run, seen, free))
-        part = Part(self._errors(window, seen), jacobian[:, :k], jacobian[:, k:])
-        return WindowAt(own, part, Memory(end[own.size :], end_slope[own.size :, :k]))
+        handed = self._handed_on(window)
+        memory = Memory(run.states[handed, own.size :], run.slopes[handed, own.size :, :k])
+        seen = self._readings(p, run)
+        mine = self._samples(window)
+        jacobian = self._whiten[window](*(slope[mine] for slope in self._reading_slopes(p, run, seen, free)))
+        return WindowAt(own, Part(self._errors(window, seen), jacobian[:, :k], jacobian[:, k:]), memory)
 
     def still(self, window: int, slow: float) -> Array:
         """Coordinates of a first state in which joints slower than ``slow`` [rad/s] rest, (2 n,)."""
@@ -121,14 +125,14 @@ class WindowResidual:
         p = self.space.origin + self._directions @ shared
         extra = self.first_memory(shared, own[0]).states
         seen = []
-        for window, rows in enumerate(self.rows):
+        for window in range(len(self.rows)):
             run = self._run(window, p, own[window], extra)
             if run is None:
                 return None
-            run, end, _ = _shortened(run, rows.stop - rows.start)
-            extra = end[self._unit.size :]
-            seen.append(readings(with_vector(self._model, p), run))
-        return Reading(*(np.concatenate([getattr(s, name) for s in seen]) for name in ("times", "theta", "theta_rate")))
+            extra = run.states[self._handed_on(window), self._unit.size :]
+            seen.append(_cut(self._readings(p, run), self._samples(window)))
+        whole = (np.concatenate([getattr(s, name) for s in seen]) for name in ("times", "theta", "theta_rate"))
+        return Reading(*whole, seen[0].begun)
 
     def _run(
         self,
@@ -139,12 +143,12 @@ class WindowResidual:
         free: Array | None = None,
         slope0: Array | None = None,
     ) -> Trajectory | None:
-        """One window and the first sample after it, where the states of effects are handed on."""
+        """One window and the first sample after it, where the states of effects may be handed on."""
         self.windows_simulated += 1
         rows, times = self.rows[window], self.recording.times
         x0 = np.concatenate([self._measured[window] + self._unit * own, extra])
         to = min(rows.stop + 1, times.size)
-        run = self._simulator.run(x0, times[rows.start : to], self.recording.pull, p, free, slope0)
+        run = self._simulator.run(x0, times[self._begin[window] : to], self.recording.pull, p, free, slope0)
         return run if run.status is SimulationStatus.COMPLETE else None
 
     def first_memory(self, shared: Array, own: Array) -> Memory:
@@ -168,21 +172,34 @@ class WindowResidual:
         """Change of angles and rates as sensors read them by one unit of each unknown, (n_times, n, columns) each."""
         n = run.n_joints
         angle, rate = run.slopes[:, :n].copy(), run.slopes[:, n : 2 * n].copy()
-        if not self._senses:
+        if not self._of_sensors.size:
             return angle, rate
-        model = with_vector(self._model, p)
         for column in range(free.shape[1]):
             # measuring is affine in the motion, so that one whole slope may be added to it
-            moved = readings(model, _moved(run, run.slopes[:, :, column]))
+            moved = self._readings(p, _moved(run, run.slopes[:, :, column]))
             nudged = seen
-            if np.any(free[:, column]):
-                nudged = readings(with_vector(self._model, p + _NUDGE * free[:, column]), run)
+            if np.any(free[self._of_sensors, column]):
+                nudged = self._readings(p + _NUDGE * free[:, column], run)
             angle[:, :, column] = moved.theta - seen.theta + (nudged.theta - seen.theta) / _NUDGE
             rate[:, :, column] = moved.theta_rate - seen.theta_rate + (nudged.theta_rate - seen.theta_rate) / _NUDGE
         return angle, rate
 
+    def _samples(self, window: int) -> slice:
+        """The window's own samples among those simulated."""
+        rows, begin = self.rows[window], self._begin[window]
+        return slice(rows.start - begin, rows.stop - begin)
+
+    def _handed_on(self, window: int) -> int:
+        """Where among the simulated samples the next window begins; at the last one there is none."""
+        following = window + 1
+        return self._begin[following] - self._begin[window] if following < len(self.rows) else -1
+
+    def _readings(self, p: Array, run: Trajectory) -> Reading:
+        return readings(with_vector(self._model, p), run, float(self.recording.times[0]))
+
     def _errors(self, window: int, seen: Reading) -> Array:
         rows, rate = self.rows[window], self.recording.theta_rate
+        seen = _cut(seen, self._samples(window))
         measured = seen.theta_rate if rate is None else rate[rows]
         return self._whiten[window](seen.theta - self.recording.theta[rows], seen.theta_rate - measured)
 
@@ -198,12 +215,21 @@ def first_state(recording: Recording, row: int) -> Array:
     return np.concatenate([recording.theta[row], rate])
 
 
-def _shortened(run: Trajectory, rows: int) -> tuple[Trajectory, Array, Array]:
-    """The run without the sample after its window; state and slopes at that sample."""
-    cut = Trajectory(
-        run.status, run.times[:rows], run.states[:rows], run.n_joints, run.steps, run.refused, run.slopes[:rows]
-    )
-    return cut, run.states[-1], run.slopes[-1]
+def _parameters_of_sensors(model: Model) -> NDArray[np.intp]:
+    """Places of the parameters on which it depends what sensors make of a motion."""
+    senses = [a.effect.name for a in model.effects if type(a.effect).measure is not Effect.measure]
+    slots = [slot for name, slot in parameter_slots(model).items() if name.partition(".")[0] in senses]
+    return np.array([at for slot in slots for at in range(slot.start, slot.stop)], dtype=np.intp)
+
+
+def _row_before(recording: Recording, row: int, model: Model) -> int:
+    """Where a window is begun whose first sample is ``row``: earlier by what its sensors look back."""
+    back = max((active.effect.looks_back for active in model.effects), default=0.0)
+    return int(np.searchsorted(recording.times, recording.times[row] - back + 1e-9)) if back else row
+
+
+def _cut(seen: Reading, rows: slice) -> Reading:
+    return replace(seen, times=seen.times[rows], theta=seen.theta[rows], theta_rate=seen.theta_rate[rows])
 
 
 def _moved(run: Trajectory, by: Array) -> Trajectory:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -134,17 +136,19 @@ def _side_by_side(points: Array, more: Array) -> Array:
 
 
 def _unit_vectors(directions: Array) -> Array:
-    """``directions`` (n, 3), each divided by its length; a unit vector stays what it is to the last digit."""
-    largest = np.abs(directions).max(axis=1, initial=0.0)
-    if not largest.all():
-        raise InvalidValueError(
-            "direction", directions[np.argmin(largest)].tolist(), "three finite numbers, not all zero"
-        )
-    extreme = (largest < 1e-100) | (largest > 1e100)  # where squares leave the range of floats
-    directions = np.where(extreme[:, None], directions / largest[:, None], directions)
-    lengths: Array = np.hypot(np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2])
-    lengths[np.abs(lengths - 1.0) < _ROUNDING] = 1.0
-    return directions / lengths[:, None]
+    """``directions`` (n, 3), each divided by its length."""
+    return np.array([_unit_vector(*direction) for direction in directions.tolist()]).reshape(-1, 3)
+
+
+def _unit_vector(x: float, y: float, z: float) -> tuple[float, float, float]:
+    """The vector divided by its length; a unit vector stays what it is to the last digit."""
+    largest = max(abs(x), abs(y), abs(z))
+    if largest == 0.0:
+        raise InvalidValueError("direction", [x, y, z], "three finite numbers, not all zero")
+    if not 1e-100 < largest < 1e100:  # where squares leave the range of floats
+        x, y, z = x / largest, y / largest, z / largest
+    length = math.hypot(x, y, z)
+    return (x, y, z) if abs(length - 1.0) < _ROUNDING else (x / length, y / length, z / length)
 
 
 def _orthonormal(rotations: Array) -> Array:

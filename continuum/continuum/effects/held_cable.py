@@ -1,0 +1,63 @@
+"""A cable held at the base with slack: it goes taut when the arm has taken the slack up.
+
+  T = k y (1 + lambda L')(1 - g),      y = L - slack where positive,      g = u^2 / (u^2 + (0.1 N)^2),
+
+L being how much longer the cable's way is than through the straight arm: some a theta per joint on the outer side. The
+loss, Hunt and Crossley's with lambda = 4 s/m (a restitution of 0.7 at 0.1 m/s), acts against lengthening only. y is
+rounded within 0.5 mm, the onset of the loss within 5 mm/s. g: a cable that a motor pulls is wound up and has no slack;
+held is what is told nothing. T runs through the discs as any other tension does.
+
+Bending by 1 rad in all draws 32 mm of cable at a = 32 mm. 300 N/m, a soft line, stretched by 10 mm pull with 3 N, which
+is 0.1 N m at every joint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation
+from continuum.dynamics.planar.eq16_link_wrenches import link_wrenches
+from continuum.dynamics.planar.eq17_serial_jacobian import serial_jacobian_transposed_times
+from continuum.dynamics.planar.instant import Instant
+from continuum.effects.parts.cables import driven, lengthening, lengthening_rate
+from continuum.effects.parts.rounded import rounded_part
+
+_CORNER = 5e-4  # m
+_ONSET = 5e-3  # m/s
+_LOSS = 4.0  # s/m
+
+
+class HeldCable(Effect):
+    """Cables that stop the arm when it bends far."""
+
+    name = "held_cable"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "stiffness": Parameter("k", "N/m", 0.0, 1e5, False, "stiffness of a held cable", 0.0, 300.0),
+        "slack_1": Parameter("s_1", "m", -0.05, 0.5, False, "slack of cable 1 with the arm straight", 0.02, 0.02),
+        "slack_2": Parameter("s_2", "m", -0.05, 0.5, False, "slack of cable 2 with the arm straight", 0.02, 0.02),
+    }
+    source = "Hunt and Crossley, ASME J. Applied Mechanics 42, 1975, 440-445"
+    in_words = "A cable that should hang loose goes taut when the arm bends far."
+    looks_like = "Beyond a certain bend to one side the arm is held back and thrown back, all joints at once."
+    experiment = "Take the cables off, or give them more slack, and release again."
+
+    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+        """-J_s^T W B T, (n,) [N m]: not by way of the commanded tensions, whose corner at 0 is where k begins."""
+        move, p = now.motion, now.p
+        local = tension_propagation(move.theta, move.theta_rate, p) * held_tension(now, own)
+        return -serial_jacobian_transposed_times(link_wrenches(local, move.theta, p), move.link_angle, p)
+
+
+def held_tension(now: Instant, own: Own) -> Numbers:
+    """T of each cable, (n_cables,) [N]."""
+    rate = lengthening_rate(now.motion, now.p)
+    slack = np.concatenate([own["slack_1"], own["slack_2"]])
+    stretch = rounded_part(lengthening(now.motion, now.p) - slack, _CORNER)
+    lengthening_only = rate * (1 + np.tanh(rate / _ONSET)) / 2
+    return own["stiffness"] * stretch * (1 + _LOSS * lengthening_only) * (1 - driven(now.u))
