@@ -11,7 +11,6 @@ from continuum.discovery.trial import Trial
 
 _UNEXPLAINED = 2.0  # misfit of a window beside that of noise
 _ADEQUATE = 0.04  # share of windows that may stay so: sticking joints now and then hold one
-_CAP = 6.0  # beyond, a window counts no more: it says that it is unexplained, not by how much
 _STRETCH = 4  # windows, over which errors may hang together
 
 
@@ -50,17 +49,9 @@ def is_adequate(trial: Trial) -> bool:
 
 def gain(trial: Trial, over: Trial) -> Gain:
     """Of one trial over another, both of the same data."""
-    each = [(_capped(b, size) - _capped(a, size)) / 2 for a, b, size in _runs(trial, over)]
+    each = [(b - a) / 2 for a, b in zip(trial.held_out, over.held_out, strict=True)]
     stretches = np.concatenate([_stretched(run) for run in each])
     return Gain(float(stretches.sum()), float(np.std(stretches) * np.sqrt(stretches.size)))
-
-
-def _runs(trial: Trial, over: Trial) -> list[tuple[Array, Array, Array]]:
-    return list(zip(trial.held_out, over.held_out, trial.sizes, strict=True))
-
-
-def _capped(misfit: Array, size: Array) -> Array:
-    return np.minimum(misfit, _CAP * size)
 
 
 def _stretched(run: Array) -> Array:

@@ -2,9 +2,9 @@
 
 Levenberg and Marquardt's method. Eliminating each window's own unknowns (Schur complement) leaves a system in the
 shared ones, so that the cost grows with the number of windows only linearly. Every unknown has a prior, which keeps
-the system regular where the data say nothing; the shared ones have bounds. Few windows in which nothing fits, where
-something knocked or stuck, shall not decide: beyond what noise explains, a window's misfit counts by its logarithm
-(Student's distribution).
+the system regular where the data say nothing; the shared ones have bounds. Few windows in which nothing fits, where a
+joint was about to slip and did not, shall not decide: beyond what noise explains a window's misfit counts less and
+less, and never more than some times its number of errors (Geman and McClure 1985).
 """
 
 from __future__ import annotations
@@ -22,7 +22,11 @@ _ENOUGH = 0.5  # of log-likelihood: a smaller expected gain is not worth a step
 _ENOUGH_OF_COST = 5e-4
 _LEAST_DAMPING, _MOST_DAMPING = 1e-6, 1e4
 _SEEKINGS = 2  # of windows anew
-_HEAVY_TAIL = 4.0  # misfit per error up to which noise is nearly normal
+_NEAR = 0.03  # of the cost: expected to gain less, the search seeks bad windows anew for the first time
+_TAIL = 3.0  # the most that a window's misfit counts beyond that of noise, per error
+MOST_MISFIT = 1.0 + _TAIL
+"""Of a window in which nothing fits, per error."""
+_STALLED, _LOOKED_BACK = 1e-2, 6  # share of the cost that so many iterations must gain
 
 
 class FitStatus(Enum):
@@ -97,15 +101,18 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int)
         return Solution(FitStatus.NO_SIMULATION, shared, unknowns.own, [], np.inf, 1)
     (parts, own), damping, evaluations, seekings = begun, 1e-3, 1, 0
     cost = _cost(unknowns, parts, shared, own)
+    costs = [cost]
     for _ in range(iterations):
         step, own_steps, gain = _damped_step(unknowns, parts, shared, own, damping)
         enough = max(_ENOUGH, _ENOUGH_OF_COST * cost)
-        settled = gain < enough or damping > _MOST_DAMPING
+        near = seekings == 0 and gain < _NEAR * cost
+        settled = near or gain < enough or damping > _MOST_DAMPING or _has_stalled(costs)
         if not settled:
             there = np.clip(shared + step, unknowns.lower, unknowns.upper)
             tried = evaluate(there, [mine + change for mine, change in zip(own, own_steps, strict=True)], False)
             evaluations += 1
             new = np.inf if tried is None else _cost(unknowns, tried[0], there, tried[1])
+            costs.append(min(new, cost))
             if tried is None or new >= cost:
                 damping *= 10
                 continue
@@ -121,19 +128,29 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int)
                 return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
             parts, own = sought
             cost = _cost(unknowns, parts, shared, own)
+            costs = [cost]
     return Solution(FitStatus.NO_CONVERGENCE, shared, own, parts, cost, evaluations)
+
+
+def _has_stalled(costs: Sequence[float]) -> bool:
+    return len(costs) > _LOOKED_BACK and costs[-1 - _LOOKED_BACK] - costs[-1] < _STALLED * costs[-1]
 
 
 def misfit_of(part: Part) -> float:
     """Twice the negative log-likelihood of a window, but for a constant: its squared errors while those are noise."""
     m, s = part.errors.size, float(part.errors @ part.errors)
-    return m * (_HEAVY_TAIL + 1) * float(np.log1p(s / (_HEAVY_TAIL * m)))
+    beyond = _beyond(part)
+    return min(s, m) + m * beyond * _TAIL / (beyond + _TAIL)
 
 
 def weight_of(part: Part) -> float:
     """Weight of a window's squared errors, the slope of `misfit_of`: 1 where they are those of noise, less beyond."""
-    m, s = part.errors.size, float(part.errors @ part.errors)
-    return (_HEAVY_TAIL + 1) / (_HEAVY_TAIL + s / m)
+    return (_TAIL / (_beyond(part) + _TAIL)) ** 2
+
+
+def _beyond(part: Part) -> float:
+    """Mean squared error beyond that of noise."""
+    return max(float(part.errors @ part.errors) / part.errors.size - 1.0, 0.0)
 
 
 def shared_information(unknowns: Unknowns, parts: Sequence[Part]) -> Array:

@@ -18,7 +18,7 @@ from continuum.identification.window_residual import Memory, WindowAt, WindowRes
 _BAD = 1.5  # misfit per error beyond which other beginnings are tried
 _SLOW = (0.1, 1.0)  # rad/s; slower joints may be stuck
 _ENOUGH = 0.5  # of log-likelihood
-_FEW_STEPS, _MANY_STEPS = 3, 8
+_STEPS = 8
 
 
 def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bool) -> list[WindowAt] | None:
@@ -36,7 +36,7 @@ def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bo
         at = run.window(window, shared, mine, memory)
         if at is None:
             return None
-        at = _descent(run, window, shared, at, memory, _FEW_STEPS)
+        at = _descent(run, window, shared, at, memory)
         if anew and misfit_of(at.part) > _BAD * at.part.errors.size:
             at = min((at, *_others(run, window, shared, at, memory)), key=lambda one: _cost(run, one))
         memory = at.memory
@@ -48,12 +48,12 @@ def _others(run: WindowResidual, window: int, shared: Array, at: WindowAt, memor
     """Where descents from other beginnings end."""
     starts = [at.own, np.zeros(at.own.size), *(run.still(window, slow) for slow in _SLOW)]
     begun = [run.window(window, shared, start, memory) for start in starts]
-    return [_descent(run, window, shared, one, memory, _MANY_STEPS) for one in begun if one is not None]
+    return [_descent(run, window, shared, one, memory) for one in begun if one is not None]
 
 
-def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory, steps: int) -> WindowAt:
+def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory) -> WindowAt:
     damping = 1e-3
-    for _ in range(steps):
+    for _ in range(_STEPS):
         slopes = at.part.by_own
         square = slopes.T @ slopes + np.diag(run.spread**-2.0)
         pull = slopes.T @ at.part.errors + at.own / run.spread**2

@@ -17,7 +17,7 @@ from continuum.arrays import Array
 from continuum.identification.noise import Channel, Noise
 from continuum.identification.recording import Recording
 
-WITH_RATES, WITHOUT_RATES = 0.067, 0.134  # usual length of a window, by what was measured [s]
+WITH_RATES, WITHOUT_RATES = 0.1, 0.15  # usual length of a window, by what was measured [s]
 
 
 def window_rows(recording: Recording, length: float | None) -> list[slice]:
