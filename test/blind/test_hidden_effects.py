@@ -41,7 +41,7 @@ def test_the_answer_fits_what_is_hidden(
     """A library's effect is named, or in an ambiguous set; one outside of it is `unknown`; none is `adequate`."""
     case = make_case(effects, "medium", regimes, seed, seconds=SECONDS)
     verdict = diagnosed(write_case(case, tmp_path / "data"), DEADLINE)
-    given = answer(case.truth.plain()["effects"], verdict)  # type: ignore[arg-type]
+    given = answer(case.truth.plain()["effects"], verdict)
     told = f"{given.value}: hidden {shown(case.truth)}, verdict {verdict['verdict']} {named(verdict)}"
     assert given not in (Answer.WRONG_CAUSE, Answer.WRONG_JOINT), told  # never, known misses included
     good = (Answer.RIGHT, Answer.SET) if case.truth.in_a_library else (Answer.RIGHT,)

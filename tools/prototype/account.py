@@ -24,7 +24,7 @@ from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.values import with_vector
 from continuum.identification.dataset import Dataset
-from continuum.identification.fit import THESIS_PARAMETERS, fit
+from continuum.identification.fit import THESIS_PARAMETERS, Fit, fit
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.free_run import free_run
 from continuum.identification.noise import Noise, estimate_noise
@@ -192,16 +192,18 @@ def every_effect_alone(diagnosis: Diagnosis, recording: Recording, tell: Tell) -
     found = []
     for number, name in enumerate(names):
         tell(f"alone: {name}", number / len(names))
-        trial = judged((Addition(name),), fit_extension(question, (Addition(name),), before))
-        found.append(_alone(name, trial, before, diagnosis, recording))
+        fitted = fit_extension(question, (Addition(name),), before)
+        found.append(_alone(name, fitted, before, recording, question.noise))
     return sorted(found, key=lambda one: -one.gain)
 
 
-def _alone(name: str, trial: Trial, before: Trial, diagnosis: Diagnosis, recording: Recording) -> Alone:
-    won = gain(trial, before)
-    fitted = fit_extension(diagnosis.question, trial.extension, trial, 1)
+def _alone(name: str, fitted: Fit, before: Trial, recording: Recording, noise: Noise) -> Alone:
+    unknowns = len(fitted.space.unknowns) - len(before.unknowns)
+    if not fitted.parts:
+        return Alone(name, unknowns, -np.inf, np.inf, False, 1.0, np.inf)
+    trial = judged((Addition(name),), fitted)
     own = tuple(dict.fromkeys(Free(u.name, u.joint) for u in trial.unknowns if u.recording is not None))
-    seen = free_run(Simulator(fitted.model), recording, diagnosis.question.noise, own) if fitted.parts else None
+    seen = free_run(Simulator(fitted.model), recording, noise, own)
     position = np.inf if seen is None else position_nrmse(seen, recording)
-    unknowns = len(trial.unknowns) - len(before.unknowns)
+    won = gain(trial, before)
     return Alone(name, unknowns, won.log_likelihood, won.deviation, won.is_significant, unexplained(trial), position)
