@@ -22,6 +22,7 @@ from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.trajectory import SimulationStatus
 from continuum.dynamics.values import with_vector
 from continuum.identification.dataset import Dataset
 from continuum.identification.fit import THESIS_PARAMETERS, Fit, fit
@@ -121,6 +122,7 @@ def account(tell: Tell, processes: int | None = None, seed: int = 0) -> Account:
         author.theta,
     )
     thesis = [
+        at_rest(model, measured, "its parameters, at rest in the first measured angles"),
         free(model, measured, noise, "its parameters, begun as the first window asks"),
         whole(model, measured, noise, "its parameters, begun as the whole run asks", ()),
     ]
@@ -152,6 +154,14 @@ def account(tell: Tell, processes: int | None = None, seed: int = 0) -> Account:
         verdict_in_words(found.verdict),
         every_effect_alone(diagnosis, measured, tell),
     )
+
+
+def at_rest(model: Model, recording: Recording, name: str) -> Simulated:
+    """A free run as the thesis began its own."""
+    run = Simulator(model).run(recording.theta[0], recording.times, recording.pull)
+    complete = run.status is SimulationStatus.COMPLETE
+    seen = Reading(run.times, run.theta, run.theta_rate, float(run.times[0])) if complete else None
+    return compared(seen, recording, name)
 
 
 def free(model: Model, recording: Recording, noise: Noise, name: str, own: tuple[Free, ...] = ()) -> Simulated:

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from continuum.dynamics.effect_lookup import effect_named
+from continuum.identification.dataset import halves
+from continuum.identification.recording import Recording
 from tools.markdown import paragraph
 from tools.prototype.account import Account, Alone, Simulated
 from tools.reproduction.release import TABLE_4_POSITION, TABLE_4_VELOCITY
@@ -23,8 +25,8 @@ def page(told: Account) -> str:
     return f"""# The prototype: what the diagnosis says of the real arm
 
 Made by `make prototype`, which writes every figure here, from `data/rep7/rep7_measured.csv`: one release of the LAMECC
-prototype, {run.times.size} samples of {run.n_joints} joint angles in {run.times[-1] - run.times[0]:.1f} s, read off
-the author's animation. `continuum diagnose data/rep7/rep7_measured.csv` gives the same verdict.
+prototype, {run.times.size} samples of {run.n_joints} joint angles in {run.times[-1] - run.times[0]:.1f} s, read off the
+author's animation. `continuum diagnose data/rep7/rep7_measured.csv` gives the same verdict.
 
 ## The verdict
 
@@ -50,6 +52,8 @@ All of these were fitted to the run that they are compared with. Predicted by th
 
 {_gained(verdict)}
 
+{_spread(run)}
+
 ![Joint angles of repetition 7](pictures/prototype.png)
 
 ## Every effect alone
@@ -70,13 +74,12 @@ The thesis suspected that its masses and moments of inertia were wrong (`{THE_GU
 
 ## Reservations
 
-- It is one repetition. Its end tests its beginning; nothing shows that the answer holds for another run, and whatever
-  belongs to this run alone (a sensor's offset, a slack cable) looks like the arm's own.
-- The angles were read off an animation, where neither rates nor tensions are shown. What the reading errs by is in
+- It is one repetition: whatever belongs to this run alone (a sensor's offset, a slack cable) looks like the arm's own.
+{_told_little(verdict)}- The angles were read off an animation, where neither rates nor tensions are shown. What the reading errs by is in
   `data/rep7/README.md`; it is little beside what is unexplained. Smoothing by the author, if any, is unknown.
 - The arm already moves in the first sample, so its first state is fitted, not known.
 - The library holds what somebody thought of. What it lacks may look like what it has.
-{_told_little(verdict)}
+
 ## That nothing was tuned to this run
 
 The thresholds of the verdict were set by arms that `test/blind/plant` simulates, the usual sizes of effects come from
@@ -108,17 +111,18 @@ def _verdict(told: Account) -> str:
 
 
 def _refitting(told: Account, best: Simulated) -> str:
-    started = told.thesis[0].position
+    started = min(one.position for one in told.thesis)
+    each = ", ".join(f"{one.position:.2f}" for one in told.thesis)
     begun = (
         f"By Eq. 19's rule the author's own simulation is {told.published.position:.2f} from the measurement in "
-        f"position; our solution with his parameters {started:.2f}, {told.thesis[-1].position:.2f} if the first state "
-        "may suit the whole run."
+        f"position, our solutions with his parameters {each}, in the order of the table: what is left hangs on how the "
+        "run is begun, since the arm already moves in the first sample."
     )
     if best.position >= started:
         return paragraph(begun, f"Refitting his five parameters does not lower it: {best.position:.2f} at best.")
     return paragraph(
         begun,
-        f"Refitting his five parameters alone brings it to {best.position:.2f} at best:",
+        f"Refitting his five parameters alone brings the least of these to {best.position:.2f}:",
         f"{_percent(1 - best.position / started)} less, and {best.position / told.floor:.0f} times what noise alone",
         "would leave.",
     )
@@ -134,6 +138,19 @@ def _gained(verdict: Mapping[str, Any]) -> str:
         f"The extended model ({_and(_name(cause) for cause in verdict['causes'])}) {change} the distance to the noise",
         f"floor there, and lowers what noise does not explain from {_percent(before)} of the windows to",
         f"{_percent(after)}.",
+    )
+
+
+def _spread(run: Recording) -> str:
+    """Eq. 19 divides by the standard deviation, which is not the same in both parts."""
+    split = halves([run])
+    beginning, end = (
+        np.degrees(np.std(part[0].theta, axis=0).mean()) for part in (split.identification, split.validation)
+    )
+    return paragraph(
+        f"The measured angles have a standard deviation of {beginning:.2f} degrees in the beginning and of {end:.2f} in",
+        "the end (mean over the joints), by which Eq. 19 divides: the same error in degrees counts",
+        f"{beginning / end:.1f} times as much in the end." if beginning > end else "no more in the end.",
     )
 
 

@@ -18,7 +18,7 @@ def draw(told: Account, path: Path) -> None:
     panels = figure.subplots(1, told.recording.n_joints, sharex=True)
     lines = [
         ("measured", told.recording.theta, _MEASURED, 3.0),
-        ("the thesis's parameters", told.thesis[0].theta, _THESIS, 1.2),
+        ("the thesis's parameters", min(told.thesis, key=lambda one: one.position).theta, _THESIS, 1.2),
         ("refitted", min(told.refitted, key=lambda one: one.position).theta, _REFITTED, 1.2),
         ("extended", told.extended.theta if told.extended else None, _EXTENDED, 1.2),
     ]

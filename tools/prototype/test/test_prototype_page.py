@@ -96,9 +96,10 @@ def test_figures_are_those_of_the_account() -> None:
     assert "| its parameters | 0.840 | 0.650 |" in text
     assert "| rep7, end | 0.770 | cannot be simulated | 0.770 | cannot be simulated |" in text
     assert "closes 40 % of the distance" in flat(text)
-    assert "brings it to 0.52 at best: 38 % less, and 26 times" in flat(text)
+    assert "brings the least of these to 0.52: 34 % less, and 26 times" in flat(text)
     assert "There is no extended model" in PAGES["adequate"]
     assert "is 10 % farther than before by" in flat(page(account(verdict("cause", CABLE, closed=-0.1))))
+    assert "his parameters 0.84, 0.79, in the order of the table" in flat(text)
     worse = replace(account(VERDICTS["adequate"]), refitted=[Simulated("refitted", 0.9, 0.9)])
     assert "does not lower it: 0.90 at best" in flat(page(worse))
 
