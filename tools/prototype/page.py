@@ -75,8 +75,9 @@ The thesis suspected that its masses and moments of inertia were wrong (`{THE_GU
 ## Reservations
 
 - It is one repetition: whatever belongs to this run alone (a sensor's offset, a slack cable) looks like the arm's own.
-{_told_little(verdict)}- The angles were read off an animation, where neither rates nor tensions are shown. What the reading errs by is in
-  `data/rep7/README.md`; it is little beside what is unexplained. Smoothing by the author, if any, is unknown.
+{_told_little(verdict)}- The angles were read off an animation, without rates and tensions. What
+  the reading errs by is in `data/rep7/README.md`; it is little beside what is unexplained. Smoothing by the author, if
+  any, is unknown.
 - The arm already moves in the first sample, so its first state is fitted, not known.
 - The library holds what somebody thought of. What it lacks may look like what it has.
 
@@ -144,14 +145,16 @@ def _gained(verdict: Mapping[str, Any]) -> str:
 def _spread(run: Recording) -> str:
     """Eq. 19 divides by the standard deviation, which is not the same in both parts."""
     split = halves([run])
-    beginning, end = (
-        np.degrees(np.std(part[0].theta, axis=0).mean()) for part in (split.identification, split.validation)
-    )
+    beginning, end = (_deviation(part) for part in (split.identification, split.validation))
     return paragraph(
-        f"The measured angles have a standard deviation of {beginning:.2f} degrees in the beginning and of {end:.2f} in",
-        "the end (mean over the joints), by which Eq. 19 divides: the same error in degrees counts",
+        f"The measured angles have a standard deviation of {beginning:.2f} degrees in the beginning and",
+        f"{end:.2f} in the end (mean over the joints). Eq. 19 divides by it: the same error in degrees counts",
         f"{beginning / end:.1f} times as much in the end." if beginning > end else "no more in the end.",
     )
+
+
+def _deviation(part: Sequence[Recording]) -> float:
+    return float(np.degrees(np.std(part[0].theta, axis=0).mean()))
 
 
 def _guess(told: Account) -> str:
