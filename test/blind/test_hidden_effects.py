@@ -1,5 +1,9 @@
 """An effect hidden in the data is found, and never one that is not there: from files that tell nothing else."""
 
+import os
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +14,8 @@ from blind.plant.regimes import kinds
 from tools.bench_discovery.answer import Answer, answer
 from tools.bench_discovery.campaign import diagnosed
 
-DEADLINE = 900.0  # s, on a machine that does other things too
-SEED = 40  # of the first effect; every one has an arm of its own
+DEADLINE = 900.0  # s, of one diagnosis, on a machine that does other things too
+SEED = 40  # of the first case; every one has an arm of its own
 DRIVEN = ("multisine", "hold_and_release", "steps")
 SECONDS = 2.0  # of a driven recording
 
@@ -19,14 +23,17 @@ KNOWN_MISSES: dict[str, str] = {}
 """What is not found, by effect, or "clean, DATASET", and why; a wrong cause fails all the same."""
 
 
-def cases() -> list[Any]:
-    """Every effect once, at medium size in a small dataset that can show it; and two arms without any."""
-    hidden = [(name, seed, (name,), small_dataset(name)) for seed, name in enumerate(EFFECTS, SEED)]
-    hidden += [
-        (f"clean, {dataset}", seed, (), regimes)
-        for seed, (dataset, regimes) in enumerate({"releases": DATASETS["releases"], "driven": DRIVEN}.items(), 80)
-    ]
-    return [pytest.param(name, effects, seed, regimes, id=name) for name, seed, effects, regimes in hidden]
+@dataclass(frozen=True)
+class Hidden:
+    """One case: effects at medium size in a small dataset, given by the regimes of its recordings."""
+
+    effects: tuple[str, ...]
+    regimes: tuple[str, ...]
+    seed: int
+
+    def diagnose(self, folder: Path) -> tuple[Truth, dict[str, Any]]:
+        case = make_case(self.effects, "medium", self.regimes, self.seed, seconds=SECONDS)
+        return case.truth, diagnosed(write_case(case, folder), DEADLINE)
 
 
 def small_dataset(effect: str) -> tuple[str, ...]:
@@ -34,26 +41,42 @@ def small_dataset(effect: str) -> tuple[str, ...]:
     return DATASETS["releases"] if EFFECTS[effect].seen_in & kinds("releases") else DRIVEN
 
 
-@pytest.mark.parametrize(("name", "effects", "seed", "regimes"), cases())
-def test_the_answer_fits_what_is_hidden(
-    name: str, effects: tuple[str, ...], seed: int, regimes: tuple[str, ...], tmp_path: Path
-) -> None:
+# every effect once, and two arms without any
+CASES = {name: Hidden((name,), small_dataset(name), seed) for seed, name in enumerate(EFFECTS, SEED)} | {
+    "clean, releases": Hidden((), DATASETS["releases"], SEED + len(EFFECTS)),
+    "clean, driven": Hidden((), DRIVEN, SEED + len(EFFECTS) + 1),
+}
+
+type Verdicts = dict[str, Future[tuple[Truth, dict[str, Any]]]]
+
+
+@pytest.fixture(scope="module")
+def verdicts(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Verdicts]:
+    """Of the cases that are asked for, one at a time for each core."""
+    chosen = [item.callspec.params["name"] for item in request.session.items if hasattr(item, "callspec")
+              and item.path == request.path]  # fmt: skip
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        folders = {name: tmp_path_factory.mktemp("case") / "data" for name in chosen}
+        yield {name: pool.submit(CASES[name].diagnose, folder) for name, folder in folders.items()}
+        pool.shutdown(cancel_futures=True)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_answer_fits_what_is_hidden(name: str, verdicts: Verdicts) -> None:
     """A library's effect is named, or in an ambiguous set; one outside of it is `unknown`; none is `adequate`."""
-    case = make_case(effects, "medium", regimes, seed, seconds=SECONDS)
-    verdict = diagnosed(write_case(case, tmp_path / "data"), DEADLINE)
-    given = answer(case.truth.plain()["effects"], verdict)
-    told = f"{given.value}: hidden {shown(case.truth)}, verdict {verdict['verdict']} {named(verdict)}"
+    truth, verdict = verdicts[name].result()
+    given = answer(truth.plain()["effects"], verdict)
+    told = f"{given.value}: hidden {shown(truth)}, verdict {verdict['verdict']} {named(verdict)}"
     assert given not in (Answer.WRONG_CAUSE, Answer.WRONG_JOINT), told  # never, known misses included
-    good = (Answer.RIGHT, Answer.SET) if case.truth.in_a_library else (Answer.RIGHT,)
+    good = (Answer.RIGHT, Answer.SET) if truth.in_a_library else (Answer.RIGHT,)
     if given not in good and name in KNOWN_MISSES:
         pytest.xfail(f"{KNOWN_MISSES[name]}; {told}")
     assert given in good, told
 
 
 def test_every_effect_is_hidden_once() -> None:
-    hidden = [name for case in cases() for name in case.values[1]]
-    assert sorted(hidden) == sorted((*LIBRARY, *OUTSIDE))
-    assert {*KNOWN_MISSES} <= {case.id for case in cases()}
+    assert sorted(name for case in CASES.values() for name in case.effects) == sorted((*LIBRARY, *OUTSIDE))
+    assert {*KNOWN_MISSES} <= {*CASES}
 
 
 def shown(truth: Truth) -> str:

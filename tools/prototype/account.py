@@ -138,10 +138,9 @@ def account(tell: Tell, processes: int | None = None, seed: int = 0) -> Account:
     ]
     extended = None
     if found.verdict.extension:
-        own = tuple(
-            dict.fromkeys(Free(u.name, u.joint) for u in found.verdict.best.unknowns if u.recording is not None)
+        extended = free(
+            found.model, measured, noise, "extended, begun as the first window asks", _own(found.verdict.best)
         )
-        extended = free(found.model, measured, noise, "extended, begun as the first window asks", own)
     return Account(
         measured,
         np.degrees(noise.angle.white),
@@ -212,8 +211,12 @@ def _alone(name: str, fitted: Fit, before: Trial, recording: Recording, noise: N
     if not fitted.parts:
         return Alone(name, unknowns, -np.inf, np.inf, False, 1.0, np.inf)
     trial = judged((Addition(name),), fitted)
-    own = tuple(dict.fromkeys(Free(u.name, u.joint) for u in trial.unknowns if u.recording is not None))
-    seen = free_run(Simulator(fitted.model), recording, noise, own)
+    seen = free_run(Simulator(fitted.model), recording, noise, _own(trial))
     position = np.inf if seen is None else position_nrmse(seen, recording)
     won = gain(trial, before)
     return Alone(name, unknowns, won.log_likelihood, won.deviation, won.is_significant, unexplained(trial), position)
+
+
+def _own(trial: Trial) -> tuple[Free, ...]:
+    """Unknowns that the run has for itself."""
+    return tuple(dict.fromkeys(Free(u.name, u.joint) for u in trial.unknowns if u.recording is not None))
