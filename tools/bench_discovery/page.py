@@ -35,7 +35,8 @@ RULES = paragraph(
     "Rates have Wilson intervals of 95 %. *Too few*: fewer than 20 cases (of one effect 5) that do not show by",
     "themselves",
     'that the goal is missed. "Right" is the verdict `cause` with the hidden effect alone, at its joint; an ambiguous',
-    "verdict that names it beside others is counted apart, never as right.",
+    "verdict that names it beside others is counted apart, never as right. Held-out runs are",
+    "runs of the same dataset; motions of another kind than those of the dataset are not predicted.",
 )
 
 
@@ -112,7 +113,7 @@ def _name_and_size(result: Result) -> str:
 
 
 def _tally_table(what: str, groups: Mapping[str, Tally]) -> str:
-    head = (what, "n", *(one.value for one in Answer), "right", "right or in a set")
+    head = (what, "n", *(one.value for one in Answer), "rate of right", "right or in a set")
     rows = (
         (name, group.n, *(n or "" for n in counts(group)), group.right, group.right_or_set)
         for name, group in groups.items()
