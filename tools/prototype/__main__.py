@@ -1,0 +1,34 @@
+"""`make prototype`: diagnose the real arm by the one run of it that was published; docs/prototype.md and its picture.
+
+Overwrites these files, which are under version control, unless `--out` names another folder.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from continuum.cli.progress import told
+from tools.prototype.account import account
+from tools.prototype.page import page
+from tools.prototype.picture import draw
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument(
+        "--out", type=Path, default=Path("docs"), help="folder of page and picture; default %(default)s"
+    )
+    parser.add_argument("--processes", type=int, help="that work at once; default one for each core")
+    parser.add_argument("--seed", type=int, default=0, help="of intervals and swarm; default %(default)s")
+    options = parser.parse_args()
+    with told() as tell:
+        found = account(tell, options.processes, options.seed)
+    (options.out / "pictures").mkdir(parents=True, exist_ok=True)
+    draw(found, options.out / "pictures" / "prototype.png")
+    (options.out / "prototype.md").write_text(page(found), encoding="utf-8")
+    print(f"{found.verdict['verdict'].upper()}\n\n{found.words}\n\nwritten: {options.out / 'prototype.md'}")
+
+
+if __name__ == "__main__":
+    main()

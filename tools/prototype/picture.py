@@ -1,0 +1,34 @@
+"""The picture of the page: joint angles measured and simulated."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from tools.prototype.account import Account
+
+_MEASURED, _THESIS, _REFITTED, _EXTENDED = "0.55", "tab:orange", "tab:green", "tab:blue"
+
+
+def draw(told: Account, path: Path) -> None:
+    """One panel a joint."""
+    figure = Figure(figsize=(11.0, 3.2), layout="constrained")
+    panels = figure.subplots(1, told.recording.n_joints, sharex=True)
+    lines = [
+        ("measured", told.recording.theta, _MEASURED, 3.0),
+        ("the thesis's parameters", min(told.thesis, key=lambda one: one.position).theta, _THESIS, 1.2),
+        ("refitted", min(told.refitted, key=lambda one: one.position).theta, _REFITTED, 1.2),
+        ("extended", told.extended.theta if told.extended else None, _EXTENDED, 1.2),
+    ]
+    for joint, panel in enumerate(panels):
+        for name, theta, color, width in lines:
+            if theta is not None:
+                panel.plot(told.recording.times, np.degrees(theta[:, joint]), color=color, linewidth=width, label=name)
+        panel.set_title(f"joint {joint + 1}", fontsize="medium")
+        panel.set_xlabel("t [s]")
+        panel.grid(alpha=0.3)
+    panels[0].set_ylabel("angle [deg]")
+    figure.legend(*panels[0].get_legend_handles_labels(), ncols=4, loc="outside upper center", fontsize="small")
+    figure.savefig(path, dpi=90)
