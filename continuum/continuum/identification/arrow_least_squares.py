@@ -106,8 +106,8 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int)
         step, own_steps, gain = _damped_step(unknowns, parts, shared, own, damping)
         enough = max(_ENOUGH, _ENOUGH_OF_COST * cost)
         near = seekings == 0 and gain < _NEAR * cost
-        settled = near or gain < enough or damping > _MOST_DAMPING or _has_stalled(costs)
-        if not settled:
+        settled = gain < enough or damping > _MOST_DAMPING or _has_stalled(costs)
+        if not settled and not near:
             there = np.clip(shared + step, unknowns.lower, unknowns.upper)
             tried = evaluate(there, [mine + change for mine, change in zip(own, own_steps, strict=True)], False)
             evaluations += 1
@@ -121,11 +121,13 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int)
             shared, (parts, own), cost = there, tried, new
         if settled and seekings == _SEEKINGS:
             return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
-        if settled:
+        if settled or near:
             sought = evaluate(shared, own, True)
             evaluations, seekings, damping = evaluations + 1, seekings + 1, 1e-3
             if sought is None or _cost(unknowns, sought[0], shared, sought[1]) > cost - enough:
-                return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
+                if settled:
+                    return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
+                continue
             parts, own = sought
             cost = _cost(unknowns, parts, shared, own)
             costs = [cost]
