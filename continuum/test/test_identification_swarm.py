@@ -56,7 +56,7 @@ def test_rates_that_were_not_measured_are_slopes_of_the_angles() -> None:
 def test_a_simulation_of_itself_has_no_error() -> None:
     run = recorded(small_simulator())
     assert run.theta_rate is not None
-    seen = Reading(run.times, run.theta, run.theta_rate)
+    seen = Reading(run.times, run.theta, run.theta_rate, 0.0)
     assert position_nrmse(seen, run) == rate_nrmse(seen, run) == 0.0
 
 
@@ -117,7 +117,7 @@ FREE = [Free("stiffness"), Free("viscous_friction")]
 
 def rate_error(simulator: Simulator, run: Recording, values: np.ndarray) -> float:
     motion = simulator.run(run.theta[0], run.times, run.pull, values)
-    return rate_nrmse(Reading(motion.times, motion.theta, motion.theta_rate), run)
+    return rate_nrmse(Reading(motion.times, motion.theta, motion.theta_rate, 0.0), run)
 
 
 def test_the_swarm_identifies_and_counts_its_simulations() -> None:

@@ -1,14 +1,15 @@
 """Play of a joint in series with its spring and friction: the ball that they hold moves the link only by its stops.
 
-The joint's angle theta is that of the ball, beta, and of the link in it, y = theta - beta, which is free within +- gap.
-The stops are stiff springs k_s = 100 N m/rad with a damping of 1 ms, their corners rounded within 0.001 rad; ball
-and ring are light, so their spring and friction (Eq. 13) balance the stops at any time:
+The joint's angle is that of the ball, theta - y, and of the link in it, y, the state, which is free within +- gap. The
+stops are springs k_s = 300 N m/rad + K with a damping of 1 N m s/rad, their corners rounded within 0.2 mrad, in a film
+of grease of 3e-3 N m s/rad; ball and ring are light, so that their spring and friction balance the stops at any time:
 
-  T = k_s (z(y) + 1 ms z'(y) y'),      z(y) = y - (r(y + gap) - r(y - gap)) / 2,      r(y) = sqrt(y^2 + width^2),
-  T = K_b (beta - theta_0) + F(beta'),      K_b = K k_s / (k_s - K).
+  T = k_s z + (1 N m s/rad z' + 3e-3 N m s/rad) dy/dt,     z(y) = y - (r(y + gap) - r(y - gap)) / 2,    z' = dz/dy,
+  T = K_b (theta - y - theta_0) + F(d(theta - y)/dt),      K_b = K k_s / (k_s - K),     r(y) = sqrt(y^2 + width^2).
 
 T takes the place of Eq. 12's spring and friction. K_b is such that without play spring and stops together are the
-model's K.
+model's K. In F (Eq. 13) the rate that the dry friction falls with is the link's: with the ball's own, a ball that comes
+loose would have two speeds to choose from.
 
 Bolts of 5 mm in holes of 5.2 mm, 10 mm apart, have 0.02 rad each way; within them a link swings free of friction.
 """
@@ -16,24 +17,24 @@ Bolts of 5 mm in holes of 5.2 mm, 10 mm apart, have 0.02 rad each way; within th
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.expressions import Numbers, smooth_sign
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.eq12_spring_torque import spring_torque
-from continuum.dynamics.planar.eq13_joint_friction import joint_friction
+from continuum.dynamics.planar.eq13_joint_friction import dry_friction, joint_friction
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.rounded import rounded_size
 
-_STOP = 100.0  # N m/rad: gives way by 0.02 degrees to the dry friction of 0.04 N m
-_DAMPING = 1e-3  # s
-_CORNER = 1e-3  # rad
-_MOST_STEPS, _SOLVED = 60, 1e-15
+_STOP = 300.0  # N m/rad, more than K
+_STOP_DAMPING = 1.0  # N m s/rad
+_GREASE = 3e-3  # N m s/rad
+_CORNER = 2e-4  # rad
+_NEWTON_STEPS = 12
 
 
 class Backlash(Effect):
@@ -50,39 +51,52 @@ class Backlash(Effect):
     state_spread = 0.02
 
     def n_states(self, n_joints: int) -> int:
-        """beta of each joint [rad]."""
+        """y of each joint [rad]."""
         return n_joints
 
     def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         """T in the place of spring and friction of Eq. 12, (n,) [N m]."""
         move, p = now.motion, now.p
         taken = spring_torque(move.theta, p) + joint_friction(move.theta_rate, p)
-        return _stops(move.theta - state, move.theta_rate - state_rate, own) - taken
+        return _stops(state, state_rate, own, p) - taken
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         move, p = now.motion, now.p
-        held = spring_torque(state, _of_ball(p)) + joint_friction(state_rate, p)
-        return held - _stops(move.theta - state, move.theta_rate - state_rate, own)
+        rate = move.theta_rate - state_rate
+        friction = p.viscous_friction * rate + dry_friction(move.theta_rate, p) * smooth_sign(rate, p.friction_slope)
+        return _spring(move.theta - state, p) + friction - _stops(state, state_rate, own, p)
 
     def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
-        """The ball pulled against its stop by its spring, friction aside."""
-        ball = _of_ball(p)
-        low, high = np.minimum(theta, p.rest_angle) - 1e-12, np.maximum(theta, p.rest_angle) + 1e-12
-        for _ in range(_MOST_STEPS):
-            middle = (low + high) / 2
-            beyond = spring_torque(middle, ball) > _stops(theta - middle, 0 * middle, own)
-            low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
-        return (low + high) / 2
+        """The ball pulled against its stop by its spring, friction aside; by Newton's method from beyond that stop."""
+        y = theta - p.rest_angle
+        for _ in range(_NEWTON_STEPS):
+            pushed = (_STOP + p.stiffness) * _passed(y, own) - _spring(theta - y, p)
+            y = y - pushed / ((_STOP + p.stiffness) * _touching(y, own) + _ball_stiffness(p))
+        return np.asarray(y)
 
 
-def _of_ball(p: Parameters) -> Parameters:
-    """The arm with K_b for K."""
-    return replace(p, stiffness=p.stiffness * _STOP / (_STOP - p.stiffness))
+def _spring(ball: Numbers, p: Parameters) -> Numbers:
+    """K_b (theta - y - theta_0), (n,) [N m]."""
+    return _ball_stiffness(p) * (ball - p.rest_angle)
 
 
-def _stops(y: Numbers, y_rate: Numbers, own: Own) -> Numbers:
+def _ball_stiffness(p: Parameters) -> Numbers:
+    """K_b, (n,) [N m/rad]."""
+    return p.stiffness * (1 + p.stiffness / _STOP)
+
+
+def _stops(y: Numbers, y_rate: Numbers, own: Own, p: Parameters) -> Numbers:
     """T, (n,) [N m]."""
+    damping = _STOP_DAMPING * _touching(y, own) + _GREASE
+    return (_STOP + p.stiffness) * _passed(y, own) + damping * y_rate
+
+
+def _passed(y: Numbers, own: Own) -> Numbers:
+    """z, (n,) [rad]: what of y is beyond the play."""
+    return y - (rounded_size(y + own["gap"], _CORNER) - rounded_size(y - own["gap"], _CORNER)) / 2
+
+
+def _touching(y: Numbers, own: Own) -> Numbers:
+    """z', (n,) [1]: 1 at the stops, 0 within the play."""
     after, before = y + own["gap"], y - own["gap"]
-    far, near = rounded_size(after, _CORNER), rounded_size(before, _CORNER)
-    touching = 1 - (after / far - before / near) / 2
-    return _STOP * (y - (far - near) / 2 + _DAMPING * touching * y_rate)
+    return 1 - (after / rounded_size(after, _CORNER) - before / rounded_size(before, _CORNER)) / 2
