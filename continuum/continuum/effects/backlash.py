@@ -1,15 +1,13 @@
 """Play of a joint in series with its spring and friction: the ball that they hold moves the link only by its stops.
 
-The joint's angle is that of the ball, theta - y, and of the link in it, y, the state, which is free within +- gap. The
-stops are springs k_s = 300 N m/rad + K with a damping of 1 N m s/rad, their corners rounded within 0.2 mrad, in a film
-of grease of 3e-3 N m s/rad; ball and ring are light, so that their spring and friction balance the stops at any time:
+The joint's angle is that of the ball, theta - y, and of the link in it, y, which is free within +- gap. The stops are
+springs k_s = 300 N m/rad + K with a damping of 1 N m s/rad, their corners rounded within 0.2 mrad; the ball with its
+ring has J_b = 1e-5 kg m2 of its own. T takes the place of Eq. 12's spring and friction F (Eq. 13):
 
-  T = k_s z + (1 N m s/rad z' + 3e-3 N m s/rad) dy/dt,     z(y) = y - (r(y + gap) - r(y - gap)) / 2,    z' = dz/dy,
-  T = K_b (theta - y - theta_0) + F(d(theta - y)/dt),      K_b = K k_s / (k_s - K),     r(y) = sqrt(y^2 + width^2).
+  T = k_s z + 1 N m s/rad z' dy/dt,     z(y) = y - (r(y + gap) - r(y - gap)) / 2,     z' = dz/dy,
+  J_b dw/dt = T - K_b (theta - y - theta_0) - F(w),     w = d(theta - y)/dt,     r(y) = sqrt(y^2 + width^2).
 
-T takes the place of Eq. 12's spring and friction. K_b is such that without play spring and stops together are the
-model's K. In F (Eq. 13) the rate that the dry friction falls with is the link's: with the ball's own, a ball that comes
-loose would have two speeds to choose from.
+K_b = K k_s / (k_s - K), so that without play spring and stops together are the model's K.
 
 Bolts of 5 mm in holes of 5.2 mm, 10 mm apart, have 0.02 rad each way; within them a link swings free of friction.
 """
@@ -23,17 +21,17 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.expressions import Numbers, smooth_sign
+from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.eq12_spring_torque import spring_torque
-from continuum.dynamics.planar.eq13_joint_friction import dry_friction, joint_friction
+from continuum.dynamics.planar.eq13_joint_friction import joint_friction
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.rounded import rounded_size
 
 _STOP = 300.0  # N m/rad, more than K
 _STOP_DAMPING = 1.0  # N m s/rad
-_GREASE = 3e-3  # N m s/rad
 _CORNER = 2e-4  # rad
+_BALL = 1e-5  # kg m2
 _NEWTON_STEPS = 12
 
 
@@ -51,20 +49,21 @@ class Backlash(Effect):
     state_spread = 0.02
 
     def n_states(self, n_joints: int) -> int:
-        """y of each joint [rad]."""
-        return n_joints
+        """y and dy/dt of each joint [rad, rad/s]."""
+        return 2 * n_joints
 
     def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         """T in the place of spring and friction of Eq. 12, (n,) [N m]."""
         move, p = now.motion, now.p
         taken = spring_torque(move.theta, p) + joint_friction(move.theta_rate, p)
-        return _stops(state, state_rate, own, p) - taken
+        return _stops(*_play(state, p), own, p) - taken
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         move, p = now.motion, now.p
-        rate = move.theta_rate - state_rate
-        friction = p.viscous_friction * rate + dry_friction(move.theta_rate, p) * smooth_sign(rate, p.friction_slope)
-        return _spring(move.theta - state, p) + friction - _stops(state, state_rate, own, p)
+        (y, moving), (y_rate, speeding) = _play(state, p), _play(state_rate, p)
+        held = _spring(move.theta - y, p) + joint_friction(move.theta_rate - moving, p)
+        ball = move.theta_acceleration - speeding + (held - _stops(y, moving, own, p)) / _BALL
+        return np.concatenate([y_rate - moving, ball])
 
     def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
         """The ball pulled against its stop by its spring, friction aside; by Newton's method from beyond that stop."""
@@ -72,7 +71,12 @@ class Backlash(Effect):
         for _ in range(_NEWTON_STEPS):
             pushed = (_STOP + p.stiffness) * _passed(y, own) - _spring(theta - y, p)
             y = y - pushed / ((_STOP + p.stiffness) * _touching(y, own) + _ball_stiffness(p))
-        return np.asarray(y)
+        return np.concatenate([y, np.zeros(p.n_joints)])
+
+
+def _play(state: Numbers, p: Parameters) -> tuple[Numbers, Numbers]:
+    """The two halves of all states, (n,) each."""
+    return state[: p.n_joints], state[p.n_joints :]
 
 
 def _spring(ball: Numbers, p: Parameters) -> Numbers:
@@ -87,8 +91,7 @@ def _ball_stiffness(p: Parameters) -> Numbers:
 
 def _stops(y: Numbers, y_rate: Numbers, own: Own, p: Parameters) -> Numbers:
     """T, (n,) [N m]."""
-    damping = _STOP_DAMPING * _touching(y, own) + _GREASE
-    return (_STOP + p.stiffness) * _passed(y, own) + damping * y_rate
+    return (_STOP + p.stiffness) * _passed(y, own) + _STOP_DAMPING * _touching(y, own) * y_rate
 
 
 def _passed(y: Numbers, own: Own) -> Numbers:

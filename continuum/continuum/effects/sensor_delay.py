@@ -8,6 +8,7 @@ links take 5 to 30 ms; at 3 rad/s 10 ms are 1.7 degrees.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
