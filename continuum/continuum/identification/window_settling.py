@@ -51,7 +51,9 @@ def _others(run: WindowResidual, window: int, shared: Array, at: WindowAt, memor
     return [_descent(run, window, shared, one, memory, _MANY_STEPS) for one in begun if one is not None]
 
 
-def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None, steps: int) -> WindowAt:
+def _descent(
+    run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None, steps: int
+) -> WindowAt:
     damping = 1e-3
     for _ in range(steps):
         slopes = at.part.by_own
