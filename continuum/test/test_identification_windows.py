@@ -47,7 +47,7 @@ EFFECTS = {
     "backlash": (Free("backlash.gap", 0),),
     "slack_cable": (Free("slack_cable.slack"), Free("slack_cable.speed")),
 }
-STEP = 0.004
+STEP = 0.002
 """Of the differences, in units of the coordinates."""
 
 
