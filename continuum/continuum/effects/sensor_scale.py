@@ -41,6 +41,6 @@ class SensorScale(Effect):
     def measure(self, seen: Reading, own: Own) -> Reading:
         def spoiled(joints: Array) -> Array:
             wrong = own["gain"] * np.cumsum(joints, axis=1)
-            return joints + np.diff(wrong, axis=1, prepend=0.0)
+            return np.asarray(joints + np.diff(wrong, axis=1, prepend=0.0))
 
         return replace(seen, theta=spoiled(seen.theta), theta_rate=spoiled(seen.theta_rate))

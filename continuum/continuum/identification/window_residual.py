@@ -135,8 +135,8 @@ class WindowResidual:
                 return None
             extra = run.states[self._handed_on(window), self._unit.size :]
             seen.append(_cut(self._readings(p, run), self._samples(window)))
-        whole = (np.concatenate([getattr(s, name) for s in seen]) for name in ("times", "theta", "theta_rate"))
-        return Reading(*whole, seen[0].begun)
+        times, theta, rate = (np.concatenate([getattr(s, k) for s in seen]) for k in ("times", "theta", "theta_rate"))
+        return Reading(times, theta, rate, seen[0].begun)
 
     def _run(
         self,
