@@ -49,6 +49,8 @@ def test_rates_that_were_not_measured_are_slopes_of_the_angles() -> None:
     cubic = np.stack([1 + 2 * t - t**2 + 3 * t**3, -t], axis=1)
     found = measured_rates(Recording("cubic", t, cubic))
     np.testing.assert_allclose(found, np.stack([2 - 2 * t + 9 * t**2, -np.ones(40)], axis=1), atol=1e-6)
+    of_few = measured_rates(Recording("five samples", t[:5], cubic[:5]))
+    np.testing.assert_allclose(of_few, found[:5], atol=1e-6)
     rates = np.zeros((40, 2))
     assert measured_rates(Recording("cubic", t, cubic, rates)) is rates
 

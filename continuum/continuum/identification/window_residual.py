@@ -18,6 +18,7 @@ from continuum.dynamics.trajectory import SimulationStatus, Trajectory
 from continuum.dynamics.values import parameter_slots, with_vector
 from continuum.identification.arrow_least_squares import Part
 from continuum.identification.free import FreeSpace
+from continuum.identification.local_slopes import local_slope
 from continuum.identification.noise import Noise
 from continuum.identification.recording import Recording
 from continuum.identification.windows import whitener, window_rows
@@ -211,10 +212,7 @@ def first_state(recording: Recording, row: int) -> Array:
     """Joint angles and rates measured at one sample, (2 n,) [rad, rad/s]; rates by a parabola where they were not."""
     if recording.theta_rate is not None:
         return np.concatenate([recording.theta[row], recording.theta_rate[row]])
-    first = max(0, min(row - 3, recording.times.size - 7)) if row else 0
-    rows = slice(first, first + 7)
-    t = recording.times[rows] - recording.times[row]
-    rate = np.polynomial.polynomial.polyfit(t, recording.theta[rows], min(2, t.size - 1))[1]
+    rate = local_slope(recording.times, recording.theta, row, degree=2)
     return np.concatenate([recording.theta[row], rate])
 
 
