@@ -30,7 +30,7 @@ def test_an_effect_is_absent_until_it_is_moved(effect: str) -> None:
     bare = accelerations(MODEL, np.concatenate([BENT, np.zeros(N)]), PULL)
     with_it = accelerations(model, resting_state(model, BENT, PULL), PULL)
     np.testing.assert_allclose(with_it[:N], bare, rtol=1e-6, atol=1e-6)
-    seen = Reading(np.arange(3) / 120, np.outer([1.0, 0.9, 0.7], BENT), np.outer([0.0, 1.0, 2.0], BENT))
+    seen = Reading(np.arange(3) / 120, np.outer([1.0, 0.9, 0.7], BENT), np.outer([0.0, 1.0, 2.0], BENT), 0.0)
     measured = model.effects[0].effect.measure(seen, model.effects[0].values)
     np.testing.assert_allclose(measured.theta, seen.theta, atol=1e-12)
     np.testing.assert_allclose(measured.theta_rate, seen.theta_rate, atol=1e-12)

@@ -10,6 +10,7 @@ from effects_laws import LOOSE, RELEASED, N, effect_of, extended, resting_state,
 
 from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.tensions import Tensions
+from continuum.dynamics.trajectory import SimulationStatus
 from continuum.effects.parts.cables import lengthening, lengthening_rate
 
 
@@ -23,7 +24,7 @@ def test_a_held_cable_is_the_slope_of_its_energy() -> None:
             return np.sum(200.0 * y**2 / 2)
 
         now = Instant(moving(theta, 0 * theta), LOOSE, p)
-        found = torque_of("slack_cable", now, stiffness=200.0, **slacks)
+        found = torque_of("held_cable", now, stiffness=200.0, **slacks)
         assert np.abs(found).max() > 0.01
         np.testing.assert_allclose(found, differences(energy, theta, 1e-3), rtol=0.02)
         rate = differences(lambda q: lengthening(moving(q, 0 * q), p), theta) @ (1.0 + theta)
@@ -35,7 +36,7 @@ def test_a_held_cable_loses_when_drawn_out_and_returns_no_more_than_it_took() ->
     theta, values = np.full(N, 0.3), {"stiffness": 200.0, "slack_1": 0.01, "slack_2": 0.01}
 
     def held(w: float) -> float:
-        return float(torque_of("slack_cable", Instant(moving(theta, np.full(N, w)), LOOSE, p), **values)[0])
+        return float(torque_of("held_cable", Instant(moving(theta, np.full(N, w)), LOOSE, p), **values)[0])
 
     assert held(3.0) > 1.5 * held(0.0) > 0
     assert held(-3.0) == pytest.approx(held(0.0), rel=1e-3)
@@ -46,9 +47,9 @@ def test_a_held_cable_loses_when_drawn_out_and_returns_no_more_than_it_took() ->
 def test_a_cable_that_is_pulled_is_not_held_and_a_loose_one_does_nothing() -> None:
     p, values = prototype_model(N).parameters, {"stiffness": 200.0, "slack_1": 0.01, "slack_2": 0.01}
     bent, straight = moving(np.full(N, 0.3), np.zeros(N)), moving(np.zeros(N), np.zeros(N))
-    loose, pulled = (torque_of("slack_cable", Instant(bent, np.array([0.0, u]), p), **values) for u in (0.0, 5.0))
+    loose, pulled = (torque_of("held_cable", Instant(bent, np.array([0.0, u]), p), **values) for u in (0.0, 5.0))
     assert np.abs(pulled).max() < 1e-3 * np.abs(loose).max()
-    assert np.abs(torque_of("slack_cable", Instant(straight, LOOSE, p), **values)).max() < 1e-4
+    assert np.abs(torque_of("held_cable", Instant(straight, LOOSE, p), **values)).max() < 1e-4
 
 
 def test_motors_follow_as_a_lag_of_first_order() -> None:
@@ -74,7 +75,7 @@ def test_an_elastic_cable_of_an_arm_that_is_held_is_a_lag_and_of_a_motor_that_is
     np.testing.assert_allclose(elastic.effect.state_balance(drawn, elastic.values, state, rate), 0, atol=1e-9)
 
 
-@pytest.mark.parametrize("name", ["actuator_lag", "elastic_cable", "capstan"])
+@pytest.mark.parametrize("name", ["actuator_lag", "elastic_cable", "slack_cable", "capstan"])
 def test_a_release_without_pull_does_not_know_of_the_cables(name: str) -> None:
     times = np.linspace(0, 0.2, 5)
     runs = []
@@ -86,3 +87,54 @@ def test_a_release_without_pull_does_not_know_of_the_cables(name: str) -> None:
         )
         runs.append(simulator(name).around(model).run(resting_state(model, RELEASED, LOOSE), times).theta)
     np.testing.assert_allclose(runs[0], runs[1], atol=1e-9)
+
+
+def wound_up(slack: float, speed: float, times: np.ndarray, u: Tensions) -> tuple[np.ndarray, np.ndarray]:
+    """Joint angles, and what still hangs of each cable [m], of the arm from its straight rest."""
+    model = extended(prototype_model(N), "slack_cable", {"slack": slack, "speed": speed})
+    run = simulator("slack_cable").around(model).run(resting_state(model, 0 * RELEASED, LOOSE), times, u)
+    assert run.status is SimulationStatus.COMPLETE
+    return run.theta, run.states[:, 2 * N :]
+
+
+STEP = Tensions([0.0, 1e-6, 1.0], [[0.0, 0.0], [6.0, 0.0], [6.0, 0.0]])
+
+
+@pytest.mark.parametrize(("slack", "speed"), [(0.01, 0.3), (0.01, 0.1), (0.03, 0.3)])
+def test_a_loose_cable_pulls_once_its_motor_has_wound_it_up(slack: float, speed: float) -> None:
+    taut = slack / speed
+    times = taut * np.array([0.0, 0.5, 0.8, 1.5, 2.0])
+    theta, hanging = wound_up(slack, speed, times, STEP)
+    at_once, _ = wound_up(0.0, speed, times, STEP)
+    np.testing.assert_allclose(hanging[:3, 0], slack - speed * times[:3], atol=0.1 * slack)
+    assert hanging[4, 0] < 0.02 * slack
+    np.testing.assert_allclose(hanging[:, 1], slack, atol=0.02 * slack)
+    assert np.abs(theta[2]).max() < 0.02 * np.abs(at_once[2]).max()
+    assert np.abs(theta[4]).max() > 0.05 * np.abs(at_once[4]).max()
+
+
+def test_what_hangs_stays_between_nothing_and_the_slack() -> None:
+    """Also where the arm swings faster than the motors wind, and commands come and go."""
+    model = extended(prototype_model(N), "slack_cable", {"slack": 0.01, "speed": 0.05})
+    u = Tensions([0.0, 0.1, 0.2, 0.3, 0.5, 0.8], [[0, 0], [9, 0], [0, 0], [0, 9], [9, 9], [0, 0]])
+    run = simulator("slack_cable").around(model).run(resting_state(model, RELEASED, LOOSE), np.linspace(0, 0.8, 97), u)
+    hanging = run.states[:, 2 * N :]
+    assert run.status is SimulationStatus.COMPLETE
+    assert hanging.min() > -1e-5
+    assert hanging.max() < 0.01 + 1e-5
+    assert np.all(np.ptp(hanging, axis=0) > 0.009)
+
+
+def test_without_slack_nothing_ever_hangs() -> None:
+    _, hanging = wound_up(0.0, 0.3, np.linspace(0, 0.2, 9), STEP)
+    np.testing.assert_array_equal(hanging, 0.0)
+
+
+def test_an_arm_that_gives_way_to_its_cables_loosens_them_and_one_that_draws_them_tightens_them() -> None:
+    """By just as much as its way changes, where motors stand still: told half of what makes them wind."""
+    p, one = prototype_model(N).parameters, active(effect_of("slack_cable"), slack=0.05, speed=0.3)
+    now = Instant(moving(RELEASED, np.full(N, 0.5)), np.full(2, 0.1), p)
+    rate = -lengthening_rate(now.motion, p)
+    assert rate[0] * rate[1] < 0
+    left = one.effect.state_balance(now, one.values, np.full(2, 0.025), rate)
+    np.testing.assert_allclose(left, 0, atol=1e-12)

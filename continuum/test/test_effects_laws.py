@@ -209,21 +209,23 @@ def test_what_it_does_is_seen(name: str) -> None:
     for size in (0.0, 1.0):
         model = prototype_with(name, size)
         run = simulator(name).around(model).run(resting_state(model, RELEASED, PULLS.at(0.0)), TIMES, PULLS)
-        reading = Reading(run.times, run.theta, run.theta_rate)
+        reading = Reading(run.times, run.theta, run.theta_rate, 0.0)
         seen.append(model.effects[0].effect.measure(reading, model.effects[0].values).theta)
     assert np.degrees(np.abs(seen[1] - seen[0])).max() > 0.1
 
 
 def a_reading(seed: int) -> Reading:
     random = np.random.default_rng(seed)
-    return Reading(np.linspace(0.4, 0.7, 20), random.normal(size=(20, N)), random.normal(size=(20, N)))
+    return Reading(np.linspace(0.4, 0.7, 20), random.normal(size=(20, N)), random.normal(size=(20, N)), 0.1)
 
 
 @each_effect
 def test_measuring_is_affine_in_the_motion_and_nothing_at_the_defaults(name: str) -> None:
     effect, one, two = effect_of(name), a_reading(1), a_reading(2)
     own = random_with(name, 5).effects[0].values
-    mixed = Reading(one.times, 0.3 * one.theta + 0.7 * two.theta, 0.3 * one.theta_rate + 0.7 * two.theta_rate)
+    mixed = replace(
+        one, theta=0.3 * one.theta + 0.7 * two.theta, theta_rate=0.3 * one.theta_rate + 0.7 * two.theta_rate
+    )
     seen_one, seen_two, seen = (effect.measure(reading, own) for reading in (one, two, mixed))
     np.testing.assert_allclose(seen.theta, 0.3 * seen_one.theta + 0.7 * seen_two.theta, atol=1e-12)
     np.testing.assert_allclose(seen.theta_rate, 0.3 * seen_one.theta_rate + 0.7 * seen_two.theta_rate, atol=1e-9)

@@ -49,6 +49,8 @@ def test_rates_that_were_not_measured_are_slopes_of_the_angles() -> None:
     cubic = np.stack([1 + 2 * t - t**2 + 3 * t**3, -t], axis=1)
     found = measured_rates(Recording("cubic", t, cubic))
     np.testing.assert_allclose(found, np.stack([2 - 2 * t + 9 * t**2, -np.ones(40)], axis=1), atol=1e-6)
+    of_few = measured_rates(Recording("five samples", t[:5], cubic[:5]))
+    np.testing.assert_allclose(of_few, found[:5], atol=1e-6)
     rates = np.zeros((40, 2))
     assert measured_rates(Recording("cubic", t, cubic, rates)) is rates
 
@@ -56,7 +58,7 @@ def test_rates_that_were_not_measured_are_slopes_of_the_angles() -> None:
 def test_a_simulation_of_itself_has_no_error() -> None:
     run = recorded(small_simulator())
     assert run.theta_rate is not None
-    seen = Reading(run.times, run.theta, run.theta_rate)
+    seen = Reading(run.times, run.theta, run.theta_rate, 0.0)
     assert position_nrmse(seen, run) == rate_nrmse(seen, run) == 0.0
 
 
@@ -117,7 +119,7 @@ FREE = [Free("stiffness"), Free("viscous_friction")]
 
 def rate_error(simulator: Simulator, run: Recording, values: np.ndarray) -> float:
     motion = simulator.run(run.theta[0], run.times, run.pull, values)
-    return rate_nrmse(Reading(motion.times, motion.theta, motion.theta_rate), run)
+    return rate_nrmse(Reading(motion.times, motion.theta, motion.theta_rate, 0.0), run)
 
 
 def test_the_swarm_identifies_and_counts_its_simulations() -> None:

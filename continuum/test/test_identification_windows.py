@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,7 @@ from identification_laws import (
     white_noise,
 )
 
+from continuum.dynamics.measuring import readings
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.noise import Channel, Noise
@@ -43,6 +45,8 @@ EFFECTS = {
     "elastic_cable": (Free("elastic_cable.lag"), Free("elastic_cable.stiffness")),
     "presliding": (Free("presliding.angle"),),
     "base_compliance": (Free("base_compliance.compliance"), Free("base_compliance.frequency")),
+    "backlash": (Free("backlash.gap", 0),),
+    "slack_cable": (Free("slack_cable.slack"), Free("slack_cable.speed")),
 }
 STEP = 0.004
 """Of the differences, in units of the coordinates."""
@@ -56,7 +60,7 @@ def residual(effect: str | None, length: float | None = 0.067, noise: Noise = WI
 
 def chained(one: WindowResidual, shared: np.ndarray, own: list[np.ndarray]) -> list[WindowAt]:
     """Every window, each with the memory of the one before."""
-    memory, found = one.first_memory(shared, own[0]), []
+    memory, found = None, []
     for window, mine in enumerate(own):
         at = one.window(window, shared, mine, memory)
         assert at is not None
@@ -75,6 +79,12 @@ def somewhere(one: WindowResidual) -> tuple[np.ndarray, list[np.ndarray]]:
     return 0.5 + 0.2 * random.random(len(one.space.unknowns)), [0.3 * random.normal(size=2 * N) for _ in one.rows]
 
 
+def slope_along(function: Callable[[float], np.ndarray]) -> np.ndarray:
+    """At 0, by central differences of fourth order: residuals are curved where something knocks."""
+    near, far = ((function(step) - function(-step)) / (2 * step) for step in (STEP, 2 * STEP))
+    return (4 * near - far) / 3
+
+
 @pytest.mark.parametrize("effect", EFFECTS)
 def test_slopes_by_the_shared_unknowns(effect: str | None) -> None:
     """Also those that a window before left in the states of an effect."""
@@ -83,8 +93,7 @@ def test_slopes_by_the_shared_unknowns(effect: str | None) -> None:
     shared, own = somewhere(one)
     found = np.concatenate([at.part.by_shared for at in chained(one, shared, own)])
     for i, unit in enumerate(np.eye(shared.size)):
-        ends = [errors(one, shared + sign * STEP * unit, own) for sign in (1, -1)]
-        slope = (ends[0] - ends[1]) / (2 * STEP)
+        slope = slope_along(lambda step, unit=unit: errors(one, shared + step * unit, own))
         if one.space.unknowns[i].recording == 1:
             assert not np.any(slope)
             assert not np.any(found[:, i])
@@ -94,16 +103,23 @@ def test_slopes_by_the_shared_unknowns(effect: str | None) -> None:
         np.testing.assert_allclose(found[:, i], slope, rtol=0, atol=0.01 * size, err_msg=str(one.space.unknowns[i]))
 
 
-@pytest.mark.parametrize("effect", [None, "sensor_delay", "actuator_lag"])
-def test_slopes_by_a_windows_first_state(effect: str | None) -> None:
+@pytest.mark.parametrize("effect", [None, "sensor_delay", "actuator_lag", "base_compliance", "backlash"])
+@pytest.mark.parametrize("window", [0, 1])
+def test_slopes_by_a_windows_first_state(effect: str | None, window: int) -> None:
+    """Also those by way of effects that rest with the arm where a run begins."""
     one = residual(effect)
     shared, own = somewhere(one)
-    memory = one.first_memory(shared, own[0])
-    at = one.window(1, shared, own[1], memory)
+    memory = chained(one, shared, own)[0].memory if window else None
+    at = one.window(window, shared, own[window], memory)
     assert at is not None
+
+    def errors_of(mine: np.ndarray) -> np.ndarray:
+        there = one.window(window, shared, mine, memory)
+        assert there is not None
+        return there.part.errors
+
     for i, unit in enumerate(np.eye(2 * N)):
-        moved = [one.window(1, shared, own[1] + sign * STEP * unit, memory) for sign in (1, -1)]
-        slope = (moved[0].part.errors - moved[1].part.errors) / (2 * STEP)  # type: ignore[union-attr]
+        slope = slope_along(lambda step, unit=unit: errors_of(own[window] + step * unit))
         np.testing.assert_allclose(at.part.by_own[:, i], slope, rtol=0, atol=0.01 * np.max(np.abs(slope)))
 
 
@@ -142,6 +158,28 @@ def test_simulating_all_windows_gives_what_their_errors_are_made_of(effect: str 
     )
     expected = [np.concatenate([angle[rows].ravel(), rate[rows].ravel()]) for rows in one.rows]
     np.testing.assert_allclose(errors(one, shared, own), np.concatenate(expected), rtol=1e-6, atol=1e-6)
+
+
+REMEMBERING = {"gyro_drift": {"bias": [0.1, -0.2]}, "sensor_delay": {"delay": 0.04}, "sensor_scale": {"gain": 0.1}}
+
+
+@pytest.mark.parametrize("effect", REMEMBERING)
+@pytest.mark.parametrize("length", [0.03, 0.067, None])
+def test_sensors_show_of_windows_what_they_show_of_the_whole_run(effect: str, length: float | None) -> None:
+    """A drift goes on from the run's beginning; a late sensor shows of a window's first samples what was before it."""
+    simulator = small_simulator(effect)
+    model = simulator.model.with_values({f"{effect}.{key}": value for key, value in REMEMBERING[effect].items()})
+    times = 3.0 + np.arange(60) / 120
+    motion = simulator.around(model).run(np.array(BENDS[0]), times)
+    whole = readings(model, motion)
+    run = Recording("run", times, whole.theta, whole.theta_rate)
+    one = WindowResidual(simulator.around(model), run, 0, white_noise(), FreeSpace(model, ()), length)
+    own = [(motion.states[b] - m) / one._unit for b, m in zip(one._begin, one._measured, strict=True)]
+    seen = one.simulate(np.zeros(0), own)
+    assert seen is not None
+    np.testing.assert_array_equal(seen.times, times)
+    np.testing.assert_allclose(seen.theta, whole.theta, atol=1e-5)
+    np.testing.assert_allclose(seen.theta_rate, whole.theta_rate, atol=1e-4)
 
 
 def test_windows_that_were_simulated_are_counted() -> None:

@@ -1,7 +1,7 @@
 """A link's sensor shows a motion too large or too small: (1 + gain) times the link's angle and rate.
 
 Joints are differences of neighbouring sensors, the first one against the base plate: with Theta_i the links' angles,
-joint i is read as (1 + e_i) Theta_i - (1 + e_i-1) Theta_i-1, and one wrong sensor spoils the joints on both sides of it.
+joint i is read as (1 + e_i) Theta_i - (1 + e_i-1) Theta_i-1, and one wrong sensor spoils the joints on both sides.
 
 Gain and misalignment are one parameter: a gyro whose axis leans by m from the joints' shows cos(m) of the rate, and the
 angle summed up from it, cos(m) of the angle, which nothing in a plane tells from a gain of cos(m) - 1. So gain < 0 may
@@ -33,12 +33,14 @@ class SensorScale(Effect):
     }
     source = "Tedaldi, Pretto and Menegatti, IEEE ICRA 2014 (calibration of inertial sensors)"
     in_words = "A sensor shows too much or too little of its link's motion, or sits askew on its disc."
-    looks_like = "The joints on both sides of a sensor err in opposite ways, in proportion to how far its link is turned."
+    looks_like = (
+        "The joints on both sides of a sensor err in opposite ways, in proportion to how far its link is turned."
+    )
     experiment = "Turn the link by a known angle, against a stop, and compare."
 
     def measure(self, seen: Reading, own: Own) -> Reading:
         def spoiled(joints: Array) -> Array:
             wrong = own["gain"] * np.cumsum(joints, axis=1)
-            return joints + np.diff(wrong, axis=1, prepend=0.0)
+            return np.asarray(joints + np.diff(wrong, axis=1, prepend=0.0))
 
         return replace(seen, theta=spoiled(seen.theta), theta_rate=spoiled(seen.theta_rate))

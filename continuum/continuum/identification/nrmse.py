@@ -6,6 +6,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.reading import Reading
+from continuum.identification.local_slopes import local_slope
 from continuum.identification.recording import Recording
 
 
@@ -40,15 +41,5 @@ def measured_rates(recording: Recording) -> Array:
     """Joint rates, (n_times, n_joints) [rad/s]: measured, or slopes of the angles by local cubics of seven samples."""
     if recording.theta_rate is not None:
         return recording.theta_rate
-    return np.stack([_local_slopes(recording.times, column) for column in recording.theta.T], axis=1)
-
-
-def _local_slopes(times: Array, signal: Array, half: int = 3) -> Array:
-    """Slope of the cubic that fits the samples around each one best (Savitzky and Golay 1964), times as they are."""
-    slopes = np.empty(times.size)
-    for i in range(times.size):
-        first = min(max(i - half, 0), times.size - 2 * half - 1)
-        rows = slice(first, first + 2 * half + 1)
-        fitted = np.polynomial.polynomial.polyfit(times[rows] - times[i], signal[rows], 3)
-        slopes[i] = fitted[1]
-    return slopes
+    rows = range(recording.times.size)
+    return np.stack([local_slope(recording.times, recording.theta, row, degree=3) for row in rows])

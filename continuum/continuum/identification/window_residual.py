@@ -18,6 +18,7 @@ from continuum.dynamics.trajectory import SimulationStatus, Trajectory
 from continuum.dynamics.values import parameter_slots, with_vector
 from continuum.identification.arrow_least_squares import Part
 from continuum.identification.free import FreeSpace
+from continuum.identification.local_slopes import local_slope
 from continuum.identification.noise import Noise
 from continuum.identification.recording import Recording
 from continuum.identification.windows import whitener, window_rows
@@ -29,7 +30,10 @@ _NUDGE = 1e-5  # of a sensor's parameter, in units of its coordinate
 
 @dataclass(frozen=True)
 class Memory:
-    """States of the effects between two windows, (n_states,), and their slopes by the shared ones, (n_states, k)."""
+    """States of the effects where a window begins, (n_states,), and their slopes, (n_states, k + 2 n).
+
+    By the shared unknowns, and by those of the window that begins there: an arm at rest has its effects rest with it.
+    """
 
     states: Array
     slopes: Array
@@ -96,19 +100,20 @@ class WindowResidual:
         """Coordinates of the windows' own unknowns before any fit: as measured."""
         return [np.zeros(self._unit.size) for _ in self.rows]
 
-    def window(self, window: int, shared: Array, own: Array, memory: Memory) -> WindowAt | None:
-        """One window whose effects' states begin as the window before left them."""
+    def window(self, window: int, shared: Array, own: Array, memory: Memory | None) -> WindowAt | None:
+        """One window whose effects' states begin as the window before left them; without one, as in an arm at rest."""
+        memory = memory or self.first_memory(shared, own)
         k, extra = shared.size, memory.states
         p = self.space.origin + self._directions @ shared
         free = np.hstack([self._directions, np.zeros((p.size, own.size))])
         slope0 = np.zeros((own.size + extra.size, free.shape[1]))
         slope0[: own.size, k:] = np.diag(self._unit)
-        slope0[own.size :, :k] = memory.slopes
+        slope0[own.size :] = memory.slopes
         run = self._run(window, p, own, extra, free, slope0)
         if run is None or not np.all(np.isfinite(run.slopes)):
             return None
         handed = self._handed_on(window)
-        memory = Memory(run.states[handed, own.size :], run.slopes[handed, own.size :, :k])
+        memory = Memory(run.states[handed, own.size :], run.slopes[handed, own.size :] * (np.arange(free.shape[1]) < k))
         seen = self._readings(p, run)
         mine = self._samples(window)
         jacobian = self._whiten[window](*(slope[mine] for slope in self._reading_slopes(p, run, seen, free)))
@@ -131,8 +136,8 @@ class WindowResidual:
                 return None
             extra = run.states[self._handed_on(window), self._unit.size :]
             seen.append(_cut(self._readings(p, run), self._samples(window)))
-        whole = (np.concatenate([getattr(s, name) for s in seen]) for name in ("times", "theta", "theta_rate"))
-        return Reading(*whole, seen[0].begun)
+        times, theta, rate = (np.concatenate([getattr(s, k) for s in seen]) for k in ("times", "theta", "theta_rate"))
+        return Reading(times, theta, rate, seen[0].begun)
 
     def _run(
         self,
@@ -153,20 +158,19 @@ class WindowResidual:
 
     def first_memory(self, shared: Array, own: Array) -> Memory:
         """States of the effects at the first sample, as in an arm at rest."""
-        if not self._model.n_states:
-            return Memory(np.zeros(0), np.zeros((0, shared.size)))
         n = self._model.n_joints
-        theta = (self._measured[0] + self._unit * own)[:n]
-        u = self.recording.pull.at(self.recording.times[0])
+        if not self._model.n_states:
+            return Memory(np.zeros(0), np.zeros((0, shared.size + own.size)))
+        p, u = self.space.origin + self._directions @ shared, self.recording.pull.at(self.recording.times[0])
 
-        def states(values: Array) -> Array:
-            model = with_vector(self._model, values)
+        def states(by: Array) -> Array:
+            model = with_vector(self._model, p + self._directions @ by[: shared.size])
+            theta = (self._measured[0] + self._unit * (own + by[shared.size :]))[:n]
             return np.concatenate([a.effect.initial_state(theta, u, a.values, model.parameters) for a in model.effects])
 
-        p = self.space.origin + self._directions @ shared
-        begin = states(p)
-        slopes = [(states(p + _NUDGE * column) - begin) / _NUDGE for column in self._directions.T]
-        return Memory(begin, np.stack(slopes, axis=1) if slopes else np.zeros((begin.size, 0)))
+        begin = states(np.zeros(shared.size + own.size))
+        slopes = [(states(_NUDGE * unit) - begin) / _NUDGE for unit in np.eye(shared.size + own.size)]
+        return Memory(begin, np.stack(slopes, axis=1))
 
     def _reading_slopes(self, p: Array, run: Trajectory, seen: Reading, free: Array) -> tuple[Array, Array]:
         """Change of angles and rates as sensors read them by one unit of each unknown, (n_times, n, columns) each."""
@@ -208,10 +212,7 @@ def first_state(recording: Recording, row: int) -> Array:
     """Joint angles and rates measured at one sample, (2 n,) [rad, rad/s]; rates by a parabola where they were not."""
     if recording.theta_rate is not None:
         return np.concatenate([recording.theta[row], recording.theta_rate[row]])
-    first = max(0, min(row - 3, recording.times.size - 7)) if row else 0
-    rows = slice(first, first + 7)
-    t = recording.times[rows] - recording.times[row]
-    rate = np.polynomial.polynomial.polyfit(t, recording.theta[rows], min(2, t.size - 1))[1]
+    rate = local_slope(recording.times, recording.theta, row, degree=2)
     return np.concatenate([recording.theta[row], rate])
 
 
@@ -225,7 +226,7 @@ def _parameters_of_sensors(model: Model) -> NDArray[np.intp]:
 def _row_before(recording: Recording, row: int, model: Model) -> int:
     """Where a window is begun whose first sample is ``row``: earlier by what its sensors look back."""
     back = max((active.effect.looks_back for active in model.effects), default=0.0)
-    return int(np.searchsorted(recording.times, recording.times[row] - back + 1e-9)) if back else row
+    return max(0, int(np.searchsorted(recording.times, recording.times[row] - back + 1e-9, "right")) - 1)
 
 
 def _cut(seen: Reading, rows: slice) -> Reading:

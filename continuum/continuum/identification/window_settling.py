@@ -31,7 +31,7 @@ def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bo
         anew: try other beginnings for windows that stay bad.
     """
     found: list[WindowAt] = []
-    memory = run.first_memory(shared, own[0])
+    memory: Memory | None = None
     for window, mine in enumerate(own):
         at = run.window(window, shared, mine, memory)
         if at is None:
@@ -44,14 +44,14 @@ def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bo
     return found
 
 
-def _others(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory) -> list[WindowAt]:
+def _others(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None) -> list[WindowAt]:
     """Where descents from other beginnings end."""
     starts = [at.own, np.zeros(at.own.size), *(run.still(window, slow) for slow in _SLOW)]
     begun = [run.window(window, shared, start, memory) for start in starts]
     return [_descent(run, window, shared, one, memory) for one in begun if one is not None]
 
 
-def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory) -> WindowAt:
+def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None) -> WindowAt:
     damping = 1e-3
     for _ in range(_STEPS):
         slopes = at.part.by_own

@@ -1,0 +1,27 @@
+"""Slopes of measured signals by polynomials, each fitted to the samples around (Savitzky and Golay 1964)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+
+_HALF = 3  # samples to each side
+
+
+def local_slope(times: Array, signals: Array, row: int, degree: int) -> Array:
+    """Slope at one sample, times as they are, however uneven.
+
+    Args:
+        times: (n_times,) [s].
+        signals: (n_times, n).
+        row: of the sample; near an end the samples are those nearest to it.
+        degree: of the polynomial, less where there are too few samples.
+
+    Returns:
+        (n,), in the signals' unit by second.
+    """
+    first = max(0, min(row - _HALF, times.size - 2 * _HALF - 1))
+    rows = slice(first, first + 2 * _HALF + 1)
+    t = times[rows] - times[row]
+    return np.asarray(np.polynomial.polynomial.polyfit(t, signals[rows], min(degree, t.size - 1))[1])
