@@ -12,6 +12,8 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.identification.free import Free, FreeSpace
 
+_PART = 0.3  # of a typical size
+
 
 @dataclass(frozen=True)
 class Addition:
@@ -62,12 +64,12 @@ def acts_at_joints(effect: str) -> bool:
 
 
 def beginning(space: FreeSpace, added: int) -> Array:
-    """Coordinates to begin a fit at, (k,): the last ``added`` ones at a typical size where they cannot be negative.
+    """Coordinates to begin a fit at, (k,): the last ``added`` ones at part of a typical size if they cannot be negative.
 
     Where an unknown may have either sign, slopes at zero show the way.
     """
     start = np.zeros(space.scale.size)
     one_sided = space.lower > -1e-2
     one_sided[: start.size - added] = False
-    start[one_sided] = 1.0
+    start[one_sided] = _PART
     return space.clipped(start)

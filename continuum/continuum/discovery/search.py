@@ -1,7 +1,8 @@
 """Round after round: try every effect on top of what was found, keep the best, until what is left is noise.
 
-A first look of a few iterations sorts out what does not help; only what leads is fitted to the end and found its
-joints.
+A first look of a few iterations sorts out what does not help: friction makes the way to the best fit rugged, so that
+what the slopes promise counts as well as what was gained. What leads is fitted to all data, and what then contends is
+fitted to the end and found its joints.
 """
 
 from __future__ import annotations
@@ -10,14 +11,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from continuum.discovery.candidate import Addition
-from continuum.discovery.evidence import Gain, gain, is_adequate
+from continuum.discovery.evidence import gain, is_adequate
 from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
 from continuum.discovery.workers import Make, Task, first_look
 
-_LEADERS = 4
-_ITERATIONS = 14
-_BASELINE_ITERATIONS = 30
+_LEADERS = 5
+_LEADING = 0.35  # of the best one's hope
+_HOPELESS = 4.0  # log-likelihood on half of the runs
+_CONTENDING = 0.5  # of the best one's gain
+_LEADER_ITERATIONS, _ITERATIONS, _BASELINE_ITERATIONS = 8, 12, 16
 _ROUNDS = 3
 
 
@@ -27,8 +30,9 @@ class Round:
 
     Attributes:
         before: the best trial of the round before.
-        looks: every effect after its first look, best first.
-        leaders: those fitted to the end, best first.
+        looks: every effect after its first look, the most promising first.
+        leaders: those fitted to all data, best first, which are those fitted to the end; none where nothing promised
+            anything.
     """
 
     before: Trial
@@ -38,12 +42,7 @@ class Round:
     @property
     def best(self) -> Trial:
         """The best of all."""
-        return self.leaders[0] if self.leaders and self.gain.is_significant else self.before
-
-    @property
-    def gain(self) -> Gain:
-        """What the leader gains."""
-        return gain(self.leaders[0], self.before)
+        return self.leaders[0] if self.leaders and gain(self.leaders[0], self.before).is_significant else self.before
 
 
 type Tell = Callable[[str, float], None]
@@ -77,16 +76,34 @@ def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[
 
 def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[float], None]) -> Round:
     known = {addition.effect for addition in before.extension}
-    extensions = [(*before.extension, Addition(effect)) for effect in effects if effect not in known]
+    extensions = [before.extension, *((*before.extension, Addition(name)) for name in effects if name not in known)]
     looks = []
     for trial in make([first_look(extension, before) for extension in extensions]):
         looks.append(trial)
-        tell(0.6 * len(looks) / len(extensions))
-    looks.sort(key=lambda trial: trial.cost)
-    tasks = [Task(look.extension, carried(look, before), _ITERATIONS, True) for look in looks[:_LEADERS]]
-    leaders = []
-    for trial in make(tasks):
-        leaders.append(trial)
-        tell(0.6 + 0.4 * len(leaders) / len(tasks))
-    leaders.sort(key=lambda trial: -gain(trial, before).log_likelihood)
-    return Round(before, tuple(looks), tuple(leaders))
+        tell(0.5 * len(looks) / len(extensions))
+    (without,) = [trial for trial in looks if trial.extension == before.extension]
+    looks = sorted((trial for trial in looks if trial is not without), key=_hoped_for)
+    leading = [Task(look.extension, carried(look, before), _LEADER_ITERATIONS) for look in _leading(looks, without)]
+    leaders = sorted(make(leading), key=lambda trial: -gain(trial, before).log_likelihood)
+    tell(0.75)
+    contenders = _contending(leaders, before)
+    ended = list(make([Task(trial.extension, trial, _ITERATIONS, True) for trial in contenders]))
+    ended += [trial for trial in leaders if all(trial is not one for one in contenders)]
+    return Round(before, tuple(looks), tuple(sorted(ended, key=lambda trial: -gain(trial, before).log_likelihood)))
+
+
+def _hoped_for(look: Trial) -> float:
+    """Cost that further iterations may reach."""
+    return look.cost - look.promised
+
+
+def _leading(looks: Sequence[Trial], without: Trial) -> list[Trial]:
+    hopes = [without.cost - _hoped_for(look) for look in looks]
+    least = max(_HOPELESS, _LEADING * max(hopes, default=0.0))
+    return [look for look, hope in zip(looks, hopes, strict=True) if hope > least][:_LEADERS]
+
+
+def _contending(leaders: Sequence[Trial], before: Trial) -> list[Trial]:
+    gains = [gain(trial, before).log_likelihood for trial in leaders]
+    least = _CONTENDING * max(gains, default=0.0)
+    return [trial for trial, gained in zip(leaders, gains, strict=True) if gained >= least]

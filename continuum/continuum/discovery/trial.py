@@ -32,6 +32,7 @@ class Trial:
         held_out: misfit of each run's windows when the other runs predict it; of a right model about ``sizes``.
         sizes: number of errors in each of these windows, less its own unknowns.
         simulations: how many runs were simulated.
+        promised: by how much the cost would fall with more iterations, were the errors linear.
     """
 
     extension: Extension
@@ -44,6 +45,7 @@ class Trial:
     held_out: tuple[Array, ...]
     sizes: tuple[Array, ...]
     simulations: int
+    promised: float
 
     @property
     def misfit(self) -> float:
@@ -56,14 +58,17 @@ class Trial:
         return np.concatenate(self.held_out) / np.concatenate(self.sizes)
 
 
-def fit_extension(question: Question, extension: Extension, near: Trial | None = None, iterations: int = 12) -> Fit:
+def fit_extension(
+    question: Question, extension: Extension, near: Trial | None = None, iterations: int = 12, seekings: int = 2
+) -> Fit:
     """Fit the extended model to all runs.
 
     Args:
         question: data and model.
         extension: effects beyond Eq. 12.
         iterations: of the fit, at most.
-        near: a trial to start from; what is not among its unknowns starts absent or at a typical size.
+        near: a trial to start from; what is not among its unknowns starts absent or at a part of a typical size.
+        seekings: of the fit, at most.
     """
     model = extended(question.model, extension)
     added = [u for a in extension for u in unknowns_of(a, model.n_joints, len(question.recordings))]
@@ -74,7 +79,9 @@ def fit_extension(question: Question, extension: Extension, near: Trial | None =
         begin[i] = there.get(unknown, begin[i])
     own = None if near is None or not near.own else near.own
     simulator = Simulator(model, TOLERANCES)
-    return fit(simulator, question.recordings, question.noise, free, begin, iterations=iterations, own=own)
+    return fit(
+        simulator, question.recordings, question.noise, free, begin, iterations=iterations, own=own, seekings=seekings
+    )
 
 
 def judged(extension: Extension, fitted: Fit) -> Trial:
@@ -93,4 +100,5 @@ def judged(extension: Extension, fitted: Fit) -> Trial:
         tuple(held_out),
         tuple(np.split(sizes, np.cumsum([group.size for group in held_out])[:-1])),
         fitted.simulations,
+        fitted.promised,
     )

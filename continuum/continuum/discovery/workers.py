@@ -14,7 +14,7 @@ from continuum.discovery.question import Question
 from continuum.discovery.some_runs import some_runs
 from continuum.discovery.trial import Trial, fit_extension, judged
 
-_FIRST_LOOK = 4  # iterations: what helps has shown itself by then
+_FIRST_LOOK = 2  # iterations: what helps shows in what they gain and what the slopes promise then
 _MANY_RUNS = 4
 
 
@@ -46,7 +46,7 @@ def make(question: Question, task: Task) -> Trial:
     """One trial."""
     if task.on_part and task.near is not None and len(question.recordings) >= _MANY_RUNS:
         part, near = some_runs(question, task.near)
-        return judged(task.extension, fit_extension(part, task.extension, near, task.iterations))
+        return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, seekings=0))
     fitted = fit_extension(question, task.extension, task.near, task.iterations)
     whole = judged(task.extension, fitted)
     last = task.extension[-1] if task.extension else None

@@ -21,7 +21,6 @@ from continuum.arrays import Array
 _ENOUGH = 0.5  # of log-likelihood: a smaller expected gain is not worth a step
 _ENOUGH_OF_COST = 5e-4
 _LEAST_DAMPING, _MOST_DAMPING = 1e-6, 1e4
-_SEEKINGS = 2  # of windows anew
 _NEAR = 0.03  # of the cost: expected to gain less, the search seeks bad windows anew for the first time
 _TAIL = 3.0  # the most that a window's misfit counts beyond that of noise, per error
 MOST_MISFIT = 1.0 + _TAIL
@@ -79,6 +78,7 @@ class Solution:
         parts: every window there.
         cost: minus the logarithm of likelihood and prior.
         evaluations: how often all windows were simulated.
+        promised: by how much the cost would fall from there, were the errors linear.
     """
 
     status: FitStatus
@@ -87,25 +87,26 @@ class Solution:
     parts: Sequence[Part]
     cost: float
     evaluations: int
+    promised: float = 0.0
 
 
-def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int) -> Solution:
+def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int, seekings: int = 2) -> Solution:
     """Search from where the unknowns are, with at most so many iterations.
 
     Damping holds the shared unknowns only; the windows' own follow each step by themselves. Where the search settles,
-    windows that are still bad are sought anew, and it goes on if that helped.
+    windows that are still bad are sought anew, at most ``seekings`` times, and it goes on if that helped.
     """
     shared = unknowns.shared
     begun = evaluate(shared, unknowns.own, False)
     if begun is None:
         return Solution(FitStatus.NO_SIMULATION, shared, unknowns.own, [], np.inf, 1)
-    (parts, own), damping, evaluations, seekings = begun, 1e-3, 1, 0
+    (parts, own), damping, evaluations, sought_before = begun, 1e-3, 1, 0
     cost = _cost(unknowns, parts, shared, own)
     costs = [cost]
     for _ in range(iterations):
         step, own_steps, gain = _damped_step(unknowns, parts, shared, own, damping)
         enough = max(_ENOUGH, _ENOUGH_OF_COST * cost)
-        near = seekings == 0 and gain < _NEAR * cost
+        near = sought_before == 0 < seekings and gain < _NEAR * cost
         settled = gain < enough or damping > _MOST_DAMPING or _has_stalled(costs)
         if not settled and not near:
             there = np.clip(shared + step, unknowns.lower, unknowns.upper)
@@ -119,11 +120,11 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int)
             damping = max(damping * (0.1 if cost - new > 0.5 * gain else 0.5), _LEAST_DAMPING)
             settled = cost - new < enough
             shared, (parts, own), cost = there, tried, new
-        if settled and seekings == _SEEKINGS:
+        if settled and sought_before == seekings:
             return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
         if settled or near:
             sought = evaluate(shared, own, True)
-            evaluations, seekings, damping = evaluations + 1, seekings + 1, 1e-3
+            evaluations, sought_before, damping = evaluations + 1, sought_before + 1, 1e-3
             if sought is None or _cost(unknowns, sought[0], shared, sought[1]) > cost - enough:
                 if settled:
                     return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
@@ -131,7 +132,8 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int)
             parts, own = sought
             cost = _cost(unknowns, parts, shared, own)
             costs = [cost]
-    return Solution(FitStatus.NO_CONVERGENCE, shared, own, parts, cost, evaluations)
+    promised = _damped_step(unknowns, parts, shared, own, _LEAST_DAMPING)[2]
+    return Solution(FitStatus.NO_CONVERGENCE, shared, own, parts, cost, evaluations, promised)
 
 
 def _has_stalled(costs: Sequence[float]) -> bool:

@@ -44,6 +44,7 @@ class Fit:
         parts: errors and slopes of every window there, run after run.
         cost: minus the logarithm of likelihood and prior.
         simulations: how many runs were simulated with slopes, windows of single runs summed up to whole ones.
+        promised: by how much the cost would fall with more iterations, were the errors linear.
     """
 
     status: FitStatus
@@ -54,6 +55,7 @@ class Fit:
     parts: Sequence[Part]
     cost: float
     simulations: int
+    promised: float = 0.0
 
     @property
     def coordinates(self) -> Array:
@@ -96,6 +98,7 @@ def fit(
     length: float | None = 0.0,
     iterations: int = 30,
     own: Sequence[Array] | None = None,
+    seekings: int = 2,
 ) -> Fit:
     """Fit the unknowns ``free`` of a model, and the first state of every window.
 
@@ -108,6 +111,7 @@ def fit(
         length: of the windows [s]; 0 for the usual one, None for one window a run.
         iterations: at most so many.
         own: coordinates of each window's own unknowns to start from, run after run; as measured without.
+        seekings: how often first states of windows that fit badly are sought anew, at most.
 
     Raises:
         InvalidValueError: an unknown that the model does not have.
@@ -130,7 +134,7 @@ def fit(
             windows += found
         return [at.part for at in windows], [at.own for at in windows]
 
-    found = arrow_least_squares(evaluate, unknowns, iterations)
+    found = arrow_least_squares(evaluate, unknowns, iterations, seekings)
     ended = replace(unknowns, shared=found.shared, own=list(found.own))
     simulations = round(sum(run.windows_simulated / len(run.rows) for run in runs))
-    return Fit(found.status, simulator, space, runs, ended, found.parts, found.cost, simulations)
+    return Fit(found.status, simulator, space, runs, ended, found.parts, found.cost, simulations, found.promised)

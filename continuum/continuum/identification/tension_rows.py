@@ -1,4 +1,8 @@
-"""Do recorded tensions hold from row to row, as commands do, or change linearly, as measured ones? The data say."""
+"""Do recorded tensions hold from row to row, as commands do, or change linearly, as measured ones? The data say.
+
+Where a tension jumps, joints tell it without any model: a tension that is held changes nothing before its row, one that
+changes linearly has done half of its work by then. Smooth tensions are simulated both ways.
+"""
 
 from __future__ import annotations
 
@@ -13,28 +17,63 @@ from continuum.identification.free import Free
 from continuum.identification.noise import Noise
 from continuum.identification.recording import Recording
 
-_ITERATIONS = 3
+_JUMP = 3.0  # N from one row to the next
+_JOLT = 40.0  # rad/s2, by which arms answer at once
+_BEFORE = 0.2  # of the change of acceleration; about 0 for held tensions, 0.4 for linear ones
+_ITERATIONS = 1
+_RECORDINGS = 2  # that are asked
+_MOVED = 0.15  # of the windows, those in which the tensions move most
 
 
 def with_likelier_rows(
     simulator: Simulator, recordings: Sequence[Recording], noise: Noise, free: Sequence[Free]
 ) -> tuple[Recording, ...]:
-    """The recordings, their tensions held or linear, whichever lets the model come nearer.
+    """The recordings, their tensions held or linear, whichever is likelier for all.
 
-    The most moved of the driven runs decides for all: half a sample's delay shows in it, in few windows but by much.
+    Without jumps the windows in which the tensions move most decide: half a sample's delay shows in them.
     """
     driven = [recording for recording in recordings if recording.is_driven]
+    shares = [share for recording in driven for share in _shares_before_jumps(recording)]
+    if shares:
+        return tuple(_held(recording, float(np.median(shares)) < _BEFORE) for recording in recordings)
     if not driven:
         return tuple(recordings)
-    judge = max(driven, key=lambda recording: recording.times.size)
-    fits = {held: fit(simulator, [_held(judge, held)], noise, free, iterations=_ITERATIONS) for held in (True, False)}
-    likelier = min(fits, key=lambda held: _strangeness(fits[held]))
-    return tuple(_held(recording, likelier) for recording in recordings)
+    strange = {}
+    for held in (True, False):
+        asked = [_held(recording, held) for recording in driven[:_RECORDINGS]]
+        strange[held] = _strangeness(fit(simulator, asked, noise, free, iterations=_ITERATIONS))
+    return tuple(_held(recording, strange[True] <= strange[False]) for recording in recordings)
+
+
+def _shares_before_jumps(recording: Recording) -> list[float]:
+    """Of every jump, which part of the change of acceleration came before its row; the fastest joints count most."""
+    if recording.theta_rate is None or recording.tensions is None:
+        return []
+    u = np.array([recording.tensions.at(time) for time in recording.times])
+    acceleration = np.diff(recording.theta_rate, axis=0) / np.diff(recording.times)[:, None]
+    found = []
+    for row in np.flatnonzero(np.abs(np.diff(u, axis=0)).max(axis=1) > _JUMP) + 1:
+        if 2 <= row < len(acceleration):
+            before, after = (acceleration[k] - acceleration[row - 2] for k in (row - 1, row))
+            felt = float(np.linalg.norm(after)) > _JOLT  # what comes later than the row did not begin before it
+            found.append(float(before @ after / (after @ after)) if felt else 0.0)
+    return found
 
 
 def _strangeness(fitted: Fit) -> float:
-    """Sum over the windows of the logarithm of their squared errors, which few bad windows do not rule."""
-    return sum(part.errors.size * float(np.log1p(np.mean(part.errors**2))) for part in fitted.parts)
+    """Sum over the windows of the logarithm of their squared errors, which no single one rules."""
+    moved = np.array([_change_of_tension(run.recording, rows) for run in fitted.runs for rows in run.rows])
+    return sum(
+        part.errors.size * float(np.log1p(np.mean(part.errors**2)))
+        for part, much in zip(fitted.parts, moved >= np.quantile(moved, 1 - _MOVED), strict=True)
+        if much
+    )
+
+
+def _change_of_tension(recording: Recording, rows: slice) -> float:
+    """The largest from row to row within a window [N]."""
+    values = np.array([recording.pull.at(time) for time in recording.times[rows]])
+    return float(np.abs(np.diff(values, axis=0)).max())
 
 
 def _held(recording: Recording, held: bool) -> Recording:

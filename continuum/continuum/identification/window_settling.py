@@ -16,7 +16,7 @@ from continuum.identification.arrow_least_squares import misfit_of
 from continuum.identification.window_residual import Memory, WindowAt, WindowResidual
 
 _BAD = 1.5  # misfit per error beyond which other beginnings are tried
-_SLOW = (0.1, 1.0)  # rad/s; slower joints may be stuck
+_SLOW = 0.1  # rad/s; slower joints may be stuck
 _ENOUGH = 0.5  # of log-likelihood
 _STEPS = 8
 
@@ -46,7 +46,7 @@ def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bo
 
 def _others(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None) -> list[WindowAt]:
     """Where descents from other beginnings end."""
-    starts = [at.own, np.zeros(at.own.size), *(run.still(window, slow) for slow in _SLOW)]
+    starts = [np.zeros(at.own.size), run.still(window, _SLOW)]
     begun = [run.window(window, shared, start, memory) for start in starts]
     return [_descent(run, window, shared, one, memory) for one in begun if one is not None]
 
