@@ -10,6 +10,7 @@ import pytest
 from scipy.optimize import lsq_linear
 
 from continuum.identification.arrow_least_squares import (
+    MOST_MISFIT,
     FitStatus,
     Part,
     Solution,
@@ -173,6 +174,12 @@ def test_the_weight_is_the_slope_of_the_misfit(size: float) -> None:
     s = float(errors @ errors)
     slope = (misfit(s * (1 + 1e-5)) - misfit(s * (1 - 1e-5))) / (2e-5 * s)
     assert weight_of(Part(errors, np.zeros((60, 0)), np.zeros((60, 0)))) == pytest.approx(slope, rel=1e-6)
+
+
+def test_a_window_in_which_nothing_fits_counts_no_more_than_a_few_others() -> None:
+    awful = Part(40 * np.ones(50), np.zeros((50, 0)), np.zeros((50, 0)))
+    assert 0.8 * MOST_MISFIT < misfit_of(awful) / 50 < MOST_MISFIT
+    assert weight_of(awful) < 1e-3
 
 
 def test_noise_has_the_weight_one() -> None:

@@ -64,7 +64,7 @@ def acts_at_joints(effect: str) -> bool:
 
 
 def beginning(space: FreeSpace, added: int) -> Array:
-    """Coordinates to begin a fit at, (k,): the last ``added`` ones at part of a typical size if they cannot be negative.
+    """Coordinates to begin a fit at, (k,): of the last ``added`` at part of a typical size if it cannot be negative.
 
     Where an unknown may have either sign, slopes at zero show the way.
     """

@@ -11,6 +11,8 @@ from continuum.discovery.trial import Trial
 
 _UNEXPLAINED = 2.0  # misfit of a window beside that of noise
 _ADEQUATE = 0.04  # share of windows that may stay so: sticking joints now and then hold one
+_SIGNIFICANT, _DISTINCT = 15.0, 8.0  # log-likelihood
+_SPREAD = 1.5  # deviations
 _STRETCH = 4  # windows, over which errors may hang together
 
 
@@ -21,20 +23,27 @@ class Gain:
     Attributes:
         log_likelihood: sum over all windows.
         deviation: standard deviation of that sum, from stretches of windows.
+        rest: the same sum without the run that gains most; of a single run, without its best quarter.
     """
 
     log_likelihood: float
     deviation: float
+    rest: float
 
     @property
     def is_significant(self) -> bool:
-        """Whether it is more than chance gives with some forty hypotheses tried, and not the doing of few stretches."""
-        return self.log_likelihood > max(15.0, 2.2 * self.deviation)
+        """Whether it is more than chance gives with some forty hypotheses tried, and not the doing of one run."""
+        return self.rest > _SIGNIFICANT and self._is_spread
 
     @property
     def is_distinct(self) -> bool:
         """Whether one of two hypotheses is told from the other by it."""
-        return self.log_likelihood > max(8.0, 2.0 * self.deviation)
+        return self.rest > _DISTINCT and self._is_spread
+
+    @property
+    def _is_spread(self) -> bool:
+        """Whether more than two stretches make it."""
+        return self.log_likelihood > _SPREAD * self.deviation
 
 
 def unexplained(trial: Trial) -> float:
@@ -49,9 +58,11 @@ def is_adequate(trial: Trial) -> bool:
 
 def gain(trial: Trial, over: Trial) -> Gain:
     """Of one trial over another, both of the same data."""
-    each = [(b - a) / 2 for a, b in zip(trial.held_out, over.held_out, strict=True)]
-    stretches = np.concatenate([_stretched(run) for run in each])
-    return Gain(float(stretches.sum()), float(np.std(stretches) * np.sqrt(stretches.size)))
+    each = [_stretched((b - a) / 2) for a, b in zip(trial.held_out, over.held_out, strict=True)]
+    stretches = np.concatenate(each)
+    total = float(stretches.sum())
+    best = max(float(run.sum()) for run in each)
+    return Gain(total, float(np.std(stretches) * np.sqrt(stretches.size)), total - best)
 
 
 def _stretched(run: Array) -> Array:

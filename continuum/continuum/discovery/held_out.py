@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.identification.arrow_least_squares import Part, misfit_of, reduced, weight_of
+from continuum.identification.arrow_least_squares import MOST_MISFIT, Part, misfit_of, reduced, weight_of
 from continuum.identification.fit import Fit
 
 
@@ -18,10 +18,13 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
 
     What belongs to a run alone, its windows' first states and its sensors' offsets, is the run's own; that is paid
     for with half the logarithm of the number of errors for each such unknown (Schwarz 1978). With one run, stretches
-    of it are held out instead.
+    of it are held out instead. A model that could not be simulated explains no window.
     """
     spread = fitted.unknowns.own_spread
     groups, single = _groups(fitted), len(fitted.runs) == 1
+    if not fitted.parts:
+        nothing = MOST_MISFIT * np.concatenate([run.errors_by_window for run in fitted.runs])
+        return [nothing[group] for group in groups]
     slopes = [reduced(part, spread) for part in fitted.parts]
     weights = [weight_of(part) for part in fitted.parts]
     found: list[Array] = []

@@ -8,7 +8,7 @@ fitted to the end and found its joints.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import gain, is_adequate
@@ -20,7 +20,7 @@ _LEADERS = 5
 _LEADING = 0.35  # of the best one's hope
 _HOPELESS = 4.0  # log-likelihood on half of the runs
 _CONTENDING = 0.5  # of the best one's gain
-_LEADER_ITERATIONS, _ITERATIONS, _BASELINE_ITERATIONS = 8, 12, 16
+_LEADER_ITERATIONS, _ITERATIONS, _BASELINE_ITERATIONS = 8, 12, 10
 _ROUNDS = 3
 
 
@@ -54,7 +54,7 @@ def tell_nobody(_what: str, _part: float) -> None:
 
 
 def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[Round]]:
-    """The baseline and all rounds; the last one found nothing, or left nothing to find.
+    """The baseline and the rounds, one for each effect that was found; a last one may have found nothing.
 
     Args:
         make: makes trials.
@@ -69,9 +69,22 @@ def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[
         rounds.append(_round(make, before, effects, lambda part: tell(f"effects, round {len(rounds) + 1}", part)))
         if rounds[-1].best is before:
             break
+        if len(rounds) == 2:
+            rounds = _first_anew(make, rounds[0], rounds[1], effects, lambda part: tell("the first one anew", part))
         before = rounds[-1].best
     tell("done", 1.0)
     return baseline, rounds
+
+
+def _first_anew(
+    make: Make, first: Round, second: Round, effects: Sequence[str], tell: Callable[[float], None]
+) -> list[Round]:
+    """The first effect sought once more, now beside the second: it was found while that one was still unknown."""
+    (alone,) = make([Task(second.best.extension[-1:], second.best, _ITERATIONS)])
+    again = _round(make, alone, effects, tell)
+    if again.best is alone:  # the second one alone does it
+        return [replace(first, leaders=(alone, *first.leaders))]
+    return [second, again]
 
 
 def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[float], None]) -> Round:

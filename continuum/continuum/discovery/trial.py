@@ -12,7 +12,7 @@ from continuum.discovery.held_out import held_out_misfits
 from continuum.discovery.question import Question
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.simulator import Simulator
-from continuum.identification.arrow_least_squares import MOST_MISFIT, FitStatus
+from continuum.identification.arrow_least_squares import FitStatus
 from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free, FreeSpace
 
@@ -45,7 +45,7 @@ class Trial:
     held_out: tuple[Array, ...]
     sizes: tuple[Array, ...]
     simulations: int
-    promised: float
+    promised: float = 0.0
 
     @property
     def misfit(self) -> float:
@@ -85,8 +85,8 @@ def fit_extension(
 
 
 def judged(extension: Extension, fitted: Fit) -> Trial:
-    """The trial of an extension that was fitted; one that could not be simulated explains no window."""
-    held_out = held_out_misfits(fitted) if fitted.parts else [MOST_MISFIT * run.errors_by_window for run in fitted.runs]
+    """The trial of an extension that was fitted."""
+    held_out = held_out_misfits(fitted)
     own = fitted.unknowns.own_spread.size
     sizes = np.maximum(np.concatenate([run.errors_by_window for run in fitted.runs]) - own, 1.0)
     return Trial(

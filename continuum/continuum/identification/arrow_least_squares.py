@@ -3,8 +3,8 @@
 Levenberg and Marquardt's method. Eliminating each window's own unknowns (Schur complement) leaves a system in the
 shared ones, so that the cost grows with the number of windows only linearly. Every unknown has a prior, which keeps
 the system regular where the data say nothing; the shared ones have bounds. Few windows in which nothing fits, where a
-joint was about to slip and did not, shall not decide: beyond what noise explains a window's misfit counts less and
-less, and never more than some times its number of errors (Geman and McClure 1985).
+joint was about to slip and did not, shall not decide: beyond what noise explains a window's misfit counts by its
+logarithm (Student's distribution, of few degrees of freedom).
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ _ENOUGH = 0.5  # of log-likelihood: a smaller expected gain is not worth a step
 _ENOUGH_OF_COST = 5e-4
 _LEAST_DAMPING, _MOST_DAMPING = 1e-6, 1e4
 _NEAR = 0.03  # of the cost: expected to gain less, the search seeks bad windows anew for the first time
-_TAIL = 3.0  # the most that a window's misfit counts beyond that of noise, per error
-MOST_MISFIT = 1.0 + _TAIL
+_TAIL = 1.5  # misfit beyond that of noise, per error, at which a window counts half
+MOST_MISFIT = 12.0
 """Of a window in which nothing fits, per error."""
 _STALLED, _LOOKED_BACK = 1e-2, 6  # share of the cost that so many iterations must gain
 
@@ -144,12 +144,12 @@ def misfit_of(part: Part) -> float:
     """Twice the negative log-likelihood of a window, but for a constant: its squared errors while those are noise."""
     m, s = part.errors.size, float(part.errors @ part.errors)
     beyond = _beyond(part)
-    return min(s, m) + m * beyond * _TAIL / (beyond + _TAIL)
+    return min(s, m) + m * _TAIL * float(np.log1p(beyond / _TAIL))
 
 
 def weight_of(part: Part) -> float:
     """Weight of a window's squared errors, the slope of `misfit_of`: 1 where they are those of noise, less beyond."""
-    return (_TAIL / (_beyond(part) + _TAIL)) ** 2
+    return _TAIL / (_beyond(part) + _TAIL)
 
 
 def _beyond(part: Part) -> float:
