@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import gain, is_adequate
@@ -66,11 +67,11 @@ def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[
     rounds: list[Round] = []
     before = baseline
     while len(rounds) < _ROUNDS and not (rounds and is_adequate(before)):
-        rounds.append(_round(make, before, effects, lambda part: tell(f"effects, round {len(rounds) + 1}", part)))
+        rounds.append(_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}")))
         if rounds[-1].best is before:
             break
         if len(rounds) == 2:
-            rounds = _first_anew(make, rounds[0], rounds[1], effects, lambda part: tell("the first one anew", part))
+            rounds = _first_anew(make, rounds[0], rounds[1], effects, partial(tell, "the first effect anew"))
         before = rounds[-1].best
     tell("done", 1.0)
     return baseline, rounds

@@ -22,7 +22,8 @@ _ENOUGH = 0.5  # of log-likelihood: a smaller expected gain is not worth a step
 _ENOUGH_OF_COST = 5e-4
 _LEAST_DAMPING, _MOST_DAMPING = 1e-6, 1e4
 _NEAR = 0.03  # of the cost: expected to gain less, the search seeks bad windows anew for the first time
-_TAIL = 1.5  # misfit beyond that of noise, per error, at which a window counts half
+_NOISE = 1.5  # squared errors, per error, up to which they may be noise
+_TAIL = 1.0  # so far beyond, a window counts half
 MOST_MISFIT = 12.0
 """Of a window in which nothing fits, per error."""
 _STALLED, _LOOKED_BACK = 1e-2, 6  # share of the cost that so many iterations must gain
@@ -144,7 +145,7 @@ def misfit_of(part: Part) -> float:
     """Twice the negative log-likelihood of a window, but for a constant: its squared errors while those are noise."""
     m, s = part.errors.size, float(part.errors @ part.errors)
     beyond = _beyond(part)
-    return min(s, m) + m * _TAIL * float(np.log1p(beyond / _TAIL))
+    return min(s, _NOISE * m) + m * _TAIL * float(np.log1p(beyond / _TAIL))
 
 
 def weight_of(part: Part) -> float:
@@ -154,7 +155,7 @@ def weight_of(part: Part) -> float:
 
 def _beyond(part: Part) -> float:
     """Mean squared error beyond that of noise."""
-    return max(float(part.errors @ part.errors) / part.errors.size - 1.0, 0.0)
+    return max(float(part.errors @ part.errors) / part.errors.size - _NOISE, 0.0)
 
 
 def shared_information(unknowns: Unknowns, parts: Sequence[Part]) -> Array:

@@ -49,6 +49,8 @@ def _shares_before_jumps(recording: Recording) -> list[float]:
     """Of every jump, which part of the change of acceleration came before its row; the fastest joints count most."""
     if recording.theta_rate is None or recording.tensions is None:
         return []
+    if np.median(np.diff(recording.tensions.times)) > 1.5 * np.median(np.diff(recording.times)):
+        return []  # much else may have happened since the row before
     u = np.array([recording.tensions.at(time) for time in recording.times])
     acceleration = np.diff(recording.theta_rate, axis=0) / np.diff(recording.times)[:, None]
     found = []
