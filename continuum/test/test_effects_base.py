@@ -45,11 +45,13 @@ def test_a_plate_on_a_spring_obeys_lagrange() -> None:
         q, rate, acceleration = random.normal(size=(3, N + 1)) * [[0.5], [3.0], [30.0]]
         expected = lagrange(p, q, rate, acceleration)
         model = extended(Model(p), "base_compliance", {"compliance": 0.3, "frequency": 50.0, "damping": 0.2})
-        x = np.concatenate([q[1:], rate[1:], [q[0], rate[0]]])
-        v = np.concatenate([acceleration[1:], [rate[0], acceleration[0]]])
+        relative = np.concatenate([q[1:], rate[1:]])
+        seen, seen_rate, seen_acceleration = (np.append(c[0] + c[1], c[2:]) for c in (q, rate, acceleration))
+        x = np.concatenate([seen, seen_rate, [q[0], rate[0]]])
+        v = np.concatenate([seen_acceleration, [rate[0], acceleration[0]]])
         found = balance(model, x, v, np.array([3.0, 1.0]))
         joints = balance(
-            Model(replace(p, mass=1e-9 + 0 * p.mass, inertia=0 * p.inertia)), x[: 2 * N], v[:N], [3.0, 1.0]
+            Model(replace(p, mass=1e-9 + 0 * p.mass, inertia=0 * p.inertia)), relative, acceleration[1:], [3.0, 1.0]
         )
         np.testing.assert_allclose(found[:N], expected[1:] + joints, rtol=1e-6, atol=1e-7)
         plate = acceleration[0] / 50.0**2 + 2 * 0.2 * rate[0] / 50.0 + q[0]
@@ -65,7 +67,8 @@ def test_a_plate_without_damping_keeps_the_energy_of_arm_and_mount() -> None:
     states = simulator("base_compliance").around(model).run(x0, np.linspace(0, 0.4, 9), None, values).states
     total = []
     for state in states:
-        q, rate = np.append(state[-2], state[:N]), np.append(state[-1], state[N : 2 * N])
+        q = np.concatenate([state[-2:-1], [state[0] - state[-2]], state[1:N]])
+        rate = np.concatenate([state[-1:], [state[N] - state[-1]], state[N + 1 : 2 * N]])
         momentum = lagrange(model.parameters, q, 0 * rate, rate) - lagrange(model.parameters, q, 0 * rate, 0 * rate)
         spring = (np.sum(model.parameters.stiffness * q[1:] ** 2) + q[0] ** 2 / e + rate[0] ** 2 / (e * w**2)) / 2
         p, phi = model.parameters, np.cumsum(q)

@@ -10,6 +10,9 @@ from continuum.arrays import Array
 from continuum.dynamics.simulation_input import finite_array, output_times
 from continuum.errors import InvalidValueError
 
+LET_GO = -1e-3
+"""Tension [N] that says that a cable is let go: no motor lets it down, it is slack at once. No cable pushes by it."""
+
 
 @dataclass(frozen=True)
 class Tensions:
@@ -17,7 +20,7 @@ class Tensions:
 
     Attributes:
         times: of the rows, increasing, (rows,) [s].
-        values: tension of each cable, (rows, n_cables) [N], none negative.
+        values: tension of each cable, (rows, n_cables) [N], none negative but LET_GO: a cable that no motor holds.
         held: a row holds until the next one, as a command does; else tensions change linearly, as measured ones.
     """
 
@@ -30,8 +33,9 @@ class Tensions:
         values = finite_array("tensions", self.values, "finite, >= 0 N")
         if values.shape != (times.size, 2):
             raise InvalidValueError("shape of the tensions", values.shape, f"({times.size}, 2): two cables in each row")
-        if np.any(values < 0):
-            raise InvalidValueError("tension", float(values[values < 0][0]), "finite, >= 0 N")
+        wrong = values[(values < 0) & (values != LET_GO)]
+        if wrong.size:
+            raise InvalidValueError("tension", float(wrong[0]), "finite, >= 0 N")
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "values", values)
 

@@ -1,7 +1,7 @@
 """Motors that follow their command late: lag T' = u - T, of each cable, T what pulls.
 
 Motors under current control follow within 1 to 5 ms; geared servos and drives over a bus within 20 to 100 ms. The lag
-is never below 1e-5 s, of which nothing is seen.
+is never below 1e-5 s, of which nothing is seen. A cable that is let go has none.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.cable_states import LEAST_LAG, CableStates
+from continuum.effects.parts.cables import led
 
 
 class ActuatorLag(CableStates):
@@ -29,4 +30,4 @@ class ActuatorLag(CableStates):
     experiment = "Step the command with the arm held still and record the tension at the base of the cable."
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        return (own["lag"] + LEAST_LAG) * state_rate - (now.u - state)
+        return (own["lag"] * led(now.u) + LEAST_LAG) * state_rate - (now.u - state)

@@ -6,8 +6,9 @@ With e the mount's compliance, w_0 and zeta the frequency and damping of the pla
 
 Q_0 being the moment of the moving arm about the plate's centre: a link 0 without mass, of length d_0 = b_1, goes
 before the chain, its coupling A_0j = d_0 (m_j c_j + d_j sum of the masses beyond), A_00 = d_0^2 (sum of masses).
-The cables are anchored on the plate and the springs stand between links, so neither acts on psi. The air of
-`quadratic_drag` sees the plate's turn, not the sideways step of joint 1 that goes with it (psi' b_1).
+The cables are anchored on the plate and the springs stand between links, so neither acts on psi. No sensor sits on the
+plate: the angle of joint 1 is counted from where the plate stands unloaded, so that it is the joint's own and psi. The
+air of `quadratic_drag` sees the plate's turn, not the sideways step of joint 1 that goes with it (psi' b_1).
 
 A bench of 25 N m/rad (e = 0.04 rad/(N m)) gives way by 2.5 degrees to the 1.1 N m of the level arm. A plate of 1 kg
 and 100 mm, 0.003 kg m^2, swings on it at 90 rad/s.
@@ -56,6 +57,9 @@ class BaseCompliance(Effect):
     def move_base(self, motion: Motion, own: Own, state: Numbers, state_rate: Numbers) -> Motion:
         return replace(
             motion,
+            theta=_first_less(motion.theta, state[:1]),
+            theta_rate=_first_less(motion.theta_rate, state[1:]),
+            theta_acceleration=_first_less(motion.theta_acceleration, state_rate[1:]),
             base_angle=motion.base_angle + state[:1],
             base_rate=motion.base_rate + state[1:],
             base_acceleration=motion.base_acceleration + state_rate[1:],
@@ -75,12 +79,10 @@ class BaseCompliance(Effect):
 
     def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
         """The plate turned by the resting arm's weight."""
-        psi = np.zeros(1)
+        psi, of_links = np.zeros(1), np.sum(link_gravity_torque(np.cumsum(theta), p))
         for _ in range(20):  # Newton's method; the moment changes by less than its size when the plate turns a radian
-            lean = psi + np.cumsum(theta)
-            moment = np.sum(link_gravity_torque(lean, p)) + _hanging(psi, p)
-            slope = np.sum(p.gravity * mass_moments(p) * np.cos(p.hang_angle + lean))
-            slope += p.gravity * _first_moment(p) * np.cos(p.hang_angle + psi)
+            moment = of_links + _hanging(psi, p)
+            slope = p.gravity * _first_moment(p) * np.cos(p.hang_angle + psi)
             psi = psi - (psi + own["compliance"] * moment) / (1 + own["compliance"] * slope)
         return np.append(psi, 0.0)
 
@@ -91,6 +93,11 @@ class BaseCompliance(Effect):
         of_joint_1 = _first_moment(p) * move.base_acceleration + beyond.sum(keepdims=True)
         on_joints = rigid_body_torque(now)[:1] + self.torque(now, own, state, state_rate)[:1]
         return on_joints + _lever(p) * of_joint_1 + _hanging(move.base_angle, p)
+
+
+def _first_less(joints: Numbers, by: Numbers) -> Numbers:
+    """What belongs to the joints, the first one's less ``by``, (n,)."""
+    return joints - np.concatenate([by, np.zeros(joints.size - 1)])
 
 
 def _lean(move: Motion) -> Numbers:

@@ -23,7 +23,7 @@ from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.cable_states import LEAST_LAG, CableStates
-from continuum.effects.parts.cables import driven, lengthening_rate
+from continuum.effects.parts.cables import driven, led, lengthening_rate
 
 
 class ElasticCable(CableStates):
@@ -43,4 +43,4 @@ class ElasticCable(CableStates):
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         drawn = own["stiffness"] * driven(now.u) * lengthening_rate(now.motion, now.p)
-        return (own["lag"] + LEAST_LAG) * (state_rate - drawn) - (now.u - state)
+        return (own["lag"] * led(now.u) + LEAST_LAG) * (state_rate - drawn) - (now.u - state)

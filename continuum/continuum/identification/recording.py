@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.tensions import Tensions, slack
+from continuum.dynamics.tensions import LET_GO, Tensions, slack
 from continuum.errors import InvalidValueError
 
 
@@ -50,8 +50,18 @@ class Recording:
 
     @property
     def pull(self) -> Tensions:
-        """Tensions of the cables over time."""
-        return self.tensions or slack()
+        """Tensions of the cables over time.
+
+        Where they fall to nothing from one row to the next and stay so to the end, the cables were let go.
+        """
+        if self.tensions is None:
+            return slack()
+        values, pulled = self.tensions.values, np.flatnonzero(np.any(self.tensions.values > 0, axis=1))
+        if not pulled.size or pulled[-1] + 1 >= len(values) or len(np.unique(values[: pulled[-1] + 1], axis=0)) > 1:
+            return self.tensions
+        released = values.copy()
+        released[pulled[-1] + 1 :] = LET_GO
+        return replace(self.tensions, values=released)
 
     @property
     def is_driven(self) -> bool:

@@ -15,9 +15,10 @@ from continuum.arrays import Array
 from continuum.identification.arrow_least_squares import misfit_of
 from continuum.identification.window_residual import Memory, WindowAt, WindowResidual
 
-_BAD = 1.5  # misfit per error beyond which other beginnings are tried
+_BAD = 1.5  # squared errors, per error, beyond which other beginnings are tried
 _SLOW = 0.1  # rad/s; slower joints may be stuck
-_ENOUGH = 0.5  # of log-likelihood
+_ENOUGH = 0.5  # of squared errors: a smaller expected gain is not worth a step
+_ENOUGH_OF_BAD = 0.03  # the same, of squared errors that are not noise
 _STEPS = 8
 
 
@@ -37,7 +38,7 @@ def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bo
         if at is None:
             return None
         at = _descent(run, window, shared, at, memory)
-        if anew and misfit_of(at.part) > _BAD * at.part.errors.size:
+        if anew and at.part.errors @ at.part.errors > _BAD * at.part.errors.size:
             at = min((at, *_others(run, window, shared, at, memory)), key=lambda one: _cost(run, one))
         memory = at.memory
         found.append(at)
@@ -58,7 +59,8 @@ def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memo
         square = slopes.T @ slopes + np.diag(run.spread**-2.0)
         pull = slopes.T @ at.part.errors + at.own / run.spread**2
         step = -np.linalg.solve(square + damping * np.diag(np.diag(square)), pull)
-        if -pull @ step < _ENOUGH:  # twice the expected gain
+        bad = float(at.part.errors @ at.part.errors) - _BAD * at.part.errors.size
+        if -pull @ step < max(_ENOUGH, _ENOUGH_OF_BAD * bad):
             break
         there = run.window(window, shared, at.own + step, memory)
         if there is not None and _cost(run, there) < _cost(run, at):

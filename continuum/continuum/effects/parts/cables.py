@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.expressions import Numbers, where_positive
 from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.planar.cables import chord_lengths, chord_slopes
 from continuum.dynamics.planar.motion import Motion
@@ -19,6 +19,11 @@ def lengthening(move: Motion, p: Parameters) -> Numbers:
 def lengthening_rate(move: Motion, p: Parameters) -> Numbers:
     """Rate of the same, (n_cables,) [m/s]."""
     return (chord_slopes(move.theta, p) * move.theta_rate[:, None]).sum(axis=0)
+
+
+def led(u: Numbers) -> Numbers:
+    """1 where a motor leads the cable, be it to no tension, 0 where it was let go, (n_cables,)."""
+    return where_positive(-u, 0.0, 1.0)
 
 
 def driven(u: Numbers) -> Numbers:
