@@ -22,6 +22,7 @@ from identification_laws import (
 
 from continuum.dynamics.measuring import readings
 from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.values import parameter_vector
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.noise import Channel, Noise
 from continuum.identification.recording import Recording
@@ -174,7 +175,8 @@ def test_sensors_show_of_windows_what_they_show_of_the_whole_run(effect: str, le
     whole = readings(model, motion)
     run = Recording("run", times, whole.theta, whole.theta_rate)
     one = WindowResidual(simulator.around(model), run, 0, white_noise(), FreeSpace(model, ()), length)
-    own = [(motion.states[b] - m) / one._unit for b, m in zip(one._begin, one._measured, strict=True)]
+    first = [one._motion(window, parameter_vector(model)) for window in range(len(one.rows))]
+    own = [(motion.states[begin] - at) / one._unit for begin, at in zip(one._begin, first, strict=True)]
     seen = one.simulate(np.zeros(0), own)
     assert seen is not None
     np.testing.assert_array_equal(seen.times, times)

@@ -51,7 +51,8 @@ class WindowAt:
 class WindowResidual:
     """The residual of one recording as a function of the shared unknowns and of each window's own.
 
-    A window's own unknowns are the joints' angles and rates where it begins, (2 n,); that is before its first sample
+    A window's own unknowns are the joints' angles and rates where it begins, less those that were measured there and
+    what sensors have added to them, (2 n,); that is before its first sample
     if sensors show what was. States of effects run on from window to window, with their slopes; their own beginning is
     that of an arm at rest.
 
@@ -107,6 +108,7 @@ class WindowResidual:
         p = self.space.origin + self._directions @ shared
         free = np.hstack([self._directions, np.zeros((p.size, own.size))])
         slope0 = np.zeros((own.size + extra.size, free.shape[1]))
+        slope0[: own.size, :k] = self._motion_slopes(window, p)
         slope0[: own.size, k:] = np.diag(self._unit)
         slope0[own.size :] = memory.slopes
         run = self._run(window, p, own, extra, free, slope0)
@@ -151,10 +153,28 @@ class WindowResidual:
         """One window and the first sample after it, where the states of effects may be handed on."""
         self.windows_simulated += 1
         rows, times = self.rows[window], self.recording.times
-        x0 = np.concatenate([self._measured[window] + self._unit * own, extra])
+        x0 = np.concatenate([self._motion(window, p) + self._unit * own, extra])
         to = min(rows.stop + 1, times.size)
         run = self._simulator.run(x0, times[self._begin[window] : to], self.recording.pull, p, free, slope0)
         return run if run.status is SimulationStatus.COMPLETE else None
+
+    def _motion(self, window: int, p: Array) -> Array:
+        """Joint angles and rates that the measured ones mean where a window begins, to first order, (2 n,)."""
+        measured, n = self._measured[window], self._model.n_joints
+        if not self._of_sensors.size:
+            return measured
+        times = self.recording.times[self._begin[window] : self._begin[window] + 1]
+        alone = Trajectory(SimulationStatus.COMPLETE, times, measured[None], n, 0, 0, np.zeros((1, measured.size, 0)))
+        seen = self._readings(p, alone)
+        return np.asarray(2 * measured - np.concatenate([seen.theta[0], seen.theta_rate[0]]))
+
+    def _motion_slopes(self, window: int, p: Array) -> Array:
+        """Their change by one unit of each shared unknown, (2 n, k)."""
+        slopes = np.zeros((self._unit.size, self._directions.shape[1]))
+        here = self._motion(window, p)
+        for column in np.flatnonzero(self._directions[self._of_sensors].any(axis=0)):
+            slopes[:, column] = (self._motion(window, p + _NUDGE * self._directions[:, column]) - here) / _NUDGE
+        return slopes
 
     def first_memory(self, shared: Array, own: Array) -> Memory:
         """States of the effects at the first sample, as in an arm at rest."""
@@ -164,8 +184,9 @@ class WindowResidual:
         p, u = self.space.origin + self._directions @ shared, self.recording.pull.at(self.recording.times[0])
 
         def states(by: Array) -> Array:
-            model = with_vector(self._model, p + self._directions @ by[: shared.size])
-            theta = (self._measured[0] + self._unit * (own + by[shared.size :]))[:n]
+            values = p + self._directions @ by[: shared.size]
+            model = with_vector(self._model, values)
+            theta = (self._motion(0, values) + self._unit * (own + by[shared.size :]))[:n]
             return np.concatenate([a.effect.initial_state(theta, u, a.values, model.parameters) for a in model.effects])
 
         begin = states(np.zeros(shared.size + own.size))
