@@ -142,9 +142,10 @@ def test_rows_that_are_not_whole_are_left_out_and_told(tmp_path: Path, cell: str
     np.testing.assert_array_equal(found.theta, np.delete(ANGLES, (4, 70), axis=0))
 
 
-def test_a_repeated_time_is_left_out_and_told(tmp_path: Path) -> None:
+@pytest.mark.parametrize("later", [0.0, 1e-12])
+def test_a_repeated_time_is_left_out_and_told(tmp_path: Path, later: float) -> None:
     table = sway()
-    table["t_s"][9] = table["t_s"][8]
+    table["t_s"][9] = repr(float(table["t_s"][8]) + later)
     found = read_recording_csv(write(tmp_path, table))
     assert found.notes == ("row 11 with the time of the row before, left out",)
     np.testing.assert_array_equal(found.times, np.delete(T, 9))

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +41,13 @@ class Score:
             return f"{part} | {self.median:.1f} | | {self.iterations:.0f} |"
         part = f"{100 * self.solved:.3f} %" + (f" ({n_failed} of {self.n} not)" if n_failed else "")
         return f"{part} | {self.median:.1f} | {self.p99:.1f} | {self.iterations:.0f} | {self.iterations_p99:.0f}"
+
+
+def quietest(measure: Callable[[], Score]) -> Score:
+    """The quickest of three measurements, as others use the machine too; solved is what was solved in every one."""
+    scores = [measure() for _ in range(3)]
+    best = min(scores, key=lambda score: score.median)
+    return replace(best, solved=min(score.solved for score in scores))
 
 
 def score_solver(sample: Sample, tolerance: float, from_random: bool) -> Score:

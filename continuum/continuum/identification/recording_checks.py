@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from continuum.arrays import Array
 from continuum.errors import FileError
 
+_SAME_TIME = 1e-7  # s: no sensor is that fast
 _FEWEST_ROWS = 30
 _LONGEST_GAP = 0.25  # s; the arm may do anything in a longer one
 _MOST_BAD = 0.1  # of all rows
@@ -72,7 +73,7 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
 
     good = leave_out(~_complete(good), "without a finite value in every column")
     _refuse_backward(good)
-    good = leave_out(np.diff(good.times, prepend=-np.inf) == 0, f"with the time of the {good.row} before")
+    good = leave_out(np.diff(good.times, prepend=-np.inf) < _SAME_TIME, f"with the time of the {good.row} before")
     good = leave_out(_clipped(good), "with a clipped rate")
     if good.times.size < _FEWEST_ROWS:
         told = "; ".join(["", *notes])
