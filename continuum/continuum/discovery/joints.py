@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.dynamics.effect_lookup import effect_named
 from continuum.identification.fit import Fit
 
 _PART = 0.85  # of what all joints gain must be gained by those named
+_PART_OF_RUNS = 0.98  # the same, of an effect whose every joint has a value of its own in every run, as sensors' zeros
 _ENOUGH = 8.0  # or all but this much log-likelihood
 
 
@@ -24,6 +26,8 @@ def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
     precision = np.linalg.inv(np.linalg.inv(fitted.information)[np.ix_(mine, mine)])
     found = fitted.coordinates[mine]
     whole = _loss(precision, found, common)
+    anew = any(parameter.per_recording for parameter in effect_named(effect).parameters.values())
+    least = max((1 - (_PART_OF_RUNS if anew else _PART)) * whole, _ENOUGH)
     chosen: list[int] = []
     while len(chosen) < len(by_joint):
         losses = {
@@ -33,7 +37,7 @@ def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
         }
         best = min(losses, key=lambda j: losses[j])
         chosen.append(best)
-        if losses[best] < max((1 - _PART) * whole, _ENOUGH):
+        if losses[best] < least:
             break
     return tuple(sorted(chosen))
 
