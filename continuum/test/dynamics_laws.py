@@ -113,7 +113,7 @@ class Wind(Effect):
         "torque": Parameter("t_w", "N m", -1.0, 1.0, True, "torque against the joint's bend", 0.0)
     }
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """As its parameter says."""
         return own["torque"] * np.ones(now.p.n_joints)
 
@@ -174,7 +174,7 @@ class Sag(Effect):
         "share": Parameter("s", "1", 0.0, 1.0, False, "lean of a link per angle of its joint", 0.0)
     }
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """Gravity where the links lean, less gravity where they do not."""
         leaning = replace(now.motion, theta=now.motion.theta * (1 + own["share"]))
         return gravity_torque(leaning.link_angle, now.p) - gravity_torque(now.motion.link_angle, now.p)
@@ -188,7 +188,7 @@ class Broken(Effect):
         "limit": Parameter("l", "rad", -10.0, 10.0, False, "angle up to which it is a number", 10.0)
     }
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """A square root of what becomes negative."""
         return 1e-9 * np.sqrt(own["limit"] - now.motion.theta)
 

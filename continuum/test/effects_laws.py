@@ -94,7 +94,7 @@ def torque_of(name: str, now: Instant, state: np.ndarray | None = None, **values
     """Torque that the effect adds, (n,)."""
     one = active(effect_of(name), now.p.n_joints, **values)
     state = np.zeros(0) if state is None else state
-    return one.effect.torque(now, one.values, state, np.zeros(state.size)) * np.ones(now.p.n_joints)
+    return one.effect.torque(now, one.values, state) * np.ones(now.p.n_joints)
 
 
 def instants(seed: int, count: int = 30, u: np.ndarray = LOOSE) -> list[Instant]:

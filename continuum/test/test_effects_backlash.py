@@ -55,9 +55,7 @@ def turned(amplitudes: np.ndarray, speeds: np.ndarray) -> Turned:
     found = solve_ivp(rates, (0.0, TIMES[-1]), start, "BDF", TIMES, rtol=1e-5, atol=1e-7)
     instants = [now(t) for t in TIMES]
     theta, rate = (np.array([getattr(at.motion, name)[0] for at in instants]) for name in ("theta", "theta_rate"))
-    added = [
-        one.effect.torque(at, one.values, state, np.zeros(2))[0] for at, state in zip(instants, found.y.T, strict=True)
-    ]
+    added = [one.effect.torque(at, one.values, state)[0] for at, state in zip(instants, found.y.T, strict=True)]
     torque = np.array(added) + spring_torque(theta, p) + joint_friction(rate, p)
     return Turned(p, theta, rate, *found.y, torque)
 
@@ -109,7 +107,7 @@ def test_a_resting_ball_leans_on_the_stop_that_its_spring_pulls_it_to() -> None:
     y = one.effect.initial_state(theta, LOOSE, one.values, p)
     np.testing.assert_allclose(y[:N], [GAP, 0.02, 0.0, -0.02, -GAP], atol=2e-3)
     now = Instant(moving(theta, np.zeros(N)), LOOSE, p)
-    carried = one.effect.torque(now, one.values, y, np.zeros(2 * N)) + spring_torque(theta, p)
+    carried = one.effect.torque(now, one.values, y) + spring_torque(theta, p)
     np.testing.assert_allclose(carried, p.stiffness * [0.25, 0.0, 0.0, 0.0, -0.25], atol=2e-3)
 
 
@@ -119,5 +117,5 @@ def test_without_play_only_the_stops_give_way() -> None:
     theta = np.array([0.3, 0.02, 0.0, -0.02, -0.3])
     y = one.effect.initial_state(theta, LOOSE, one.values, p)
     now = Instant(moving(theta, np.zeros(N)), LOOSE, p)
-    np.testing.assert_allclose(one.effect.torque(now, one.values, y, np.zeros(2 * N)), 0, atol=1e-13)
+    np.testing.assert_allclose(one.effect.torque(now, one.values, y), 0, atol=1e-13)
     np.testing.assert_allclose(y[:N], spring_torque(theta, p) / (STOP + p.stiffness), rtol=1e-9)

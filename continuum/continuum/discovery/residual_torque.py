@@ -39,7 +39,7 @@ class ExtraTorque(Effect):
         "torque": Parameter("tau", "N m", -1e3, 1e3, True, "what is missing", 0.0, _TYPICAL)
     }
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:  # noqa: ARG002
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:  # noqa: ARG002
         """Minus the torque, as it stands on the left."""
         return -own["torque"]
 

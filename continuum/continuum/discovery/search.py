@@ -68,10 +68,10 @@ def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[
     before = baseline
     while len(rounds) < _ROUNDS and not (rounds and is_adequate(before)):
         rounds.append(_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}")))
-        if rounds[-1].best is before:
-            break
-        if len(rounds) == 2:
+        if len(rounds) == 2 and rounds[-1].best is not before:
             rounds = _first_anew(make, rounds[0], rounds[1], effects, partial(tell, "the first effect anew"))
+        if rounds[-1].best is rounds[-1].before:
+            break
         before = rounds[-1].best
     tell("done", 1.0)
     return baseline, rounds
@@ -84,7 +84,7 @@ def _first_anew(
     (alone,) = make([Task(second.best.extension[-1:], second.best, _ITERATIONS)])
     again = _round(make, alone, effects, tell)
     if again.best is alone:  # the second one alone does it
-        return [replace(first, leaders=(alone, *first.leaders))]
+        return [replace(first, leaders=(alone, *first.leaders)), again]
     return [second, again]
 
 

@@ -27,8 +27,8 @@ def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | N
     now, told = _instant(model, x, v, u, motion or joint_motion(model, x, v))
     parts = list(_parts(model, x, v))
     torque = torque_balance(now)
-    for active, state, rate in parts:
-        torque = torque + active.effect.torque(now, active.values, state, rate)
+    for active, state, _ in parts:
+        torque = torque + active.effect.torque(now, active.values, state)
     own = [
         active.effect.state_balance(replace(now, u=told_it), active.values, state, rate)
         for (active, state, rate), told_it in zip(parts, told, strict=True)

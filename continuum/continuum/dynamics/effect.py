@@ -63,7 +63,7 @@ class Effect:
         """Tensions of the cables at the base, (n_cables,) [N], of those commanded."""
         return u
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """Added to the left side of Eq. 12, (n,) or (1,) [N m]: a torque that resists."""
         return np.zeros(1)
 

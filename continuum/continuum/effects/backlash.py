@@ -53,7 +53,7 @@ class Backlash(Effect):
         """y and dy/dt of each joint [rad, rad/s]."""
         return 2 * n_joints
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """T in the place of spring and friction of Eq. 12, (n,) [N m]."""
         move, p = now.motion, now.p
         taken = spring_torque(move.theta, p) + joint_friction(move.theta_rate, p)

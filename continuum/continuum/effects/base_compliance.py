@@ -65,7 +65,7 @@ class BaseCompliance(Effect):
             base_acceleration=motion.base_acceleration + state_rate[1:],
         )
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """Of the links' mass that joint 1, moved by the plate, drags along."""
         move, lean = now.motion, _lean(now.motion)
         pushed = np.cos(lean) * move.base_acceleration + np.sin(lean) * move.base_rate**2
@@ -74,7 +74,7 @@ class BaseCompliance(Effect):
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         angle, rate, w = state[:1], state[1:], own["frequency"]
         moved = state_rate[1:] / w**2 + 2 * own["damping"] * rate / w + angle
-        moment = self._moment(now, own, state, state_rate)
+        moment = self._moment(now, own, state)
         return np.concatenate([state_rate[:1] - rate, moved + own["compliance"] * moment])
 
     def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
@@ -86,12 +86,12 @@ class BaseCompliance(Effect):
             psi = psi - (psi + own["compliance"] * moment) / (1 + own["compliance"] * slope)
         return np.append(psi, 0.0)
 
-    def _moment(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def _moment(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """Q_0, (1,) [N m]."""
         move, p, lean = now.motion, now.p, _lean(now.motion)
         beyond = mass_moments(p) * (np.cos(lean) * move.link_acceleration - np.sin(lean) * move.link_rate**2)
         of_joint_1 = _first_moment(p) * move.base_acceleration + beyond.sum(keepdims=True)
-        on_joints = rigid_body_torque(now)[:1] + self.torque(now, own, state, state_rate)[:1]
+        on_joints = rigid_body_torque(now)[:1] + self.torque(now, own, state)[:1]
         return on_joints + _lever(p) * of_joint_1 + _hanging(move.base_angle, p)
 
 

@@ -27,5 +27,5 @@ class HardeningSpring(Effect):
     looks_like = "Large swings are faster than small ones, and joints bend less than in proportion to a large load."
     experiment = "Hang growing weights on the tip and read the joints' angles at rest: the line bends upwards."
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         return own["cubic"] * (now.motion.theta - now.p.rest_angle) ** 3

@@ -47,7 +47,7 @@ class HeldCable(Effect):
     looks_like = "Beyond a certain bend to one side the arm is held back and thrown back, all joints at once."
     experiment = "Take the cables off, or give them more slack, and release again."
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """-J_s^T W B T, (n,) [N m]: not by way of the commanded tensions, whose corner at 0 is where k begins."""
         move, p = now.motion, now.p
         local = tension_propagation(move.theta, move.theta_rate, p) * held_tension(now, own)

@@ -40,7 +40,7 @@ class LoadFriction(Effect):
     looks_like = "Joints near the base stick more than those near the tip, and all stick more when cables pull."
     experiment = "Release the arm with and without a weight on its tip, or pull both cables alike while it swings."
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         w, p = now.motion.theta_rate, now.p
         force = joint_force(now)
         size = np.sqrt((force * force).sum(axis=1) + _LEAST_FORCE**2)

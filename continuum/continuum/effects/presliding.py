@@ -49,7 +49,7 @@ class Presliding(Effect):
         """s of each joint [1]."""
         return n_joints
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """The dry friction with memory less the one without, (n,) [N m]."""
         w, p = now.motion.theta_rate, now.p
         return p.coulomb_friction * state - dry_friction(w, p) * smooth_sign(w, p.friction_slope)

@@ -36,7 +36,7 @@ class QuadraticDrag(Effect):
     looks_like = "Fast swings, above all of the tip, lose more than the model says, and slow ones nothing."
     experiment = "Release from a large and from a small angle and compare what each swing keeps of the one before."
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         v = speed_across(now.motion, now.p)
         force, none = own["drag"] * rounded_size(v, _STILL) * v, np.zeros(now.p.n_joints)
         return serial_jacobian_transposed_times(np.stack([force, none, none], axis=1), now.motion.link_angle, now.p)

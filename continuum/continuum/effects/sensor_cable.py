@@ -33,7 +33,7 @@ class SensorCable(Effect):
     looks_like = "Joint 1 alone is stiffer, damped more and drawn to one side."
     experiment = "Take the charging cable off, or tie it elsewhere, and release again."
 
-    def torque(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         theta, w = now.motion.theta[:1], now.motion.theta_rate[:1]
         bent = own["preload"] + own["stiffness"] * theta
         rubbing = own["viscous"] * w + own["dry"] * smooth_sign(w, now.p.friction_slope)

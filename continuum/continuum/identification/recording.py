@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -48,11 +49,11 @@ class Recording:
         """Number of joints."""
         return int(self.theta.shape[1])
 
-    @property
+    @cached_property
     def pull(self) -> Tensions:
         """Tensions of the cables over time.
 
-        Where they fall to nothing from one row to the next and stay so to the end, the cables were let go.
+        Where constant ones fall to nothing from one row to the next and stay so to the end, the cables were let go.
         """
         if self.tensions is None:
             return slack()

@@ -199,9 +199,10 @@ class WindowResidual:
         angle, rate = run.slopes[:, :n].copy(), run.slopes[:, n : 2 * n].copy()
         if not self._of_sensors.size:
             return angle, rate
+        model = with_vector(self._model, p)
         for column in range(free.shape[1]):
             # measuring is affine in the motion, so that one whole slope may be added to it
-            moved = self._readings(p, _moved(run, run.slopes[:, :, column]))
+            moved = self._read(model, _moved(run, run.slopes[:, :, column]))
             nudged = seen
             if np.any(free[self._of_sensors, column]):
                 nudged = self._readings(p + _NUDGE * free[:, column], run)
@@ -220,7 +221,10 @@ class WindowResidual:
         return self._begin[following] - self._begin[window] if following < len(self.rows) else -1
 
     def _readings(self, p: Array, run: Trajectory) -> Reading:
-        return readings(with_vector(self._model, p), run, float(self.recording.times[0]))
+        return self._read(with_vector(self._model, p), run)
+
+    def _read(self, model: Model, run: Trajectory) -> Reading:
+        return readings(model, run, float(self.recording.times[0]))
 
     def _errors(self, window: int, seen: Reading) -> Array:
         rows, rate = self.rows[window], self.recording.theta_rate
