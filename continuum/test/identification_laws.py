@@ -10,7 +10,7 @@ from dynamics_laws import prototype_model
 from effects_laws import extended
 
 from continuum.dynamics.integration.tolerances import Tolerances
-from continuum.dynamics.measuring import readings
+from continuum.dynamics.measuring import lateness, readings
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.identification.noise import Channel, Noise
@@ -69,7 +69,11 @@ def recorded(
     u = np.zeros(2) if tensions is None else tensions.at(0.0)
     theta = np.array(bend)
     states = [a.effect.initial_state(theta, u, a.values, model.parameters) for a in model.effects]
-    run = simulator.around(model).run(np.concatenate([theta, 0 * theta, *states]), times, tensions)
+    run = simulator.around(model).run(
+        np.concatenate([theta, 0 * theta, *states]),
+        times,
+        None if tensions is None else tensions.later(lateness(model)),
+    )
     seen = readings(model, run)
     angle, rate = seen.theta, seen.theta_rate
     if random is not None:

@@ -28,6 +28,7 @@ from effects_laws import (
 import continuum.effects
 from continuum.dynamics.balance import balance
 from continuum.dynamics.effect import Effect
+from continuum.dynamics.measuring import lateness
 from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.reading import Reading
@@ -208,7 +209,8 @@ def test_what_it_does_is_seen(name: str) -> None:
     seen = []
     for size in (0.0, 1.0):
         model = prototype_with(name, size)
-        run = simulator(name).around(model).run(resting_state(model, RELEASED, PULLS.at(0.0)), TIMES, PULLS)
+        pulls = PULLS.later(lateness(model))
+        run = simulator(name).around(model).run(resting_state(model, RELEASED, pulls.at(0.0)), TIMES, pulls)
         reading = Reading(run.times, run.theta, run.theta_rate, 0.0)
         seen.append(model.effects[0].effect.measure(reading, model.effects[0].values).theta)
     assert np.degrees(np.abs(seen[1] - seen[0])).max() > 0.1

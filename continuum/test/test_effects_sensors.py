@@ -15,16 +15,6 @@ def seen_by(name: str, reading: Reading, **values: float) -> Reading:
     return one.effect.measure(reading, one.values)
 
 
-def test_a_delay_shows_what_was_and_begins_straight() -> None:
-    cubic, times = np.polynomial.Polynomial([0.3, 1.0, -2.0, 1.5]), np.linspace(1.0, 1.5, 60)
-    reading = Reading(times, cubic(times)[:, None], cubic.deriv()(times)[:, None], 1.0)
-    late = seen_by("sensor_delay", reading, delay=0.04)
-    inside = times - 0.04 >= times[0]
-    np.testing.assert_allclose(late.theta[inside, 0], cubic(times - 0.04)[inside], atol=1e-12)
-    np.testing.assert_allclose(late.theta_rate[inside, 0], cubic.deriv()(times - 0.04)[inside], atol=1e-10)
-    np.testing.assert_allclose(late.theta[0, 0], cubic(1.0) - 0.04 * cubic.deriv()(1.0), atol=1e-12)
-
-
 def test_offset_and_drift() -> None:
     times = np.linspace(2.0, 3.0, 5)
     reading = Reading(times, np.outer(times, [1.0, 2.0]), np.ones((5, 2)), 2.0)

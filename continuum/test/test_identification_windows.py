@@ -161,13 +161,13 @@ def test_simulating_all_windows_gives_what_their_errors_are_made_of(effect: str 
     np.testing.assert_allclose(errors(one, shared, own), np.concatenate(expected), rtol=1e-6, atol=1e-6)
 
 
-REMEMBERING = {"gyro_drift": {"bias": [0.1, -0.2]}, "sensor_delay": {"delay": 0.04}, "sensor_scale": {"gain": 0.1}}
+REMEMBERING = {"gyro_drift": {"bias": [0.1, -0.2]}, "sensor_scale": {"gain": 0.1}}
 
 
 @pytest.mark.parametrize("effect", REMEMBERING)
 @pytest.mark.parametrize("length", [0.03, 0.067, None])
 def test_sensors_show_of_windows_what_they_show_of_the_whole_run(effect: str, length: float | None) -> None:
-    """A drift goes on from the run's beginning; a late sensor shows of a window's first samples what was before it."""
+    """A drift goes on from the run's beginning."""
     simulator = small_simulator(effect)
     model = simulator.model.with_values({f"{effect}.{key}": value for key, value in REMEMBERING[effect].items()})
     times = 3.0 + np.arange(60) / 120
@@ -176,12 +176,28 @@ def test_sensors_show_of_windows_what_they_show_of_the_whole_run(effect: str, le
     run = Recording("run", times, whole.theta, whole.theta_rate)
     one = WindowResidual(simulator.around(model), run, 0, white_noise(), FreeSpace(model, ()), length)
     first = [one._motion(window, parameter_vector(model)) for window in range(len(one.rows))]
-    own = [(motion.states[begin] - at) / one._unit for begin, at in zip(one._begin, first, strict=True)]
+    own = [(motion.states[rows.start] - at) / one._unit for rows, at in zip(one.rows, first, strict=True)]
     seen = one.simulate(np.zeros(0), own)
     assert seen is not None
     np.testing.assert_array_equal(seen.times, times)
     np.testing.assert_allclose(seen.theta, whole.theta, atol=1e-5)
     np.testing.assert_allclose(seen.theta_rate, whole.theta_rate, atol=1e-4)
+
+
+@pytest.mark.parametrize("length", [0.067, None])
+def test_late_sensors_show_the_motion_that_was(length: float | None) -> None:
+    """Samples of a motion, stamped late while the tensions are not, are told by the delay without an error."""
+    simulator, late = small_simulator("sensor_delay"), 5 / 120
+    on_time = simulated(simulator)
+    assert on_time.theta_rate is not None
+    run = Recording("run", on_time.times[5:], on_time.theta[:-5], on_time.theta_rate[:-5], on_time.tensions)
+    truth = simulator.around(simulator.model.with_values({"sensor_delay.delay": late}))
+    left = []
+    for at in (truth, simulator):
+        one = WindowResidual(at, run, 0, white_noise(), FreeSpace(at.model, ()), length)
+        left.append(np.max(np.abs(errors(one, np.zeros(0), one.start))))
+    assert left[0] < 0.02
+    assert left[1] > 5
 
 
 def test_windows_that_were_simulated_are_counted() -> None:

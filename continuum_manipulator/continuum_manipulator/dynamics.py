@@ -155,7 +155,7 @@ class DynamicsNode(CheckedNode):
             if self._failure is not None or time.monotonic() - began > LONGEST_GO:
                 break
             self._advance(number)
-        self._meter.mark(Mark(time.monotonic(), time.process_time(), self._pace.seconds(self._pace.last)))
+        self._meter.mark(Mark(began, time.process_time(), self._pace.covered(now)))
         if self._pace.lag(now) > 0.0 and self._failure is None:
             self._catch_up.reset()
         else:

@@ -10,7 +10,10 @@ SPAN = 2.0
 
 
 class Mark(NamedTuple):
-    """Readings [s] at one moment: of a clock on the wall, of the process's own processor time, and time simulated."""
+    """Readings [s] at one moment: a clock on the wall, the process's processor time, and how far the simulation is.
+
+    That is the end of the time in which nothing that was due is missing.
+    """
 
     wall: float
     processor: float

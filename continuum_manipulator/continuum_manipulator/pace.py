@@ -48,6 +48,10 @@ class Pace:
         """How long ago the next instant was due [s], 0 where it is yet to come."""
         return max(0, now - self._instant(self._done + 1)) / NANOSECONDS
 
+    def covered(self, now: int) -> float:
+        """Time from the beginning in which nothing that was due is missing [s]: up to ``now`` less the lag."""
+        return self.seconds(now) - self.lag(now)
+
     def went_back(self, now: int) -> bool:
         """Whether the clock shows less than it did before."""
         return now < self.seen

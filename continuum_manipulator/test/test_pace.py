@@ -45,6 +45,18 @@ def test_lag_is_how_long_the_next_instant_has_been_due():
     assert abs(pace.lag(BEGIN + 500_000_000) - 0.495) < 1e-6
 
 
+@given(st.floats(1, 2000), st.integers(0, 10**10), st.floats(0, 1))
+def test_whoever_has_no_lag_covers_all_of_the_time(rate, step, done):
+    pace, now = Pace(rate, 1e9, BEGIN), BEGIN + step
+    due = pace.due(now)
+    for number in due[: round(done * len(due))]:
+        pace.reach(number)
+    if pace.lag(now) == 0:
+        assert pace.covered(now) == pace.seconds(now)
+    else:
+        assert abs(pace.covered(now) - pace.seconds(pace.last) - 1 / rate) < 2e-9 + 1e-6 / rate
+
+
 def test_a_clock_that_goes_back_is_seen():
     pace = Pace(100.0, 1.0, BEGIN)
     pace.due(BEGIN + 50)

@@ -10,7 +10,6 @@ from continuum.arrays import Array
 from continuum.discovery.candidate import Extension, beginning, extended, unknowns_of
 from continuum.discovery.held_out import held_out_misfits
 from continuum.discovery.question import Question
-from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.arrow_least_squares import FitStatus
@@ -78,16 +77,11 @@ def fit_extension(
     there = {} if near is None else dict(zip(near.unknowns, map(float, near.coordinates), strict=True))
     for i, unknown in enumerate(free):
         begin[i] = there.get(unknown, begin[i])
-    own = near.own if near is not None and near.own and _looks_back(near.extension) == _looks_back(extension) else None
+    own = near.own if near is not None and near.own else None
     simulator = Simulator(model, TOLERANCES)
     return fit(
         simulator, question.recordings, question.noise, free, begin, iterations=iterations, own=own, seekings=seekings
     )
-
-
-def _looks_back(extension: Extension) -> float:
-    """How much earlier than their first samples windows begin [s]; the states there are others."""
-    return max((effect_named(addition.effect).looks_back for addition in extension), default=0.0)
 
 
 def judged(extension: Extension, fitted: Fit) -> Trial:

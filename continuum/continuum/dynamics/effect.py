@@ -35,7 +35,6 @@ class Effect:
         experiment: what to measure so that it stands out from what resembles it, one sentence.
         state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
             units; 0 where it is certain.
-        looks_back: how much of the motion before a reading `measure` asks for [s].
     """
 
     name: ClassVar[str]
@@ -45,7 +44,6 @@ class Effect:
     looks_like: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
     state_spread: ClassVar[float] = 0.0
-    looks_back: ClassVar[float] = 0.0
 
     def n_states(self, n_joints: int) -> int:
         """Number of states that the effect adds."""
@@ -85,3 +83,7 @@ class Effect:
     def measure(self, seen: Reading, own: Own) -> Reading:
         """What the sensors make of what they see; affine in the motion."""
         return seen
+
+    def late(self, own: Own) -> Numbers:
+        """By how much all sensors are late [s]: a reading that says t is of t less this."""
+        return 0.0

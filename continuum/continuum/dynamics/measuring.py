@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from continuum.dynamics.model import Model
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.trajectory import Trajectory
@@ -20,3 +22,8 @@ def readings(model: Model, trajectory: Trajectory, begun: float | None = None) -
     for active in model.effects:
         seen = active.effect.measure(seen, active.values)
     return seen
+
+
+def lateness(model: Model) -> float:
+    """By how much all sensors are late [s]."""
+    return float(sum(np.sum(active.effect.late(active.values)) for active in model.effects))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -44,6 +44,10 @@ class Tensions:
         if self.held:
             return np.asarray(self.values[max(int(np.searchsorted(self.times, t, side="right")) - 1, 0)])
         return np.array([np.interp(t, self.times, column) for column in self.values.T])
+
+    def later(self, delay: float) -> Tensions:
+        """The same, by ``delay`` [s] later."""
+        return replace(self, times=self.times + delay) if delay else self
 
     def rows(self) -> tuple[Array, Array]:
         """Times (rows,) and values (rows, n_cables), linear in between; two rows of one time are a jump."""

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect
-from continuum.dynamics.measuring import readings
+from continuum.dynamics.measuring import lateness, readings
 from continuum.dynamics.model import Model
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
 from continuum.dynamics.values import parameter_slots, with_vector
 from continuum.identification.arrow_least_squares import Part
@@ -52,9 +53,8 @@ class WindowResidual:
     """The residual of one recording as a function of the shared unknowns and of each window's own.
 
     A window's own unknowns are the joints' angles and rates where it begins, less those that were measured there and
-    what sensors have added to them, (2 n,); that is before its first sample
-    if sensors show what was. States of effects run on from window to window, with their slopes; their own beginning is
-    that of an arm at rest.
+    what sensors have added to them, (2 n,). Late sensors are tensions that come later. States of effects run on from
+    window to window, with their slopes; their own beginning is that of an arm at rest.
 
     Args:
         simulator: of the model.
@@ -84,10 +84,10 @@ class WindowResidual:
         n = self._model.n_joints
         self._unit = np.concatenate([np.full(n, _ANGLE_UNIT), np.full(n, _RATE_UNIT)])
         self.spread = np.concatenate([np.full(n, _ANGLE_SPREAD), np.full(n, _RATE_SPREAD)])
-        self._begin = [_row_before(recording, rows.start, self._model) for rows in self.rows]
-        self._measured = [first_state(recording, begin) for begin in self._begin]
+        self._measured = [first_state(recording, rows.start) for rows in self.rows]
         self._whiten = [whitener(noise, recording, rows) for rows in self.rows]
         self._of_sensors = _parameters_of_sensors(self._model)
+        self._is_late = any(type(a.effect).late is not Effect.late for a in self._model.effects)
 
     @property
     def errors_by_window(self) -> Array:
@@ -111,11 +111,11 @@ class WindowResidual:
         slope0[: own.size, :k] = self._motion_slopes(window, p)
         slope0[: own.size, k:] = np.diag(self._unit)
         slope0[own.size :] = memory.slopes
-        run = self._run(window, p, own, extra, free, slope0)
+        late = self._lateness_slopes(p, free)
+        run = self._run(window, p, own, extra, free, slope0, late)
         if run is None or not np.all(np.isfinite(run.slopes)):
             return None
-        handed = self._handed_on(window)
-        memory = Memory(run.states[handed, own.size :], run.slopes[handed, own.size :] * (np.arange(free.shape[1]) < k))
+        memory = Memory(run.states[-1, own.size :], run.slopes[-1, own.size :] * (np.arange(free.shape[1]) < k))
         seen = self._readings(p, run)
         mine = self._samples(window)
         jacobian = self._whiten[window](*(slope[mine] for slope in self._reading_slopes(p, run, seen, free)))
@@ -136,7 +136,7 @@ class WindowResidual:
             run = self._run(window, p, own[window], extra)
             if run is None:
                 return None
-            extra = run.states[self._handed_on(window), self._unit.size :]
+            extra = run.states[-1, self._unit.size :]
             seen.append(_cut(self._readings(p, run), self._samples(window)))
         times, theta, rate = (np.concatenate([getattr(s, k) for s in seen]) for k in ("times", "theta", "theta_rate"))
         return Reading(times, theta, rate, seen[0].begun)
@@ -149,21 +149,46 @@ class WindowResidual:
         extra: Array,
         free: Array | None = None,
         slope0: Array | None = None,
+        late: Array | None = None,
     ) -> Trajectory | None:
-        """One window and the first sample after it, where the states of effects may be handed on."""
+        """One window and the first sample after it, where the states of effects are handed on.
+
+        With the change ``late`` (columns,) [s] of the sensors' lateness d by one unit of each unknown: the states x(t)
+        that they show at t are X(t - d) of a motion X that begins in x0 at t0 - d, so that
+        dx/dd = (dX/dx0) X'(t0 - d) - X'(t - d).
+        """
         self.windows_simulated += 1
         rows, times = self.rows[window], self.recording.times
         x0 = np.concatenate([self._motion(window, p) + self._unit * own, extra])
-        to = min(rows.stop + 1, times.size)
-        run = self._simulator.run(x0, times[self._begin[window] : to], self.recording.pull, p, free, slope0)
-        return run if run.status is SimulationStatus.COMPLETE else None
+        pull, rates = self._pull(p), self._simulator.equations.rates
+        if late is not None and slope0 is not None:
+            slope0 = slope0 + np.outer(rates(x0, pull.at(times[rows.start]), p), late)
+        run = self._simulator.run(x0, times[rows.start : rows.stop + 1], pull, p, free, slope0)
+        if run.status is not SimulationStatus.COMPLETE:
+            return None
+        if late is None:
+            return run
+        moving = np.stack([rates(x, pull.at(t), p) for t, x in zip(run.times, run.states, strict=True)])
+        return replace(run, slopes=run.slopes - moving[:, :, None] * late)
+
+    def _pull(self, p: Array) -> Tensions:
+        """Tensions of the cables by the sensors' clock."""
+        return self.recording.pull.later(lateness(with_vector(self._model, p)) if self._is_late else 0.0)
+
+    def _lateness_slopes(self, p: Array, free: Array) -> Array | None:
+        """Change of the sensors' lateness by one unit of each unknown, (columns,) [s]."""
+        if not self._is_late:
+            return None
+        here = lateness(with_vector(self._model, p))
+        there = [lateness(with_vector(self._model, p + _NUDGE * column)) for column in free.T]
+        return (np.array(there) - here) / _NUDGE
 
     def _motion(self, window: int, p: Array) -> Array:
         """Joint angles and rates that the measured ones mean where a window begins, to first order, (2 n,)."""
         measured, n = self._measured[window], self._model.n_joints
         if not self._of_sensors.size:
             return measured
-        times = self.recording.times[self._begin[window] : self._begin[window] + 1]
+        times = self.recording.times[self.rows[window].start :][:1]
         alone = Trajectory(SimulationStatus.COMPLETE, times, measured[None], n, 0, 0, np.zeros((1, measured.size, 0)))
         seen = self._readings(p, alone)
         return np.asarray(2 * measured - np.concatenate([seen.theta[0], seen.theta_rate[0]]))
@@ -181,7 +206,8 @@ class WindowResidual:
         n = self._model.n_joints
         if not self._model.n_states:
             return Memory(np.zeros(0), np.zeros((0, shared.size + own.size)))
-        p, u = self.space.origin + self._directions @ shared, self.recording.pull.at(self.recording.times[0])
+        p = self.space.origin + self._directions @ shared
+        u = self._pull(p).at(self.recording.times[0])
 
         def states(by: Array) -> Array:
             values = p + self._directions @ by[: shared.size]
@@ -212,13 +238,7 @@ class WindowResidual:
 
     def _samples(self, window: int) -> slice:
         """The window's own samples among those simulated."""
-        rows, begin = self.rows[window], self._begin[window]
-        return slice(rows.start - begin, rows.stop - begin)
-
-    def _handed_on(self, window: int) -> int:
-        """Where among the simulated samples the next window begins; at the last one there is none."""
-        following = window + 1
-        return self._begin[following] - self._begin[window] if following < len(self.rows) else -1
+        return slice(self.rows[window].stop - self.rows[window].start)
 
     def _readings(self, p: Array, run: Trajectory) -> Reading:
         return self._read(with_vector(self._model, p), run)
@@ -246,12 +266,6 @@ def _parameters_of_sensors(model: Model) -> NDArray[np.intp]:
     senses = [a.effect.name for a in model.effects if type(a.effect).measure is not Effect.measure]
     slots = [slot for name, slot in parameter_slots(model).items() if name.partition(".")[0] in senses]
     return np.array([at for slot in slots for at in range(slot.start, slot.stop)], dtype=np.intp)
-
-
-def _row_before(recording: Recording, row: int, model: Model) -> int:
-    """Where a window is begun whose first sample is ``row``: earlier by what its sensors look back."""
-    back = max((active.effect.looks_back for active in model.effects), default=0.0)
-    return max(0, int(np.searchsorted(recording.times, recording.times[row] - back + 1e-9, "right")) - 1)
 
 
 def _cut(seen: Reading, rows: slice) -> Reading:
