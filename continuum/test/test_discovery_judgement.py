@@ -62,7 +62,7 @@ def test_adequate_is_what_leaves_noise_but_for_a_few_windows() -> None:
     assert unexplained(BAD) == pytest.approx(0.3)
     assert is_adequate(GOOD)
     assert is_adequate(trial(bad=0.03))
-    assert not is_adequate(trial(bad=0.06))
+    assert not is_adequate(trial(bad=0.08))
 
 
 def judged() -> dict[Kind, Verdict]:
