@@ -208,7 +208,6 @@ def test_every_kind_for_machines(kind: Kind, tmp_path: Path) -> None:
             assert entry["low"] <= entry["value"] <= entry["high"]
     assert read["nrmse_position"] == {"run_1": {"before": 0.4, "after": 0.1}, "run_2": {"before": None, "after": 0.2}}
     assert read["nrmse_velocity"]["run_1"] == {"before": 0.8, "after": 0.2}
-    assert read["seconds_of_a_simulation"]["run_1"] == {"before": 0.01, "after": 0.01}
     assert (read["weakness"], read["notes"]) == ("two recordings only", ["run_1: row 7 left out"])
 
 

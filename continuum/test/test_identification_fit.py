@@ -147,6 +147,14 @@ def test_intervals_cover_the_truth() -> None:
     assert hits >= 40
 
 
+def test_an_interval_of_what_the_data_do_not_tell_is_what_was_known_before() -> None:
+    """Capstan friction of 5 % tolerance in a release, where no cable pulls."""
+    known = Free("capstan_friction", tolerance=0.05)
+    fitted = fit(ROUGH, releases(2, SIMULATOR, 0, TRUTH), white_noise(), (*FREE, known))
+    draws = bootstrap(fitted, np.random.default_rng(0))
+    assert draws[:, -1].std() == pytest.approx(0.05 * NOMINAL["capstan_friction"][0], rel=0.1)
+
+
 def test_draws_scatter_as_errors_do_and_around_the_answer() -> None:
     fitted = fitted_releases(0)
     draws = bootstrap(fitted, np.random.default_rng(0))

@@ -30,7 +30,7 @@ class Round:
     """One round.
 
     Attributes:
-        before: the best trial of the round before.
+        before: the best trial of the round before, at its best.
         looks: every effect after its first look, the most promising first.
         leaders: those fitted to all data, best first, which are those fitted to the end; none where nothing promised
             anything.
@@ -68,7 +68,9 @@ def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[
     before = baseline
     while len(rounds) < _ROUNDS and not (rounds and is_adequate(before)):
         rounds.append(_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}")))
-        if len(rounds) == 2 and rounds[-1].best is not before:
+        if len(rounds) == 1:
+            baseline = rounds[0].before
+        if len(rounds) == 2 and rounds[-1].best is not rounds[-1].before:
             rounds = _first_anew(make, rounds[0], rounds[1], effects, partial(tell, "the first effect anew"))
         if rounds[-1].best is rounds[-1].before:
             break
@@ -103,7 +105,16 @@ def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[fl
     contenders = _contending(leaders, before)
     ended = list(make([Task(trial.extension, trial, _ITERATIONS, True) for trial in contenders]))
     ended += [trial for trial in leaders if all(trial is not one for one in contenders)]
-    return Round(before, tuple(looks), tuple(sorted(ended, key=lambda trial: -gain(trial, before).log_likelihood)))
+    ended.sort(key=lambda trial: -gain(trial, before).log_likelihood)
+    if ended and gain(ended[0], before).is_significant:
+        before = _as_well_fitted(make, before, ended[0])
+    return Round(before, tuple(looks), tuple(ended))
+
+
+def _as_well_fitted(make: Make, before: Trial, best: Trial) -> Trial:
+    """The round's beginning fitted once more, from where the best one ended: what a longer search found is no gain."""
+    (again,) = make([Task(before.extension, best, _ITERATIONS)])
+    return again if again.cost < before.cost else before
 
 
 def _hoped_for(look: Trial) -> float:

@@ -37,7 +37,6 @@ def as_mapping(found: Findings) -> dict[str, Any]:
         "nrmse_position": _scores(found, "position"),
         "nrmse_velocity": _scores(found, "rate"),
         "gap_closed": found.closed,
-        "seconds_of_a_simulation": _scores(found, "seconds"),
         "parameters": [
             {"name": str(e.unknown), "value": e.value, "low": e.low, "high": e.high, "unit": e.unit}
             for e in found.estimates

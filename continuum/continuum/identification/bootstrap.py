@@ -16,6 +16,7 @@ from continuum.identification.fit import Fit
 
 _DRAWS = 2000
 _WINDOWS = 4  # in a stretch
+_STILL = 1e-6  # of the deviation that independent errors have
 
 
 def bootstrap(fitted: Fit, random: np.random.Generator) -> Array:
@@ -31,8 +32,8 @@ def bootstrap(fitted: Fit, random: np.random.Generator) -> Array:
     counts = random.multinomial(stretches, np.full(stretches, 1 / stretches), size=_DRAWS) - 1.0
     away = -counts @ centred
     least = np.sqrt(np.diag(np.linalg.inv(fitted.information)))
-    if stretches == 1:
-        away = random.normal(size=away.shape) * least
+    still = np.std(away, axis=0) < _STILL * least  # one stretch alone, or what the data say nothing of
+    away[:, still] = random.normal(size=(_DRAWS, int(still.sum()))) * least[still]
     away *= np.maximum(1.0, least / np.std(away, axis=0))
     return np.asarray(fitted.space.scale * fitted.space.clipped(fitted.coordinates + away))
 
