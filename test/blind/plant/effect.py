@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from blind.plant.sensors import Reading
 
 RELEASE, DRIVEN = "release", "driven"
+ONLY_DRIVEN = frozenset({DRIVEN})
 SIZES = ("small", "medium", "large")
 
 

@@ -5,14 +5,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from blind.plant.effect import DRIVEN, Effect
+from blind.plant.effect import ONLY_DRIVEN, Effect
 from blind.plant.parameters import Parameters
 
 if TYPE_CHECKING:
     from blind.plant.machine import Machine
 
 Pull = Callable[[np.ndarray], np.ndarray]
-ONLY_DRIVEN = frozenset({DRIVEN})
 
 
 class Capstan(Effect):

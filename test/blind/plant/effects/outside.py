@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 
 from blind.plant.chain import Chain
-from blind.plant.effect import Effect
+from blind.plant.effect import ONLY_DRIVEN, Effect
 from blind.plant.parameters import JOINTS
 
 if TYPE_CHECKING:
@@ -76,10 +76,12 @@ class DroppingLoad(Effect):
 class KinkedSpring(Effect):
     """One joint's spring kinks: bent by more than 10 degrees it snaps and loses a share of its torque.
 
-    It snaps back below 4 degrees. The amount is the share, without unit.
+    It snaps back below 4 degrees. The amount is the share, without unit. After a release friction may hold the joint
+    beyond these 4 degrees to the end: then it is a soft joint, `joint_stiffness`, and nothing else in any data.
     """
 
     name, unit, sizes, at_a_joint, in_a_library = "kinked_spring", "1", (0.2, 0.45, 0.8), True, False
+    seen_in = ONLY_DRIVEN
 
     over, back = np.radians(10.0), np.radians(4.0)
 

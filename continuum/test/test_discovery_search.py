@@ -1,0 +1,110 @@
+"""The order of a search and what it keeps, on trials made by hand: whoever is asked for a fit gives a known one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from discovery_laws import trial
+
+from continuum.discovery.candidate import Extension
+from continuum.discovery.search import search
+from continuum.discovery.trial import Trial
+from continuum.discovery.workers import Task
+
+EFFECTS = ("tip_payload", "base_tilt", "quadratic_drag")
+
+
+class Fits:
+    """Gives every extension the share of windows that it leaves unexplained; the cost goes with it.
+
+    Attributes:
+        asked: every task, in order.
+    """
+
+    def __init__(self, shares: dict[tuple[str, ...], float], better: dict[tuple[str, ...], float] | None = None):
+        self._shares, self._better, self.asked = shares, better or {}, list[Task]()
+
+    def __call__(self, tasks: Sequence[Task]) -> Iterator[Trial]:
+        for task in tasks:
+            self.asked.append(task)
+            yield self.fitted(task)
+
+    def fitted(self, task: Task) -> Trial:
+        names = tuple(addition.effect for addition in task.extension)
+        known = {frozenset(key): share for key, share in self._shares.items()}
+        share = known[frozenset(names)] if frozenset(names) in known else known[frozenset(names[:-1])]
+        is_from_another = task.near is not None and len(task.near.extension) > len(task.extension)
+        if is_from_another and names in self._better:
+            share = self._better[names]
+        made = trial(*names, bad=share, seed=len(names))
+        return replace(made, extension=task.extension, cost=1000 * share)
+
+    def times(self, *names: str) -> int:
+        return sum(tuple(a.effect for a in task.extension) == names for task in self.asked)
+
+
+def effects_of(extension: Extension) -> list[str]:
+    return [addition.effect for addition in extension]
+
+
+def test_nothing_is_added_where_nothing_helps() -> None:
+    baseline, rounds = search(Fits({(): 0.3}), EFFECTS, lambda _what, _part: None)
+    assert baseline.extension == ()
+    assert len(rounds) == 1
+    assert rounds[0].best is rounds[0].before is baseline
+
+
+def test_one_effect_that_leaves_noise_ends_the_search() -> None:
+    fits = Fits({(): 0.3, ("base_tilt",): 0.0})
+    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+    assert [effects_of(one.best.extension) for one in rounds] == [["base_tilt"]]
+    assert not any(len(task.extension) > 1 for task in fits.asked)
+
+
+def test_what_the_model_without_it_gains_by_the_same_search_is_no_gain() -> None:
+    """Fitted anew from where the effect's fit ended, the baseline does as well: nothing was missing."""
+    shares = {(): 0.3, ("base_tilt",): 0.0}
+    baseline, rounds = search(Fits(shares, {(): 0.0}), EFFECTS, lambda _what, _part: None)
+    assert rounds[0].best is rounds[0].before is baseline
+    np.testing.assert_array_less(baseline.relative, 2.0)
+
+
+def test_two_effects_are_found_and_the_first_is_sought_anew_beside_the_second() -> None:
+    both = ("tip_payload", "base_tilt")
+    fits = Fits({(): 0.4, ("tip_payload",): 0.2, ("base_tilt",): 0.3, both: 0.0})
+    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+    assert set(effects_of(rounds[-1].best.extension)) == set(both)
+    assert fits.times("base_tilt", "tip_payload") > 0
+    assert rounds[-1].best is not rounds[-1].before
+
+
+def test_a_first_effect_that_the_second_makes_needless_is_dropped() -> None:
+    """The drag helped only as long as the payload was unknown."""
+    late = {(): 0.5, ("quadratic_drag",): 0.2, ("tip_payload",): 0.4, ("quadratic_drag", "tip_payload"): 0.0}
+    fits = Fits(late, {})
+    fitted = fits.fitted
+
+    def alone_is_enough(task: Task) -> Trial:
+        if effects_of(task.extension) == ["tip_payload"] and task.near is not None and len(task.near.extension) == 2:
+            return replace(trial("tip_payload", bad=0.0, seed=1), cost=0.0)
+        return fitted(task)
+
+    fits.fitted = alone_is_enough  # type: ignore[method-assign]
+    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+    assert effects_of(rounds[-1].best.extension) == ["tip_payload"]
+
+
+def test_progress_goes_from_nothing_to_done() -> None:
+    told: list[tuple[str, float]] = []
+    search(Fits({(): 0.3, ("base_tilt",): 0.0}), EFFECTS, lambda what, part: told.append((what, part)))
+    assert told[0][1] == 0.0
+    assert told[-1] == ("done", 1.0)
+    assert all(0 <= part <= 1 for _, part in told)
+
+
+def test_an_effect_that_the_model_has_is_not_tried_twice() -> None:
+    fits = Fits({(): 0.4, ("tip_payload",): 0.2})
+    search(fits, EFFECTS, lambda _what, _part: None)
+    assert all(len({a.effect for a in task.extension}) == len(task.extension) for task in fits.asked)
