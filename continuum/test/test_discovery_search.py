@@ -93,7 +93,8 @@ def test_a_first_effect_that_the_second_makes_needless_is_dropped() -> None:
 
     fits.fitted = alone_is_enough  # type: ignore[method-assign]
     _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
-    assert effects_of(rounds[-1].best.extension) == ["tip_payload"]
+    assert [effects_of(one.best.extension) for one in rounds] == [["tip_payload"], ["tip_payload"]]
+    assert rounds[1].best is rounds[1].before
 
 
 def test_progress_goes_from_nothing_to_done() -> None:

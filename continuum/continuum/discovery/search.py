@@ -85,8 +85,8 @@ def _first_anew(
     """The first effect sought once more, now beside the second: it was found while that one was still unknown."""
     (alone,) = make([Task(second.best.extension[-1:], second.best, _ITERATIONS)])
     again = _round(make, alone, effects, tell)
-    if again.best is alone:  # the second one alone does it
-        return [replace(first, leaders=(alone, *first.leaders)), again]
+    if again.best is again.before:  # the second one alone does it
+        return [replace(first, leaders=(again.before, *first.leaders)), again]
     return [second, again]
 
 
