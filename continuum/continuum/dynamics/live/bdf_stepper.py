@@ -11,9 +11,9 @@ tolerances, largest error of an angle against a converged solution:
 ======================  ================  ==================  ==================
 one core                release from 90°  tension of 0.7 Hz   straight, at rest
 ======================  ================  ==================  ==================
-anew for each interval  0.30 s, 0.139°    0.36 s, 0.032°      0.16 s
-lives on (this file)    0.23 s, 0.027°    0.28 s, 0.015°      0.03 s
-ESDIRK                  0.01 s, 0.001°    0.01 s, 0.001°      0.02 s
+anew for each interval  0.40 s, 0.139°    0.35 s, 0.046°      0.18 s
+lives on (this file)    0.32 s, 0.021°    0.30 s, 0.020°      0.04 s
+ESDIRK                  0.02 s, 0.0003°   0.02 s, 0.0002°     0.02 s
 ======================  ================  ==================  ==================
 """
 
