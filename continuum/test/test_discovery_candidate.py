@@ -97,7 +97,7 @@ def test_joints_that_act_are_named(where: tuple[int, ...]) -> None:
     random = np.random.default_rng(len(where))
     found = 0.02 * random.normal(size=N)
     found[list(where)] = 1 + 0.05 * np.arange(len(where))
-    assert acting_joints(quadratic("rest_angle", found, 400 * np.eye(N)), "rest_angle") == where
+    assert sorted(acting_joints(quadratic("rest_angle", found, 400 * np.eye(N)), "rest_angle")) == list(where)
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -88,5 +88,6 @@ def shown(truth: Truth) -> str:
 
 def named(verdict: dict[str, Any]) -> list[str]:
     return [
-        f"{c['effect']}@{c['joints']} {c['confidence']:.2f}" for c in (*verdict["causes"], *verdict["alternatives"])
+        f"{c['effect']}@{c['joints']} {c['confidence']:.2f}"
+        for c in (*verdict["causes"], *verdict["alternatives"], *verdict["helps"])
     ]

@@ -96,6 +96,7 @@ chosen after a look at this file, whose plotted angles show next to no noise; th
 def _verdict(told: Account) -> str:
     verdict = told.verdict
     causes, named = verdict["causes"], [*verdict["causes"], *verdict["alternatives"]]
+    helps = verdict["helps"]
     match verdict["verdict"]:
         case "adequate":
             more = "So the errors that the thesis was left with were those of its parameters, as far as this run shows."
@@ -104,8 +105,8 @@ def _verdict(told: Account) -> str:
         case "ambiguous":
             each = (f"{_name(c)} ({c['confidence']:.2f})" for c in named)
             more = "Nothing in this run decides between " + ", ".join(each) + "."
-        case "unknown" if causes:
-            more = "So no cause is named. What helps though it does not suffice: " + _and(map(_in_words, causes))
+        case "unknown" if helps:
+            more = "So no cause is named. What helps though it does not suffice: " + _and(map(_in_words, helps))
         case _:
             more = "So no cause is named, and nothing in the library is known to help."
     return paragraph(f"**`{verdict['verdict']}`.**", told.words) + "\n\n" + paragraph(more)
@@ -130,13 +131,14 @@ def _refitting(told: Account, best: Simulated) -> str:
 
 
 def _gained(verdict: Mapping[str, Any]) -> str:
-    if not verdict["causes"]:
+    added = [*verdict["causes"], *verdict["helps"]]
+    if not added:
         return "There is no extended model, so that both are the same."
     before, after = verdict["unexplained"]["before"], verdict["unexplained"]["after"]
     closed = verdict["gap_closed"]
     change = f"closes {_percent(closed)} of" if closed >= 0 else f"is {_percent(-closed)} farther than before by"
     return paragraph(
-        f"The extended model ({_and(_name(cause) for cause in verdict['causes'])}) {change} the distance to the noise",
+        f"The extended model ({_and(_name(one) for one in added)}) {change} the distance to the noise",
         f"floor there, and lowers what noise does not explain from {_percent(before)} of the windows to",
         f"{_percent(after)}.",
     )
@@ -175,13 +177,15 @@ def _guess(told: Account) -> str:
 
 
 def _of_the_guess(verdict: Mapping[str, Any]) -> str:
-    causes, alternatives = ([cause["effect"] for cause in verdict[key]] for key in ("causes", "alternatives"))
+    causes, alternatives, helps = (
+        [cause["effect"] for cause in verdict[key]] for key in ("causes", "alternatives", "helps")
+    )
     kind = verdict["verdict"]
     if THE_GUESS in causes and kind == "cause":
         return "The verdict names it: this run speaks for the thesis's guess."
     if THE_GUESS in (*causes, *alternatives) and kind == "ambiguous":
         return "The verdict holds it possible beside others: this run neither confirms nor refutes the guess."
-    if THE_GUESS in causes:
+    if THE_GUESS in helps:
         return "It is part of what helps, but does not suffice: this run does not confirm the guess."
     return "The verdict does not name it: this run does not speak for the guess."
 

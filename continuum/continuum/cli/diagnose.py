@@ -89,13 +89,15 @@ def read_recording(path: str) -> Recording:
 
 
 def _show(found: Findings) -> None:
-    from continuum.discovery.in_words import cost_in_words, verdict_in_words
+    from continuum.discovery.in_words import cost_in_words, verdict_in_words, worth_in_words
+    from continuum.discovery.verdict import Kind
 
     verdict = found.verdict
     print(f"{verdict.kind.value.upper()}\n\n{verdict_in_words(verdict)}\n")
-    for title, causes in (("cause", verdict.causes), ("alternative", verdict.alternatives)):
-        for cause in causes:
-            print(f"{title}: {cause.addition}   confidence {cause.confidence:.2f}")
+    if verdict.kind is not Kind.UNKNOWN:
+        for title, causes in (("cause", verdict.causes), ("alternative", verdict.alternatives)):
+            for cause in causes:
+                print(f"{title}: {cause.addition}   confidence {cause.confidence:.2f}")
     rows = [("parameter", "value, 95 % interval")]
     rows += [(str(e.unknown), f"{e.value:.4g} ({e.low:.4g} to {e.high:.4g}) {e.unit}") for e in found.estimates]
     print_pairs(rows)
@@ -107,7 +109,6 @@ def _show(found: Findings) -> None:
         ]
     )
     if verdict.extension:
-        print(f"distance to the noise floor closed: {100 * found.closed:.0f} %")
-        print(cost_in_words(found.before, found.after))
+        print(f"{worth_in_words(found.closed)}; {cost_in_words(found.before, found.after)}.")
     for line in (*found.notes, *([f"Mind: {found.weakness}."] if found.weakness else [])):
         print(line)

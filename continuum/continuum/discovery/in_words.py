@@ -57,6 +57,13 @@ def _helps(verdict: Verdict) -> str:
     return " with ".join(str(c.addition) for c in verdict.causes)
 
 
+def worth_in_words(closed: float) -> str:
+    """What the extension gains on runs that it was not fitted to."""
+    if closed <= 0.0:
+        return "The extension predicts runs that it was not fitted to no better"
+    return f"The extension closes {100 * closed:.0f} % of the distance to the noise"
+
+
 def cost_in_words(before: Sequence[RunScore], after: Sequence[RunScore]) -> str:
     """What the extension costs in simulation time."""
     once, now = (1e3 * float(np.median([score.seconds for score in scores])) for scores in (before, after))

@@ -14,7 +14,7 @@ _ENOUGH = 8.0  # or all but this much log-likelihood
 
 
 def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
-    """Joints that are named, from 0, in their order along the arm; all where no few of them do.
+    """Joints that are named, from 0, those that explain most first; all where no few of them do.
 
     Near the fit the cost is a parabola in the effect's own unknowns, the others following; what is lost by holding
     some of them at zero is read off it.
@@ -39,7 +39,7 @@ def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
         chosen.append(best)
         if losses[best] < least:
             break
-    return tuple(sorted(chosen))
+    return tuple(chosen)
 
 
 def _joints(fitted: Fit, mine: list[int]) -> list[int]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
 from continuum.discovery.findings import Findings
-from continuum.discovery.in_words import cost_in_words, verdict_in_words
+from continuum.discovery.in_words import cost_in_words, verdict_in_words, worth_in_words
 from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
 from continuum.discovery.residual_torque import ResidualTorque
 from continuum.discovery.search import Round
@@ -88,8 +88,7 @@ def write_report(
 
 
 def _worth(found: Findings) -> str:
-    closed = f"The extension closes {100 * found.closed:.0f} % of the distance to the noise"
-    return f"{closed}; {cost_in_words(found.before, found.after)}."
+    return f"{worth_in_words(found.closed)}; {cost_in_words(found.before, found.after)}."
 
 
 def _evidence(number: int, one: Round) -> Iterable[str]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from continuum.discovery.findings import Estimate, Findings
-from continuum.discovery.verdict import Cause
+from continuum.discovery.verdict import Cause, Kind
 from continuum.errors import FileError
 
 
@@ -27,10 +27,12 @@ def write_json(found: Findings, path: str | Path) -> None:
 
 def as_mapping(found: Findings) -> dict[str, Any]:
     """Numbers, strings, lists and mappings; joints count from 1, units are SI."""
-    verdict = found.verdict
+    verdict, unknown = found.verdict, found.verdict.kind is Kind.UNKNOWN
+    causes = [_cause(cause, found.estimates) for cause in verdict.causes]
     return {
         "verdict": verdict.kind.value,
-        "causes": [_cause(cause, found.estimates) for cause in verdict.causes],
+        "causes": [] if unknown else causes,
+        "helps": causes if unknown else [],
         "alternatives": [_cause(cause, own) for cause, own in zip(verdict.alternatives, found.others, strict=True)],
         "experiment": verdict.experiment,
         "unexplained": {"before": verdict.unexplained[0], "after": verdict.unexplained[1]},

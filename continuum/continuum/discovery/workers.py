@@ -6,9 +6,10 @@ import multiprocessing
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from continuum.discovery.candidate import Addition, Extension, acts_at_joints
+from continuum.discovery.evidence import gain
 from continuum.discovery.joints import acting_joints
 from continuum.discovery.question import Question
 from continuum.discovery.some_runs import some_runs
@@ -52,9 +53,22 @@ def make(question: Question, task: Task) -> Trial:
     last = task.extension[-1] if task.extension else None
     if not task.find_joints or last is None or not acts_at_joints(last.effect) or not fitted.parts:
         return whole
-    at = (*task.extension[:-1], Addition(last.effect, acting_joints(fitted, last.effect)))
-    there = judged(at, fit_extension(question, at, whole, task.iterations))
-    return Trial(**(vars(there) | {"simulations": there.simulations + whole.simulations}))
+    return _at_few_joints(question, task, whole, acting_joints(fitted, last.effect))
+
+
+def _at_few_joints(question: Question, task: Task, whole: Trial, joints: Sequence[int]) -> Trial:
+    """The last effect at the first one or two of some joints, where all of them explain no more.
+
+    A fit of all joints at once may have ended where no slope led to the few that do it.
+    """
+    best, simulations = None, whole.simulations
+    for count in sorted({1, min(2, len(joints)), len(joints)}):
+        at = (*task.extension[:-1], Addition(task.extension[-1].effect, tuple(sorted(joints[:count]))))
+        there = judged(at, fit_extension(question, at, whole, task.iterations))
+        simulations += there.simulations
+        if best is None or gain(there, best).is_distinct:
+            best = there
+    return replace(best or whole, simulations=simulations)
 
 
 type Make = Callable[[Sequence[Task]], Iterator[Trial]]

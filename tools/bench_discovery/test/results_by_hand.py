@@ -33,6 +33,7 @@ def verdict(
     return {
         "verdict": kind,
         "causes": list(causes),
+        "helps": [],
         "alternatives": list(others),
         "gap_closed": closed,
         "nrmse_position": scores,

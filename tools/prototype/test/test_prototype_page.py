@@ -30,7 +30,8 @@ def verdict(
 ) -> dict[str, Any]:
     scores = {"rep7, beginning": {"before": 0.61, "after": 0.33}, "rep7, end": {"before": 0.77, "after": None}}
     return {
-        "verdict": kind, "causes": list(causes), "alternatives": list(others), "experiment": "",
+        "verdict": kind, "causes": list(causes) if kind != "unknown" else [],
+        "helps": list(causes) if kind == "unknown" else [], "alternatives": list(others), "experiment": "",
         "unexplained": {"before": 0.62, "after": 0.21}, "nrmse_position": scores, "nrmse_velocity": scores,
         "gap_closed": closed, "parameters": [], "notes": [], "weakness": "one recording only: its end tests it",
     }  # fmt: skip
@@ -41,7 +42,8 @@ def account(said: dict[str, Any], *alone: Alone) -> Account:
     return Account(
         Recording("rep7", TIMES, THETA), np.full(5, 0.1), 0.02, replace(some, name="published", position=0.86),
         [some, replace(some, position=0.79)], [replace(some, name="refitted", position=0.52)],
-        replace(some, name="extended", position=0.31) if said["causes"] else None, said, "Two sentences.",
+        replace(some, name="extended", position=0.31) if [*said["causes"], *said["helps"]] else None, said,
+        "Two sentences.",
         alone or (THE_CABLE, THE_GUESS),
     )  # fmt: skip
 
