@@ -18,12 +18,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
+import numpy as np
+
 from continuum.dynamics.effect import Own
-from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.expressions import Numbers, positive_part
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.cable_states import LEAST_LAG, CableStates
-from continuum.effects.parts.cables import driven, led, lengthening_rate
+from continuum.effects.parts.cables import led, lengthening_rate
+
+_TAUT = 0.05  # N: with less a cable is nearly loose
 
 
 class ElasticCable(CableStates):
@@ -42,5 +46,7 @@ class ElasticCable(CableStates):
     )
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        drawn = own["stiffness"] * driven(now.u) * lengthening_rate(now.motion, now.p)
-        return (own["lag"] * led(now.u) + LEAST_LAG) * (state_rate - drawn) - (now.u - state)
+        lag = own["lag"] * led(now.u) + LEAST_LAG
+        stretched = own["stiffness"] * led(now.u) * lengthening_rate(now.motion, now.p)
+        rising = now.u - state + lag * stretched
+        return lag * state_rate - positive_part(rising) + positive_part(-rising) * np.tanh(state / _TAUT)
