@@ -3,11 +3,13 @@
 The motor winds with v = alpha (u - T), an admittance, alpha = 1 / (k lag); the lengthening L is the cable's way
 through the arm, which the joints stretch:
 
-  lag (T' - k g L') = u - T,      g = u^2 / (u^2 + (0.1 N)^2).
+  lag T' = r,      r = u - T + lag k L',      times tanh(T / 0.05 N) where r < 0: T stays positive.
 
-Without a lag the motor makes up for every stretch at once and the tension is what it is told. g lets the drum run free
-where it is told none, so that arms without cables are what they were. A slack cable has T < 0, which does not pull:
--T / k is its slack, wound up by the same law. The lag is never below 1e-5 s, of which nothing is seen.
+Without a lag the motor makes up for every stretch at once and the tension is what it is told. A motor that is told
+none still lets its drum turn only against that resistance, so that an arm that draws its cable out feels it. Cable
+that comes loose is wound up at once, as a drum does by its idle torque; what hangs loose for longer is `slack_cable`'s.
+Where a cable was let go (LET_GO) it has no lag and is not stretched. The lag is never below 1e-5 s, of which nothing
+is seen.
 
 0.5 m of polyamide line of 0.8 mm has some 2 kN/m, of steel rope 100 kN/m; motors that hold a tension by measuring it
 take 5 to 50 ms. The arm's cables move at 0.1 m/s, so 1 kN/m and 10 ms change the tension by 1 N.

@@ -1,11 +1,11 @@
 """The sensors' charging cable, from the base to link 1: it resists what the joint's turn draws out of it.
 
-  torque of joint 1 = r (tau_0 + k s + c s' + tau tanh(k_v s')),      s = theta_1 + e theta_1^2 / 2,      r = 1 + e theta_1
+  r (tau_0 + k s + c s' + tau tanh(k_v s')) on joint 1,      s = theta_1 + e theta_1^2 / 2,      r = 1 + e theta_1.
 
-s, in units of the lever of the straight arm, is the cable's way, r = ds/dtheta its lever there: by virtual work its
-force acts with the same lever with which it is drawn out. A loop that bends around the joint has e = 0. One that is
-drawn tight from a clamp acts along its line, whose lever changes as the link turns: fixed at h off the arm's axis and
-d below the joint, by e = h / d. Where the lever vanishes the cable does nothing.
+s is the cable's way in units of the straight arm's lever, r = ds / dtheta_1 the lever: by virtual work a force acts
+with the lever by which it is drawn out. A loop around the joint has e = 0. A cable drawn straight from a clamp pulls
+along its line, whose lever changes as the link turns: fixed to link 1 at h beside the arm's axis and d beyond the
+joint, and drawn out across the arm, by e = h / d. Where the lever vanishes the cable does nothing.
 
 A bent cable is a spring, and its strands and sheath rub. A USB cable of EI = 2e-3 N m^2 in a loop of 50 mm has
 0.04 N m/rad; bundles and stiff sheaths a few times that. Bent by 0.5 rad in the straight arm, that preloads the joint
