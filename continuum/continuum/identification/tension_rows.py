@@ -55,7 +55,7 @@ def _shares_before_jumps(recording: Recording) -> list[float]:
     u = np.array([recording.tensions.at(time) for time in recording.times])
     acceleration = np.diff(recording.theta_rate, axis=0) / np.diff(recording.times)[:, None]
     found = []
-    for row in np.flatnonzero(np.abs(np.diff(u, axis=0)).max(axis=1) > _JUMP) + 1:
+    for row in map(int, np.flatnonzero(np.abs(np.diff(u, axis=0)).max(axis=1) > _JUMP) + 1):
         if 2 <= row < len(acceleration):
             before, after = (acceleration[k] - acceleration[row - 2] for k in (row - 1, row))
             usual = float(np.linalg.norm(acceleration[row - 2] - acceleration[max(row - 3, 0)]))
