@@ -9,7 +9,7 @@ from dynamics_laws import active, moving, prototype_model, random_parameters
 from effects_laws import LOOSE, RELEASED, N, effect_of, extended, resting_state, simulator, torque_of
 
 from continuum.dynamics.planar.instant import Instant
-from continuum.dynamics.tensions import Tensions
+from continuum.dynamics.tensions import Tensions, slack
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.effects.parts.cables import lengthening, lengthening_rate
 
@@ -71,8 +71,19 @@ def test_an_elastic_cable_of_an_arm_that_is_held_is_a_lag_and_of_a_motor_that_is
     found, expected = (one.effect.state_balance(still, one.values, state, rates) for one in (elastic, lag))
     np.testing.assert_allclose(found, expected)
     drawn = Instant(moving(RELEASED, np.full(N, 0.5)), state, p)  # told just what it pulls: the motor holds
-    rate = 700.0 * lengthening_rate(drawn.motion, p) * state**2 / (state**2 + 0.01)
+    rate = 700.0 * lengthening_rate(drawn.motion, p)
     np.testing.assert_allclose(elastic.effect.state_balance(drawn, elastic.values, state, rate), 0, atol=1e-9)
+
+
+def test_a_cable_that_would_push_stays_loose_and_one_that_is_told_nothing_resists() -> None:
+    """Both while an arm that was bent to cable 1 swings back: that is drawn off its drum, the other comes loose."""
+    model, times = extended(prototype_model(N), "elastic_cable", {"lag": 0.05, "stiffness": 500.0}), np.linspace(0, 0.1)
+    told = Tensions([0.0], [[0.0, 0.0]])
+    run = simulator("elastic_cable").around(model).run(resting_state(model, RELEASED, LOOSE), times, told)
+    tension = run.states[:, 2 * N :]
+    assert tension.min() > -1e-4
+    assert tension[:, 0].max() > 0.5
+    assert tension[:, 1].max() < 0.05
 
 
 @pytest.mark.parametrize("name", ["actuator_lag", "elastic_cable", "slack_cable", "capstan"])
@@ -85,7 +96,7 @@ def test_a_release_without_pull_does_not_know_of_the_cables(name: str) -> None:
             name,
             {k: p.default + scale * p.typical for k, p in effect_of(name).parameters.items()},
         )
-        runs.append(simulator(name).around(model).run(resting_state(model, RELEASED, LOOSE), times).theta)
+        runs.append(simulator(name).around(model).run(resting_state(model, RELEASED, slack().at(0.0)), times).theta)
     np.testing.assert_allclose(runs[0], runs[1], atol=1e-9)
 
 

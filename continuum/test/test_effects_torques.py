@@ -22,6 +22,7 @@ from continuum.effects.load_friction import joint_force
         ("load_friction", {"radius": 0.01}),
         ("quadratic_drag", {"drag": 2.0}),
         ("sensor_cable", {"stiffness": 0.0, "viscous": 0.02, "dry": 0.03}),
+        ("sensor_cable", {"viscous": 0.02, "dry": 0.03, "lever": 4.0}),
     ],
 )
 def test_what_only_takes_energy_never_gives_any(name: str, values: dict[str, float]) -> None:
@@ -87,6 +88,32 @@ def test_a_cubic_spring_and_a_sensor_cable_where_they_act() -> None:
     np.testing.assert_allclose(torque_of("hardening_spring", now, cubic=3.0), 3 * (theta - 0.1) ** 3)
     held = torque_of("sensor_cable", now, preload=-0.04, stiffness=0.5, viscous=0.1, dry=0.03)
     np.testing.assert_allclose(held, [-0.04 + 0.5 * 0.3 + 0.1 * 2.0 + 0.03, 0, 0, 0, 0])
+
+
+def test_a_sensor_cable_that_is_drawn_straight_pulls_by_its_lever() -> None:
+    """Against a long one from a clamp across the arm: tension times the slope of its length, to first order of it."""
+    beside, beyond, force, k, dry, length = 0.04, 0.02, 0.5, 20.0, 0.2, 5.0
+
+    def stretched(q: np.ndarray) -> np.ndarray:
+        across = beyond * np.sin(q) - beside * np.cos(q) + beside
+        along = -beyond * np.cos(q) - beside * np.sin(q) + beyond
+        return np.hypot(length + across, along) - length
+
+    values = {"preload": force * beyond, "stiffness": k * beyond**2, "dry": dry * beyond, "lever": beside / beyond}
+    for theta in (-0.1, -0.02, 0.05, 0.1):
+        now = Instant(moving(np.full(N, theta), np.full(N, 1.0)), LOOSE, prototype_model(N).parameters)
+        lever = differences(stretched, np.array([theta]), 1e-3)[0, 0]
+        expected = lever * (force + k * stretched(np.array([theta]))[0] + dry)
+        assert torque_of("sensor_cable", now, **values)[0] == pytest.approx(expected, rel=0.02)
+
+
+def test_what_the_load_adds_has_a_stribeck_part_of_its_own() -> None:
+    p = replace(prototype_model(N).parameters, stribeck_gain=np.full(N, 0.7))
+    slow, fast = (Instant(moving(np.zeros(N), np.full(N, w)), LOOSE, p) for w in (0.02, 50.0))
+    first, last = (torque_of("load_friction", now, radius=0.01, stribeck=0.5)[-1] for now in (slow, fast))
+    plain = torque_of("load_friction", slow, radius=0.01)[-1]
+    assert first == pytest.approx(1.5 * plain, rel=0.01)
+    assert last > plain  # its own motion presses it, and no Stribeck part
 
 
 def slid(turn: Callable[[float], float], times: np.ndarray, angle: float) -> tuple[np.ndarray, Parameters]:

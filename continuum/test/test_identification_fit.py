@@ -238,3 +238,17 @@ def test_how_tensions_go_on_between_rows_is_told_by_the_data(held: bool) -> None
     assert found[0].tensions.held is held
     assert found[1] is free
     assert with_likelier_rows(ROUGH, [free], white_noise(), FREE) == (free,)
+
+
+def test_a_joint_that_slips_by_chance_beside_a_jump_tells_nothing_of_tensions() -> None:
+    """A cable that is late answers later than the row; what joints do just then they have done before as well."""
+    times = np.arange(12) / 120
+    jolts = 60 * np.array([0, 1, -1, 1, -1, 1, -1, -1, 1, -1, 1])  # [rad/s2], before the jump and after it
+    rate = np.zeros((12, 2))
+    rate[1:, 0] = np.cumsum(jolts) / 120
+    u = np.zeros((12, 2))
+    u[:7, 0] = 9.0
+    sticking = Recording("late", times, np.zeros((12, 2)), rate, Tensions(times, u))
+    (found,) = with_likelier_rows(ROUGH, [sticking], white_noise(), FREE)
+    assert found.tensions is not None
+    assert found.tensions.held

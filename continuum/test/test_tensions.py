@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from continuum.dynamics.tensions import Tensions, slack
+from continuum.dynamics.tensions import LET_GO, Tensions, slack
 from continuum.errors import InvalidValueError
 
 PROFILE = Tensions(np.array([1.0, 2.0, 4.0]), np.array([[0.0, 6.0], [10.0, 6.0], [0.0, 0.0]]))
@@ -25,9 +25,9 @@ def test_linear_between_rows_and_held_outside(t: float, expected: list[float]) -
     np.testing.assert_allclose(PROFILE.at(t), expected, rtol=1e-15)
 
 
-def test_slack_is_no_tension() -> None:
+def test_a_slack_cable_is_held_by_no_motor() -> None:
     for t in (-1.0, 0.0, 7.0):
-        np.testing.assert_array_equal(slack().at(t), [0.0, 0.0])
+        np.testing.assert_array_equal(slack().at(t), [LET_GO, LET_GO])
 
 
 def test_lists_are_taken() -> None:

@@ -8,6 +8,8 @@ import pytest
 
 from blind.plant import Machine, Parameters, make_case, prototype
 from blind.plant.cable_friction import belt_like_ratio
+from blind.plant.effects import EFFECTS
+from blind.plant.parameters import GRAVITY
 
 NOTHING = np.zeros(2)
 
@@ -154,3 +156,15 @@ def test_half_the_step_changes_little(regime: str) -> None:
 def test_gravity_pulls_a_tilted_arm_to_the_plumb_line() -> None:
     machine = Machine(frictionless().with_(base_tilt=0.1), (), rng())
     np.testing.assert_array_less(machine.data.qfrc_bias * -1, 0)  # torque of gravity is minus the bias
+
+
+@pytest.mark.parametrize("pull", [0.0, 9.0])
+def test_a_loaded_joint_rubs_by_what_it_carries(pull: float) -> None:
+    """Straight and still, between two cables: the weight beyond the joint less what both cables press it together."""
+    p = prototype()
+    machine = Machine(p, [EFFECTS["load_friction"](1e-3)], rng())
+    for _ in range(3):
+        machine.step(np.full(2, pull))
+    weight = GRAVITY * np.cumsum(p.mass[::-1])[::-1]
+    grown = machine.coulomb - p.coulomb * (1 + p.stribeck)
+    assert grown == pytest.approx(1e-3 * np.abs(weight - 2 * pull), rel=1e-3)

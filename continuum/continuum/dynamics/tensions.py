@@ -57,5 +57,5 @@ class Tensions:
 
 
 def slack() -> Tensions:
-    """No tension at any time."""
-    return Tensions(np.zeros(1), np.zeros((1, 2)))
+    """No tension at any time, and no motor that holds a cable."""
+    return Tensions(np.zeros(1), np.full((1, 2), LET_GO))

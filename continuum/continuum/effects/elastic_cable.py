@@ -3,11 +3,13 @@
 The motor winds with v = alpha (u - T), an admittance, alpha = 1 / (k lag); the lengthening L is the cable's way
 through the arm, which the joints stretch:
 
-  lag (T' - k g L') = u - T,      g = u^2 / (u^2 + (0.1 N)^2).
+  lag T' = r,      r = u - T + lag k L',      times tanh(T / 0.05 N) where r < 0: T stays positive.
 
-Without a lag the motor makes up for every stretch at once and the tension is what it is told. g lets the drum run free
-where it is told none, so that arms without cables are what they were. A slack cable has T < 0, which does not pull:
--T / k is its slack, wound up by the same law. The lag is never below 1e-5 s, of which nothing is seen.
+Without a lag the motor makes up for every stretch at once and the tension is what it is told. A motor that is told
+none still lets its drum turn only against that resistance, so that an arm that draws its cable out feels it. Cable
+that comes loose is wound up at once, as a drum does by its idle torque; what hangs loose for longer is `slack_cable`'s.
+Where a cable was let go (LET_GO) it has no lag and is not stretched. The lag is never below 1e-5 s, of which nothing
+is seen.
 
 0.5 m of polyamide line of 0.8 mm has some 2 kN/m, of steel rope 100 kN/m; motors that hold a tension by measuring it
 take 5 to 50 ms. The arm's cables move at 0.1 m/s, so 1 kN/m and 10 ms change the tension by 1 N.
@@ -18,12 +20,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
+import numpy as np
+
 from continuum.dynamics.effect import Own
-from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.expressions import Numbers, positive_part
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.cable_states import LEAST_LAG, CableStates
-from continuum.effects.parts.cables import driven, led, lengthening_rate
+from continuum.effects.parts.cables import led, lengthening_rate
+
+_TAUT = 0.05  # N: with less a cable is nearly loose
 
 
 class ElasticCable(CableStates):
@@ -42,5 +48,7 @@ class ElasticCable(CableStates):
     )
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        drawn = own["stiffness"] * driven(now.u) * lengthening_rate(now.motion, now.p)
-        return (own["lag"] * led(now.u) + LEAST_LAG) * (state_rate - drawn) - (now.u - state)
+        lag = own["lag"] * led(now.u) + LEAST_LAG
+        stretched = own["stiffness"] * led(now.u) * lengthening_rate(now.motion, now.p)
+        rising = now.u - state + lag * stretched
+        return lag * state_rate - positive_part(rising) + positive_part(-rising) * np.tanh(state / _TAUT)

@@ -1,4 +1,11 @@
-"""The sensors' charging cable, from the base to link 1: preload + k theta_1 + c w_1 + tau tanh(k_v w_1) on joint 1.
+"""The sensors' charging cable, from the base to link 1: it resists what the joint's turn draws out of it.
+
+  r (tau_0 + k s + c s' + tau tanh(k_v s')) on joint 1,      s = theta_1 + e theta_1^2 / 2,      r = 1 + e theta_1.
+
+s is the cable's way in units of the straight arm's lever, r = ds / dtheta_1 the lever: by virtual work a force acts
+with the lever by which it is drawn out. A loop around the joint has e = 0. A cable drawn straight from a clamp pulls
+along its line, whose lever changes as the link turns: fixed to link 1 at h beside the arm's axis and d beyond the
+joint, and drawn out across the arm, by e = h / d. Where the lever vanishes the cable does nothing.
 
 A bent cable is a spring, and its strands and sheath rub. A USB cable of EI = 2e-3 N m^2 in a loop of 50 mm has
 0.04 N m/rad; bundles and stiff sheaths a few times that. Bent by 0.5 rad in the straight arm, that preloads the joint
@@ -27,6 +34,7 @@ class SensorCable(Effect):
         "stiffness": Parameter("k", "N m/rad", 0.0, 100.0, False, "stiffness of the cable at joint 1", 0.0, 0.1),
         "viscous": Parameter("c", "N m s/rad", 0.0, 10.0, False, "viscous drag of the cable", 0.0, 0.01),
         "dry": Parameter("tau", "N m", 0.0, 10.0, False, "dry friction in the cable", 0.0, 0.02),
+        "lever": Parameter("e", "1/rad", -20.0, 20.0, False, "by how much its lever grows with the angle", 0.0, 2.0),
     }
     source = "Papailiou, IEEE Trans. Power Delivery 12, 1997 (bending stiffness and friction of cables)"
     in_words = "The charging cable of the sensors holds back the first joint."
@@ -35,6 +43,8 @@ class SensorCable(Effect):
 
     def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         theta, w = now.motion.theta[:1], now.motion.theta_rate[:1]
-        bent = own["preload"] + own["stiffness"] * theta
-        rubbing = own["viscous"] * w + own["dry"] * smooth_sign(w, now.p.friction_slope)
-        return np.concatenate([bent + rubbing, np.zeros(now.p.n_joints - 1)])
+        way, lever = theta + own["lever"] * theta**2 / 2, 1 + own["lever"] * theta
+        drawn = lever * w
+        force = own["preload"] + own["stiffness"] * way + own["viscous"] * drawn
+        rubbing = own["dry"] * smooth_sign(drawn, now.p.friction_slope)
+        return np.concatenate([lever * (force + rubbing), np.zeros(now.p.n_joints - 1)])

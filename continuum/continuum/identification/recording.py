@@ -53,12 +53,13 @@ class Recording:
     def pull(self) -> Tensions:
         """Tensions of the cables over time.
 
-        Where constant ones fall to nothing from one row to the next and stay so to the end, the cables were let go.
+        Where there are none, no motor holds a cable. Where constant ones fall to nothing from one row to the next and
+        stay so to the end, the cables were let go.
         """
-        if self.tensions is None:
+        if self.tensions is None or not self.is_driven:
             return slack()
         values, pulled = self.tensions.values, np.flatnonzero(np.any(self.tensions.values > 0, axis=1))
-        if not pulled.size or pulled[-1] + 1 >= len(values) or len(np.unique(values[: pulled[-1] + 1], axis=0)) > 1:
+        if pulled[-1] + 1 >= len(values) or len(np.unique(values[: pulled[-1] + 1], axis=0)) > 1:
             return self.tensions
         released = values.copy()
         released[pulled[-1] + 1 :] = LET_GO

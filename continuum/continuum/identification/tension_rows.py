@@ -19,6 +19,7 @@ from continuum.identification.recording import Recording
 
 _JUMP = 3.0  # N from one row to the next
 _JOLT = 40.0  # rad/s2, by which arms answer at once
+_LOUDER = 3.0  # than the change of acceleration before: joints that stick and slip jolt by themselves
 _BEFORE = 0.2  # of the change of acceleration; about 0 for held tensions, 0.4 for linear ones
 _ITERATIONS = 1
 _RECORDINGS = 2  # that are asked
@@ -54,10 +55,12 @@ def _shares_before_jumps(recording: Recording) -> list[float]:
     u = np.array([recording.tensions.at(time) for time in recording.times])
     acceleration = np.diff(recording.theta_rate, axis=0) / np.diff(recording.times)[:, None]
     found = []
-    for row in np.flatnonzero(np.abs(np.diff(u, axis=0)).max(axis=1) > _JUMP) + 1:
+    for row in map(int, np.flatnonzero(np.abs(np.diff(u, axis=0)).max(axis=1) > _JUMP) + 1):
         if 2 <= row < len(acceleration):
             before, after = (acceleration[k] - acceleration[row - 2] for k in (row - 1, row))
-            felt = float(np.linalg.norm(after)) > _JOLT  # what comes later than the row did not begin before it
+            usual = float(np.linalg.norm(acceleration[row - 2] - acceleration[max(row - 3, 0)]))
+            # what comes later than the row did not begin before it
+            felt = float(np.linalg.norm(after)) > max(_JOLT, _LOUDER * usual)
             found.append(float(before @ after / (after @ after)) if felt else 0.0)
     return found
 

@@ -42,11 +42,19 @@ class Memory:
 
 @dataclass(frozen=True)
 class WindowAt:
-    """One window at one first state: errors and slopes there, and what it hands on to the next window."""
+    """One window at one first state: errors and slopes there, and what it hands on to the next window.
+
+    Attributes:
+        own: coordinates of its first state, (2 n,).
+        part: errors and slopes.
+        memory: of the effects.
+        end: joint angles and rates where the next window begins, (2 n,) [rad, rad/s].
+    """
 
     own: Array
     part: Part
     memory: Memory
+    end: Array
 
 
 class WindowResidual:
@@ -119,7 +127,13 @@ class WindowResidual:
         seen = self._readings(p, run)
         mine = self._samples(window)
         jacobian = self._whiten[window](*(slope[mine] for slope in self._reading_slopes(p, run, seen, free)))
-        return WindowAt(own, Part(self._errors(window, seen), jacobian[:, :k], jacobian[:, k:]), memory)
+        part = Part(self._errors(window, seen), jacobian[:, :k], jacobian[:, k:])
+        return WindowAt(own, part, memory, run.states[-1, : own.size])
+
+    def from_state(self, window: int, shared: Array, motion: Array) -> Array:
+        """Coordinates of a first state of given angles and rates, (2 n,) [rad, rad/s]."""
+        p = self.space.origin + self._directions @ shared
+        return np.asarray((motion - self._motion(window, p)) / self._unit)
 
     def still(self, window: int, slow: float) -> Array:
         """Coordinates of a first state in which joints slower than ``slow`` [rad/s] rest, (2 n,)."""

@@ -2,7 +2,8 @@
 
 Each window has a damping of its own, so that one in which a joint is about to slip does not hold up all others. Where a
 joint sticks in the data and slips in the model, a window may sit in a place from which slopes do not lead away; such
-a window is begun anew from what was measured, and from there with slow joints at rest.
+a window is begun anew from what was measured, from there with slow joints at rest, and from where the window before it
+ended: a joint that stuck there goes on to stick.
 """
 
 from __future__ import annotations
@@ -39,17 +40,20 @@ def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bo
             return None
         at = _descent(run, window, shared, at, memory)
         if anew and at.part.errors @ at.part.errors > _BAD * at.part.errors.size:
-            at = min((at, *_others(run, window, shared, at, memory)), key=lambda one: _cost(run, one))
+            starts = [np.zeros(mine.size), run.still(window, _SLOW)]
+            if found:
+                starts.append(run.from_state(window, shared, found[-1].end))
+            others = [_begun(run, window, shared, start, memory) for start in starts]
+            at = min((at, *(one for one in others if one is not None)), key=lambda one: _cost(run, one))
         memory = at.memory
         found.append(at)
     return found
 
 
-def _others(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None) -> list[WindowAt]:
-    """Where descents from other beginnings end."""
-    starts = [np.zeros(at.own.size), run.still(window, _SLOW)]
-    begun = [run.window(window, shared, start, memory) for start in starts]
-    return [_descent(run, window, shared, one, memory) for one in begun if one is not None]
+def _begun(run: WindowResidual, window: int, shared: Array, start: Array, memory: Memory | None) -> WindowAt | None:
+    """Where the descent from a beginning ends."""
+    at = run.window(window, shared, start, memory)
+    return None if at is None else _descent(run, window, shared, at, memory)
 
 
 def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None) -> WindowAt:

@@ -20,7 +20,7 @@ def write_motion_table(motion: Trajectory, tensions: Tensions, path: str | Path)
     Raises:
         FileError: the file cannot be written.
     """
-    pull = np.array([tensions.at(t) for t in motion.times])
+    pull = np.maximum([tensions.at(t) for t in motion.times], 0.0)
     joints, cables = range(1, motion.n_joints + 1), range(1, pull.shape[1] + 1)
     names = [TIME, *map(angle_column, joints), *map(rate_column, joints), *map(tension_column, cables)]
     columns = [motion.times[:, None], np.degrees(motion.theta), np.degrees(motion.theta_rate), pull]

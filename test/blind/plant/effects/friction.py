@@ -26,8 +26,8 @@ class LoadFriction(Effect):
     """Dry friction of every joint grows with the force that the ball carries: tau_c + r |F|.
 
     F [N] is the reaction between the two links from the engine's inverse dynamics, with weight, acceleration and the
-    cables' pull across the joint. The amount is r [m], coefficient of friction times the ball's radius. Stribeck acts
-    on tau_c alone.
+    cables' pull across the joint, each once. The amount is r [m], coefficient of friction times the ball's radius.
+    Stribeck acts on tau_c alone.
     """
 
     name, unit, sizes = "load_friction", "m", (0.3e-3, 1e-3, 3e-3)
@@ -37,21 +37,10 @@ class LoadFriction(Effect):
         bodies = model.jnt_bodyid[
             [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, f"joint_{i + 1}") for i in range(JOINTS)]
         ]
-        holes = np.array(
-            [
-                [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, f"hole_{c}_{k}") for k in range(JOINTS + 1)]
-                for c in (1, 2)
-            ]
-        )
 
         def grow() -> None:
             mujoco.mj_rnePostConstraint(model, data)
-            carried = data.cfrc_int[bodies, 3:]  # forces on the links by all that crosses the joints (5, 3)
-            if machine.pulling.any():
-                at = data.site_xpos[holes]
-                along = at[:, :-1] - at[:, 1:]
-                along /= np.linalg.norm(along, axis=-1, keepdims=True)
-                carried = carried - np.sum(machine.cable_tension()[..., None] * along, axis=0)
+            carried = data.cfrc_int[bodies, 3:]  # by the joints alone, the engine knows the cables (5, 3)
             machine.coulomb += self.amount * np.linalg.norm(carried, axis=-1)
 
         return grow
