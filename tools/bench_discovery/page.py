@@ -210,6 +210,84 @@ def _parameters(one: Sequence[Result]) -> str:
         "quantity",
         "of one sign. The joints' own spread in the plant (1.5 % of stiffness, 2 % of friction) is not taken out of",
         "the",
+        "truth, and `load_friction` differs in its formula: the library's leaves accelerations out of the load.",
+    )
+    return said + "\n\n" + table(("effect", "small, medium, large", *SIZES, "found with 90 %"), rows)
+
+
+def _lost(clean: Sequence[Result]) -> str:
+    lost = losses(clean)
+    return f"\n\nEq. 19 of the position on held-out runs grows by at most {100 * max(lost):.1f} %." if lost else ""
+
+
+def _confusion(results: Sequence[Result]) -> str:
+    matrix = confusion(results)
+    answered = {column for row in matrix.values() for column in row}
+    columns = [name for name in EFFECTS if name in answered]
+    columns += [name for name in ("several", "ambiguous", "unknown", "adequate", "no verdict") if name in answered]
+    numbers = {name: str(i) if name in EFFECTS else name for i, name in enumerate(columns, 1)}
+    rows = (
+        (f"{numbers[name]} {name}" if name in numbers else name, *(row[column] or "" for column in columns))
+        for name, row in matrix.items()
+    )
+    return (
+        "Rows: what is hidden. Columns: the cause that is named alone, by its row's number, or the verdict.\n\n"
+        + table(("hidden", *(numbers[column] for column in columns)), rows)
+    )
+
+
+def _sets(results: Sequence[Result]) -> str:
+    rows = [
+        (name, f"{{{members}}}", count)
+        for name, sets in ambiguous_sets(results).items()
+        for members, count in sets.items()
+    ]
+    return "Ambiguous sets where one effect is hidden:\n\n" + table(("hidden", "named", "times"), rows)
+
+
+def _wrong(results: Sequence[Result]) -> str:
+    rows = []
+    for result in results:
+        if judged(result) in (Answer.WRONG_CAUSE, Answer.WRONG_JOINT) and result.verdict is not None:
+            hidden = " and ".join(
+                _told(e["name"], e["joint"], f" {e['amount']:.3g} {e['unit']}") for e in result.hidden
+            )
+            causes = " and ".join(
+                _told(c["effect"], c["joint"], f" {c['confidence']:.2f}") for c in result.verdict["causes"]
+            )
+            rows.append((hidden or "nothing", causes, result.plan.dataset, result.plan.noise, result.plan.seed))
+    return table(("hidden", "named, with its confidence", "dataset", "noise", "seed"), rows)
+
+
+def _told(name: str, joint: int | None, more: str) -> str:
+    return name + ("" if joint is None else f"@{joint}") + more
+
+
+def _calibration(results: Sequence[Result]) -> str:
+    stated = statements(results)
+    if not stated:
+        return "None is stated."
+    alone = statements(results, ("cause",))
+    of_causes = f"; of `cause` alone {expected_error(alone):.3f} (n {len(alone)})" if alone else ""
+    said = paragraph(
+        "Of everything that is named in the verdicts `cause` and `ambiguous`, whatever is hidden:",
+        f"ECE {expected_error(stated):.3f} (n {len(stated)}){of_causes}.",
+    )
+    rows = ((f"{one.confidence:.2f}", one.rate) for one in bins(stated))
+    return said + "\n\n" + table(("mean confidence", "is there"), rows)
+
+
+def _parameters(one: Sequence[Result]) -> str:
+    found = estimates(one)
+    rows = (
+        (name, len(group), f"{100 * median_error(group):.1f} %", coverage(group))
+        for name, group in by_parameter(found).items()
+    )
+    said = paragraph(
+        "Of effects that were named at their joints, where the plant's amount and the library's parameter are one",
+        "quantity",
+        "of one sign. The joints' own spread in the plant (1.5 % of stiffness, 2 % of friction) is not taken out of",
+        "the",
         "truth, and `load_friction` differs in its formula: the plant's does not grow with Stribeck's term, the",
         "library's",
         "does.",
