@@ -39,6 +39,7 @@ from continuum.effects.parts.rounded import rounded_size
 
 _PLACES = np.array([[-2.0], [0.0], [2.0]]) / 3  # of the elements between -1 and 1, each amid its third
 _SQUARED = 5  # times, of P
+_FASTEST = 100.0  # what P may be
 _LEAST_ANGLE = 1e-5  # rad: without any, the states would have no rates
 _NEAR_ZERO = 1e-3  # of k_v w: x / tanh(x) is 0 / 0 at 0
 
@@ -92,7 +93,7 @@ def _slipping(x: Numbers) -> Numbers:
     power = positive_part(x)
     for _ in range(_SQUARED):
         power = power * power
-    return power
+    return (1 + _FASTEST) * power / (_FASTEST + power)
 
 
 def _stribeck(w: Numbers, p: Parameters) -> Numbers:
