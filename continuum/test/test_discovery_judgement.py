@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import gain, is_adequate, unexplained
 from continuum.discovery.findings import Estimate, Findings
-from continuum.discovery.in_words import verdict_in_words
+from continuum.discovery.in_words import cost_in_words, verdict_in_words
 from continuum.discovery.judgement import judge
 from continuum.discovery.measured_gain import RunScore, closed_gap
 from continuum.discovery.verdict import Kind, Verdict
@@ -62,7 +62,7 @@ def test_adequate_is_what_leaves_noise_but_for_a_few_windows() -> None:
     assert unexplained(BAD) == pytest.approx(0.3)
     assert is_adequate(GOOD)
     assert is_adequate(trial(bad=0.03))
-    assert not is_adequate(trial(bad=0.06))
+    assert not is_adequate(trial(bad=0.08))
 
 
 def judged() -> dict[Kind, Verdict]:
@@ -158,6 +158,11 @@ def test_every_kind_in_words() -> None:
         assert 2 <= text.count(". ") + text.endswith(".") <= 6
 
 
+def test_what_a_simulation_costs_is_told_by_the_usual_run() -> None:
+    quick, slow = ([replace(score("run", 0.1), seconds=s) for s in seconds] for seconds in ((0.01, 9.0, 0.01), (0.03,)))
+    assert cost_in_words(quick, slow) == "simulating a run takes 30 ms instead of 10 ms"
+
+
 RUN = Recording("run_1", np.arange(3) / 120, np.zeros((3, 5)))
 
 
@@ -175,6 +180,7 @@ def found(verdict: Verdict) -> Findings:
     return Findings(
         verdict=verdict,
         estimates=tuple(Estimate(unknown, 1.0 + i, 0.5 + i, 1.5 + i, "kg") for i, unknown in enumerate(unknowns)),
+        others=tuple((Estimate(Free("base_tilt.angle"), 0.1, 0.0, 0.2, "rad"),) for _ in verdict.alternatives),
         identifiability=learnt,
         before=(score("run_1", 0.4), score("run_2", np.inf)),
         after=(score("run_1", 0.1), score("run_2", 0.2)),
@@ -195,13 +201,14 @@ def test_every_kind_for_machines(kind: Kind, tmp_path: Path) -> None:
     assert read["verdict"] == kind.value
     assert [one["effect"] for one in read["causes"]] == [c.addition.effect for c in verdict.causes]
     assert [one["effect"] for one in read["alternatives"]] == [c.addition.effect for c in verdict.alternatives]
-    for one in read["causes"]:
+    for one in (*read["causes"], *read["alternatives"]):
         assert 0 <= one["confidence"] <= 1
         assert set(one["parameters"]) == set(effect_named(one["effect"]).parameters)
         for entry in one["parameters"].values():
             assert entry["low"] <= entry["value"] <= entry["high"]
     assert read["nrmse_position"] == {"run_1": {"before": 0.4, "after": 0.1}, "run_2": {"before": None, "after": 0.2}}
     assert read["nrmse_velocity"]["run_1"] == {"before": 0.8, "after": 0.2}
+    assert read["seconds_of_a_simulation"]["run_1"] == {"before": 0.01, "after": 0.01}
     assert (read["weakness"], read["notes"]) == ("two recordings only", ["run_1: row 7 left out"])
 
 

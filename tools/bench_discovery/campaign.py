@@ -18,9 +18,8 @@ from typing import Any
 
 from blind.plant import Plan, make_case, write_case
 
+from continuum.cli.diagnose import EXIT_CODES
 from tools.bench_discovery.result import Result
-
-_ANSWERED = (0, 1, 3, 4)  # exit codes of `continuum diagnose` that come with a verdict
 
 
 class DiagnosisFailedError(Exception):
@@ -56,7 +55,7 @@ def diagnosed(files: list[Path], limit: float) -> dict[str, Any]:
             finally:
                 if process.poll() is None:
                     os.killpg(process.pid, signal.SIGKILL)
-        if process.returncode not in _ANSWERED:
+        if process.returncode not in EXIT_CODES.values():
             last = errors.strip().splitlines()[-1:] or ["nothing on stderr"]
             raise DiagnosisFailedError(f"exit code {process.returncode}: {last[0]}")
         return dict(json.loads(verdict.read_text(encoding="utf-8")))

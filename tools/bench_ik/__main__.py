@@ -120,7 +120,8 @@ for every row, {options.targets} for every start and tolerance; sections are the
 b = 19.25 mm), turned by 30 degrees each, with bend limits of 180 degrees. A target counts as solved when the solver
 says so, the forward kinematics says so, and no section is bent beyond its limit. Times are processor time of single
 Python calls, the making of the target and its checks included, on one core of a shared two-core machine that others
-used at the same time: read them as ratios within the page. The solver is timed three times, and the quietest counts.
+used at the same time: read them as ratios within the page. One call follows the other, answers are judged
+afterwards. The solver is timed three times, and the quietest counts.
 
 ## Goals
 

@@ -53,28 +53,39 @@ def quietest(measure: Callable[[], Score]) -> Score:
 def score_solver(sample: Sample, tolerance: float, from_random: bool) -> Score:
     """Time what a program does target by target: it makes the target, which checks it, and calls the solver."""
     solver = InverseKinematics(sample.arm, tolerance)
-    n = len(sample.targets)
-    times, iterations, solved = np.empty(n), np.empty(n), np.zeros(n, bool)
-    positions, directions = sample.targets.positions, sample.targets.directions
-    for k in range(n):
-        position, direction, start = positions[k], directions[k], sample.starts[k] if from_random else None
-        began = time.thread_time()
-        result = solver.solve(Target(position, direction), start)
-        times[k] = time.thread_time() - began
-        iterations[k] = result.iterations
-        solved[k] = result.solved and arrived(sample, k, result.configuration, tolerance)
-    return _score(times, iterations, solved)
+
+    def answer(k: int) -> Answer:
+        target = Target(sample.targets.positions[k], sample.targets.directions[k])
+        result = solver.solve(target, sample.starts[k] if from_random else None)
+        return result.configuration, result.iterations, result.solved
+
+    return _score_calls(answer, sample, tolerance, len(sample.targets))
 
 
 def score_rival(sample: Sample, tolerance: float, n: int, rival: Rival) -> Score:
     """Time a rival on the first ``n`` targets, from the straight arm."""
-    times, iterations, solved = np.empty(n), np.empty(n), np.zeros(n, bool)
-    for k, target in each_target(sample, n):
+    targets = [target for _, target in each_target(sample, n)]
+
+    def answer(k: int) -> Answer:
+        return *rival(sample, targets[k], tolerance), True
+
+    return _score_calls(answer, sample, tolerance, n)
+
+
+type Answer = tuple[Array, int, bool]
+"""Configuration, iterations, and whether the solver says that it has arrived."""
+
+
+def _score_calls(answer: Callable[[int], Answer], sample: Sample, tolerance: float, n: int) -> Score:
+    """One call follows the other, as in a program; whether they have arrived is looked at when all are there."""
+    times, answers = np.empty(n), []
+    for k in range(n):
         began = time.thread_time()
-        configuration, iterations[k] = rival(sample, target, tolerance)
+        given = answer(k)
         times[k] = time.thread_time() - began
-        solved[k] = arrived(sample, k, configuration, tolerance)
-    return _score(times, iterations, solved)
+        answers.append(given)
+    solved = [says_so and arrived(sample, k, w, tolerance) for k, (w, _, says_so) in enumerate(answers)]
+    return _score(times, np.array([iterations for _, iterations, _ in answers], dtype=float), np.array(solved))
 
 
 def score_helix() -> tuple[Score, Score, float]:

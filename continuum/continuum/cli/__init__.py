@@ -24,7 +24,8 @@ what you can do next:
   ros2 bag record /cable_states                                   record what the cables do
 
 ARM.yaml is a file like continuum_description/config/three_sections.yaml.
-Exit codes: 0 done, 1 the answer is no (a target out of reach, a simulation that fails), 2 wrong usage, file or value.
+Exit codes: 0 done, 1 the answer is no (a target out of reach, a simulation that fails), 2 wrong usage, file or value;
+diagnose has some of its own.
 """
 
 

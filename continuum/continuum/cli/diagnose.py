@@ -14,14 +14,14 @@ if TYPE_CHECKING:
     from continuum.discovery.findings import Findings
     from continuum.identification.recording import Recording
 
-EXIT_CODES = {"adequate": 0, "cause": 1, "ambiguous": 3, "unknown": 4}
+EXIT_CODES = {"adequate": 0, "cause": 3, "ambiguous": 4, "unknown": 5}  # 1 is a crash, 2 wrong usage
 
 
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
         "diagnose", help="what a simulation gets wrong about recordings, and why", description=__doc__,
-        epilog="Exit codes: 0 adequate, 1 a cause is named, 3 ambiguous, 4 unknown; 2 wrong usage or data.",
+        epilog="Exit codes: 0 adequate, 3 a cause is named, 4 ambiguous, 5 unknown; 2 wrong usage or data.",
     )  # fmt: skip
     parser.add_argument(
         "data", metavar="DATA", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
@@ -89,7 +89,7 @@ def read_recording(path: str) -> Recording:
 
 
 def _show(found: Findings) -> None:
-    from continuum.discovery.in_words import verdict_in_words
+    from continuum.discovery.in_words import cost_in_words, verdict_in_words
 
     verdict = found.verdict
     print(f"{verdict.kind.value.upper()}\n\n{verdict_in_words(verdict)}\n")
@@ -108,5 +108,6 @@ def _show(found: Findings) -> None:
     )
     if verdict.extension:
         print(f"distance to the noise floor closed: {100 * found.closed:.0f} %")
+        print(cost_in_words(found.before, found.after))
     for line in (*found.notes, *([f"Mind: {found.weakness}."] if found.weakness else [])):
         print(line)

@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import binom
 
 from continuum.arrays import Array
 from continuum.discovery.trial import Trial
 
 _UNEXPLAINED = 2.0  # misfit of a window beside that of noise
-_ADEQUATE = 0.04  # share of windows that may stay so: sticking joints now and then hold one
+_BY_CHANCE = 0.02  # share of windows that stay so of a right model: sticking joints now and then hold one
+_CHANCE = 0.01  # probability of as many by chance, below which something is missing
 _SIGNIFICANT, _DISTINCT = 15.0, 8.0  # log-likelihood
 _SPREAD = 1.5  # deviations
 _STRETCH = 4  # windows, over which errors may hang together
@@ -52,8 +54,9 @@ def unexplained(trial: Trial) -> float:
 
 
 def is_adequate(trial: Trial) -> bool:
-    """Whether what is left is noise."""
-    return unexplained(trial) <= _ADEQUATE
+    """Whether what is left is noise: no more unexplained windows than a right model leaves by chance."""
+    n = trial.relative.size
+    return bool(binom.sf(round(unexplained(trial) * n) - 1, n, _BY_CHANCE) > _CHANCE)
 
 
 def gain(trial: Trial, over: Trial) -> Gain:

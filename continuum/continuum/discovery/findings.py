@@ -10,8 +10,9 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.measured_gain import RunScore, closed_gap, held_out_scores
+from continuum.discovery.question import Question
 from continuum.discovery.trial import fit_extension
-from continuum.discovery.verdict import Verdict
+from continuum.discovery.verdict import Cause, Verdict
 from continuum.dynamics.model import Model
 from continuum.identification.bootstrap import bootstrap, interval
 from continuum.identification.dataset import halves
@@ -45,6 +46,7 @@ class Findings:
     Attributes:
         verdict: the answer.
         estimates: of the thesis's parameters and of the effects'.
+        others: for each alternative, the estimates of its own effect.
         identifiability: what the data tell of them.
         before, after: every run predicted by the other half, by the refitted and by the extended model.
         closed: part of the distance to the noise floor that the extension closes.
@@ -55,6 +57,7 @@ class Findings:
 
     verdict: Verdict
     estimates: tuple[Estimate, ...]
+    others: tuple[tuple[Estimate, ...], ...]
     identifiability: Identifiability
     before: tuple[RunScore, ...]
     after: tuple[RunScore, ...]
@@ -80,6 +83,7 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
     return Findings(
         verdict,
         tuple(_estimates(fitted, random)),
+        tuple(tuple(_of_alternative(question, rival, random)) for rival in verdict.alternatives),
         identifiability(fitted),
         tuple(before),
         tuple(after),
@@ -89,6 +93,11 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         fit_extension(question, (), verdict.baseline, 2).model,
         _told(fitted, [r.name for r in question.recordings]),
     )
+
+
+def _of_alternative(question: Question, rival: Cause, random: np.random.Generator) -> list[Estimate]:
+    fitted = fit_extension(question, rival.trial.extension, rival.trial, 2)
+    return [e for e in _estimates(fitted, random) if e.unknown.name.startswith(rival.addition.effect + ".")]
 
 
 def _estimates(fitted: Fit, random: np.random.Generator) -> list[Estimate]:

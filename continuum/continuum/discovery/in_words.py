@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
 
@@ -52,3 +55,9 @@ def _names(verdict: Verdict) -> str:
 
 def _helps(verdict: Verdict) -> str:
     return " with ".join(str(c.addition) for c in verdict.causes)
+
+
+def cost_in_words(before: Sequence[RunScore], after: Sequence[RunScore]) -> str:
+    """What the extension costs in simulation time."""
+    once, now = (1e3 * float(np.median([score.seconds for score in scores])) for scores in (before, after))
+    return f"simulating a run takes {now:.0f} ms instead of {once:.0f} ms"

@@ -34,13 +34,13 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
 
 
 def _cause(one: Round) -> Cause:
-    return Cause(one.best.extension[-1], _confidence(one, one.best), gain(one.best, one.before))
+    return Cause(one.best.extension[-1], _confidence(one, one.best), gain(one.best, one.before), one.best)
 
 
 def _rivals(one: Round) -> list[Cause]:
     """Effects that explain as much as the best one does."""
     others = [trial for trial in one.leaders[1:] if not gain(one.best, trial).is_distinct]
-    return [Cause(t.extension[-1], _confidence(one, t), gain(t, one.before)) for t in others]
+    return [Cause(t.extension[-1], _confidence(one, t), gain(t, one.before), t) for t in others]
 
 
 def _confidence(one: Round, trial: Trial) -> float:

@@ -15,7 +15,7 @@ from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.dataset import Split
 from continuum.identification.free import Free
-from continuum.identification.free_run import free_run
+from continuum.identification.free_run import begun
 from continuum.identification.noise import Noise
 from continuum.identification.nrmse import position_nrmse, rate_nrmse
 from continuum.identification.recording import Recording
@@ -31,7 +31,7 @@ class RunScore:
         name: of the run.
         position, rate: Eq. 19; infinite where the model cannot be simulated.
         floor: what sensor noise alone gives Eq. 19 of the position.
-        seconds: that the simulation took.
+        seconds: of processor time that the simulation took.
         seen: what the sensors would read.
         recording: what they did read.
     """
@@ -68,9 +68,10 @@ def closed_gap(before: Sequence[RunScore], after: Sequence[RunScore]) -> float:
 
 
 def _scored(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...]) -> RunScore:
-    began = time.perf_counter()
-    seen = free_run(simulator, recording, noise, own)
-    seconds = time.perf_counter() - began
+    run = begun(simulator, recording, noise, own)
+    began = time.process_time()
+    seen = None if run is None else run.simulate()
+    seconds = time.process_time() - began
     floor = float(np.mean(noise.angle.white / np.maximum(np.std(recording.theta, axis=0), 1e-9)))
     if seen is None:
         return RunScore(recording.name, np.inf, np.inf, floor, seconds, None, recording)

@@ -10,7 +10,7 @@ from pathlib import Path
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
 from continuum.discovery.findings import Findings
-from continuum.discovery.in_words import verdict_in_words
+from continuum.discovery.in_words import cost_in_words, verdict_in_words
 from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
 from continuum.discovery.residual_torque import ResidualTorque
 from continuum.discovery.search import Round
@@ -64,7 +64,7 @@ def write_report(
             ],
         ),
         '<p class="note">Eq. 19 of the thesis: root mean square error by standard deviation, mean over the joints.'
-        + (f" The extension closes {100 * found.closed:.0f} % of the distance to the noise." if extended else "")
+        + (f" {_worth(found)}" if extended else "")
         + "</p>",
         "<h2>What is missing</h2>",
         _image(torque_picture(*torques)),
@@ -85,6 +85,11 @@ def write_report(
         Path(path).write_text(page + "\n".join(body) + "</html>\n", encoding="utf-8")
     except OSError as error:
         raise FileError(path, f"cannot be written ({error})") from error
+
+
+def _worth(found: Findings) -> str:
+    closed = f"The extension closes {100 * found.closed:.0f} % of the distance to the noise"
+    return f"{closed}; {cost_in_words(found.before, found.after)}."
 
 
 def _evidence(number: int, one: Round) -> Iterable[str]:

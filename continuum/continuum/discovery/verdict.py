@@ -27,11 +27,13 @@ class Cause:
         addition: the effect, and the joints where it acts.
         confidence: 0 to 1, that it is this one and no other of the library.
         gain: what it gains over the model without it.
+        trial: the fit with it.
     """
 
     addition: Addition
     confidence: float
     gain: Gain
+    trial: Trial
 
 
 @dataclass(frozen=True)

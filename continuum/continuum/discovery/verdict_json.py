@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from continuum.discovery.findings import Findings
+from continuum.discovery.findings import Estimate, Findings
 from continuum.discovery.verdict import Cause
 from continuum.errors import FileError
 
@@ -29,13 +30,14 @@ def as_mapping(found: Findings) -> dict[str, Any]:
     verdict = found.verdict
     return {
         "verdict": verdict.kind.value,
-        "causes": [_cause(found, cause) for cause in verdict.causes],
-        "alternatives": [_cause(found, cause) for cause in verdict.alternatives],
+        "causes": [_cause(cause, found.estimates) for cause in verdict.causes],
+        "alternatives": [_cause(cause, own) for cause, own in zip(verdict.alternatives, found.others, strict=True)],
         "experiment": verdict.experiment,
         "unexplained": {"before": verdict.unexplained[0], "after": verdict.unexplained[1]},
         "nrmse_position": _scores(found, "position"),
         "nrmse_velocity": _scores(found, "rate"),
         "gap_closed": found.closed,
+        "seconds_of_a_simulation": _scores(found, "seconds"),
         "parameters": [
             {"name": str(e.unknown), "value": e.value, "low": e.low, "high": e.high, "unit": e.unit}
             for e in found.estimates
@@ -45,7 +47,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
     }
 
 
-def _cause(found: Findings, cause: Cause) -> dict[str, Any]:
+def _cause(cause: Cause, estimates: Sequence[Estimate]) -> dict[str, Any]:
     joints = None if cause.addition.joints is None else [joint + 1 for joint in cause.addition.joints]
     prefix = cause.addition.effect + "."
     return {
@@ -56,7 +58,7 @@ def _cause(found: Findings, cause: Cause) -> dict[str, Any]:
         "gain": cause.gain.log_likelihood,
         "parameters": {
             str(e.unknown)[len(prefix) :]: {"value": e.value, "low": e.low, "high": e.high, "unit": e.unit}
-            for e in found.estimates
+            for e in estimates
             if e.unknown.name.startswith(prefix)
         },
     }

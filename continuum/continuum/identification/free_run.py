@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+from continuum.arrays import Array
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.fit import fit
@@ -13,8 +16,21 @@ from continuum.identification.window_residual import WindowResidual
 _ITERATIONS = 6
 
 
-def free_run(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...] = ()) -> Reading | None:
-    """What the sensors would read; None where the model cannot be simulated.
+@dataclass(frozen=True)
+class FreeRun:
+    """A run that is ready to be simulated: as one window, from where it began."""
+
+    whole: WindowResidual
+    shared: Array
+    first: Array
+
+    def simulate(self) -> Reading | None:
+        """What the sensors would read; None where the model cannot be simulated."""
+        return self.whole.simulate(self.shared, [self.first])
+
+
+def begun(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...] = ()) -> FreeRun | None:
+    """A run and its beginning; None where the model cannot be simulated.
 
     Angles and rates at the first instant are those that explain the first window best, no later one; what belongs to a
     recording alone, as a sensor's offset, is fitted to it.
@@ -30,4 +46,10 @@ def free_run(simulator: Simulator, recording: Recording, noise: Noise, own: tupl
     if not fitted.parts:
         return None
     whole = WindowResidual(simulator, recording, 0, noise, fitted.space, None)
-    return whole.simulate(fitted.coordinates, [fitted.unknowns.own[0]])
+    return FreeRun(whole, fitted.coordinates, fitted.unknowns.own[0])
+
+
+def free_run(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...] = ()) -> Reading | None:
+    """What the sensors would read from its beginning on; arguments are those of `begun`."""
+    run = begun(simulator, recording, noise, own)
+    return None if run is None else run.simulate()

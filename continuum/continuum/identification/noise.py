@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import gamma
 
 from continuum.arrays import Array
 from continuum.identification.recording import Recording
@@ -19,8 +20,10 @@ _ANGLE_FLOOR = np.deg2rad(0.1)  # no joint angle from inertial sensors is better
 _RATE_FLOOR = np.deg2rad(0.1)  # [rad/s]
 _STRETCH = 16  # samples
 _LONGEST = 240  # samples in which the wander is looked for at once
-_QUIET = 0.15  # of the stretches are quiet in most recordings
-_QUIET_FACTOR = 0.484  # mean square of white noise in the stretch at that quantile, measured on white noise
+_SHAPE = 3.1  # of the gamma distribution of white noise's mean square in a stretch, measured on white noise
+_QUIETEST, _LOUDER = 3, 2.0  # stretches, and by how much noise's variance is more: the search begins there
+_STILL = 2.2  # times the variance of noise: a stretch of less holds noise alone
+_FEWEST = 4  # stretches for a correlation
 _WANDER_TRIED = np.concatenate([[0.0], np.geomspace(0.05, 30, 25)])  # sizes in units of the white noise
 
 
@@ -111,17 +114,31 @@ def _white_covariance(signals: Sequence[Array], floor: float) -> Array:
         for piece in np.array_split(np.diff(signal, 4, axis=0), max(1, signal.shape[0] // _STRETCH))
     ]
     energy = np.array([np.mean(piece**2, axis=0) / 70 for piece in stretches])
-    spread: Array = np.maximum(np.sqrt(np.quantile(energy, _QUIET, axis=0) / _QUIET_FACTOR), floor)
-    limit = np.quantile(energy, 2 * _QUIET, axis=0)
-    quiet = [piece for piece, size in zip(stretches, energy, strict=True) if np.all(size <= 3 * limit)]
+    spread: Array = np.maximum(np.sqrt([_quiet_variance(joint) for joint in energy.T]), floor)
+    loudest = np.max(energy / spread**2, axis=1)
+    limit = max(_STILL, np.sort(loudest)[min(_FEWEST, loudest.size) - 1])
+    quiet = [piece for piece, size in zip(stretches, loudest, strict=True) if size <= limit]
     correlation: Array = np.eye(n)
-    if n > 1 and len(quiet) > 3:
+    if n > 1 and len(quiet) >= _FEWEST:
         parts = np.concatenate(quiet)
         if np.all(np.std(parts, axis=0) > 1e-9):  # angles read off a picture may stand quite still
             correlation = np.asarray(
                 np.corrcoef(np.clip(parts, -3 * np.std(parts, axis=0), 3 * np.std(parts, axis=0)).T)
             )
     return np.asarray(0.95 * correlation + 0.05 * np.eye(n)) * np.outer(spread, spread)
+
+
+def _quiet_variance(energy: Array) -> float:
+    """Variance of the white part, from the mean squares of stretches, (n_stretches,), of which most may hold motion.
+
+    It is that of the quietest, and of all that are as quiet as noise of that variance would be, and so on.
+    """
+    rising = np.sort(energy)
+    kept = gamma.cdf(_STILL, _SHAPE + 1, scale=1 / _SHAPE) / gamma.cdf(_STILL, _SHAPE, scale=1 / _SHAPE)
+    count, variance = 0, _LOUDER * float(np.mean(rising[:_QUIETEST]))
+    while (within := max(_QUIETEST, int(np.searchsorted(rising, _STILL * variance)))) > count:
+        count, variance = within, float(np.mean(rising[:within])) / kept
+    return variance
 
 
 def _wander(recordings: Sequence[Recording], white: Array, rate_white: Array, time: float) -> float:
