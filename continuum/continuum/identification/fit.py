@@ -124,7 +124,9 @@ def fit(
     ]
     first = _begun([coordinates for run in runs for coordinates in run.start], own)
     begin = np.zeros(len(space.unknowns)) if start is None else space.clipped(start)
-    unknowns = Unknowns(begin, space.spread, space.lower, space.upper, first, [spread for run in runs for spread in run.spreads])
+    unknowns = Unknowns(
+        begin, space.spread, space.lower, space.upper, first, [spread for run in runs for spread in run.spreads]
+    )
 
     def evaluate(shared: Array, owns: Sequence[Array], anew: bool) -> tuple[list[Part], list[Array]] | None:
         windows: list[WindowAt] = []
