@@ -10,6 +10,7 @@ from dynamics_laws import active, moving, prototype_model
 from effects_laws import LOOSE, N, effect_of, instants, torque_of
 from scipy.integrate import solve_ivp
 
+from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, dry_friction, joint_friction
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.load_friction import joint_force

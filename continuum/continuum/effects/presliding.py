@@ -1,14 +1,14 @@
-"""Stuck joints give way elastically before they slide: asperities that bend and slip one after another (generalized
-Maxwell slip), in the place of Eq. 13's smoothed sign.
+"""Stuck joints give way elastically before they slide: generalized Maxwell slip in the place of Eq. 13's smoothed sign.
 
-Three elements, each a spring in series with dry friction, stand for all asperities. Element j slips bent by sigma_j h,
+Asperities bend and slip one after another. Three elements, each a spring in series with dry friction, stand for all.
+Element j slips when it has bent by sigma_j h,
 
   sigma_j = sigma (1 + r (j - 2) 2 / 3),  j = 1, 2, 3,     h = 1 + S exp(-(w / v_d)^2),     w the joint's rate,
 
 and holds the part sigma_j / (3 sigma) of the friction: before any slips they are one spring of tau_c / sigma. With the
 states s_j, each the element's torque over that at which it slips at h = 1, and x_j = s_j / h,
 
-  sigma_j s_j' = w - (|w| + w) / 2 P(x_j) + (|w| - w) / 2 P(-x_j),     P(x) = 101 x^32 / (100 + x^32) where x > 0, else 0,
+  sigma_j s_j' = w - (|w| + w) / 2 P(x_j) + (|w| - w) / 2 P(-x_j),     P(x) = 101 x^32 / (100 + x^32), 0 below x = 0,
 
   dry friction tau_c sum_j (sigma_j s_j + t_b w b(x_j)) / (3 sigma) instead of tau_c h tanh(k_v w).
 
