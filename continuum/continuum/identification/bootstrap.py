@@ -46,7 +46,8 @@ def moves_without(fitted: Fit) -> Array:
     """How the shared coordinates move when a stretch is left out, (stretches, k): (H - H_i)^-1 g_i."""
     found, at = [], 0
     for run in fitted.runs:
-        parts, spreads = (every[at : at + len(run.rows)] for every in (fitted.parts, fitted.unknowns.own_spread))
+        parts = fitted.parts[at : at + len(run.rows)]
+        spreads = fitted.unknowns.own_spread[at : at + len(run.rows)]
         at += len(run.rows)
         slopes = [reduced(part, spread) for part, spread in zip(parts, spreads, strict=True)]
         weights = [weight_of(part) for part in parts]
