@@ -51,5 +51,5 @@ def quadratic(effect: str, found: Sequence[float], precision: np.ndarray, joints
     root = np.linalg.cholesky(precision).T
     part = Part(np.ones(k), root, np.zeros((k, 0)))  # errors of unit size weigh 1
     far = np.full(k, np.inf)
-    where = Unknowns(np.array(found, dtype=float), np.full(k, 1e6), -far, far, [np.zeros(0)], np.zeros(0))
+    where = Unknowns(np.array(found, dtype=float), np.full(k, 1e6), -far, far, [np.zeros(0)], [np.zeros(0)])
     return Fit(FitStatus.CONVERGED, None, space, [], where, [part], 0.0, 1)  # type: ignore[arg-type]

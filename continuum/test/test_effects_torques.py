@@ -11,7 +11,7 @@ from effects_laws import LOOSE, N, effect_of, instants, torque_of
 from scipy.integrate import solve_ivp
 
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.eq13_joint_friction import joint_friction
+from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, dry_friction, joint_friction
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.load_friction import joint_force
 
@@ -116,35 +116,67 @@ def test_what_the_load_adds_has_a_stribeck_part_of_its_own() -> None:
     assert last > plain  # its own motion presses it, and no Stribeck part
 
 
-def slid(turn: Callable[[float], float], times: np.ndarray, angle: float) -> tuple[np.ndarray, Parameters]:
-    """State of one joint that turns at a given rate."""
+SPREAD = 0.7
+ANGLES = 1 + SPREAD * np.array([-2.0, 0.0, 2.0]) / 3
+"""Of the elements of `presliding`, in units of sigma: as its docstring says."""
+
+
+def slid(turn: Callable[[float], float], times: np.ndarray, angle: float) -> tuple[np.ndarray, np.ndarray]:
+    """Of one joint that turns at a given rate: friction over tau_c (n_times,), and states (n_times, 3)."""
     p = prototype_model(1).parameters
-    one = active(effect_of("presliding"), angle=angle)
+    one = active(effect_of("presliding"), angle=angle, spread=SPREAD)
 
-    def rate(t: float, s: np.ndarray) -> np.ndarray:
-        now = Instant(moving(np.zeros(1), np.array([turn(t)])), LOOSE, p)
-        still = one.effect.state_balance(now, one.values, s, np.zeros(1))
-        return -still / (one.effect.state_balance(now, one.values, s, np.ones(1)) - still)
+    def at(t: float) -> Instant:
+        return Instant(moving(np.zeros(1), np.array([turn(t)])), LOOSE, p)
 
-    found = solve_ivp(rate, (times[0], times[-1]), [0.0], "BDF", times, rtol=1e-9, atol=1e-10, max_step=0.01)
-    return found.y[0], p
+    def rates(t: float, s: np.ndarray) -> np.ndarray:
+        still = one.effect.state_balance(at(t), one.values, s, np.zeros(3))
+        return -still / (one.effect.state_balance(at(t), one.values, s, np.ones(3)) - still)
+
+    found = solve_ivp(rates, (times[0], times[-1]), np.zeros(3), "BDF", times, rtol=1e-9, atol=1e-10, max_step=0.01)
+    held = []
+    for t, s in zip(times, found.y.T, strict=True):
+        w = at(t).motion.theta_rate
+        without = dry_friction(w, p) * np.tanh(p.friction_slope * w)
+        held.append((one.effect.torque(at(t), one.values, s) + without)[0] / p.coulomb_friction[0])
+    return np.array(held), found.y.T
 
 
 def test_sliding_steadily_the_friction_is_that_of_eq_13() -> None:
-    for w in (-3.0, -0.05, 0.01, 0.3, 2.0):
-        s, p = slid(lambda t, w=w: w, np.array([0.0, 0.5 / abs(w)]), 0.02)
-        now = Instant(moving(np.zeros(1), np.array([w])), LOOSE, p)
-        np.testing.assert_allclose(torque_of("presliding", now, s[-1:], angle=0.02), 0, atol=1e-7)
+    p = prototype_model(1).parameters
+    for w in (-3.0, -0.05, 0.03, 0.3, 2.0):
+        held, _ = slid(lambda t, w=w: w, np.array([0.0, 0.5 / abs(w)]), 0.02)
+        expected = dry_friction(np.array([w]), p)[0] * np.sign(w) / p.coulomb_friction[0]
+        assert held[-1] == pytest.approx(expected, abs=1e-6)
+
+
+def test_a_creeping_joint_meets_no_more_than_the_break_away_torque() -> None:
+    p = prototype_model(1).parameters
+    held, _ = slid(lambda t: 5e-4, np.linspace(0.0, 400.0, 101), 0.02)
+    most = break_away_torque(p)[0] / p.coulomb_friction[0]
+    assert 0.9 * most < held.max() <= most * (1 + 1e-6)
 
 
 def test_a_stuck_joint_is_a_spring_at_first_and_loses_at_every_turn() -> None:
     angle, times = 0.02, np.linspace(0, 1, 1001)
-    turn = 0.5 * angle * 2 * np.pi
-    s, _ = slid(lambda t: turn * np.cos(2 * np.pi * t), times, angle)
+    turn = 1.5 * angle * 2 * np.pi
+    held, _ = slid(lambda t: turn * np.cos(2 * np.pi * t), times, angle)
     way = turn / (2 * np.pi) * np.sin(2 * np.pi * times)
-    assert s[20] == pytest.approx(way[20] / angle, rel=0.06)
-    assert np.trapezoid(s * turn * np.cos(2 * np.pi * times), times) > 0.02 * angle
-    assert abs(s[500]) > 0.1  # back where it began, but not the friction
+    assert held[20] == pytest.approx(way[20] / angle, rel=0.06)
+    assert np.trapezoid(held * turn * np.cos(2 * np.pi * times), times) > 0.1 * angle
+    assert abs(held[500]) > 0.1  # back where it began, but not the friction
+
+
+def test_a_small_turn_back_and_forth_is_forgotten() -> None:
+    """Its loop closes: where the joint turned back, friction is what it was, and goes on as if nothing had been."""
+    angle, speed = 0.02, 0.05
+    ends = np.cumsum([0.5, 0.15, 0.15, 0.2])
+    there_and_back = lambda t: speed * (-1.0 if ends[0] <= t < ends[1] else 1.0)  # noqa: E731
+    with_turn, _ = slid(there_and_back, np.concatenate([[0.0], ends]), angle)
+    straight, _ = slid(lambda t: speed, np.array([0.0, ends[0], ends[0] + 0.2]), angle)
+    assert with_turn[2] < 0.8 * with_turn[1]
+    assert with_turn[3] == pytest.approx(straight[1], rel=0.02)
+    assert with_turn[4] == pytest.approx(straight[2], rel=0.02)
 
 
 def test_presliding_friction_stores_and_takes_but_never_makes_energy() -> None:
@@ -153,10 +185,9 @@ def test_presliding_friction_stores_and_takes_but_never_makes_energy() -> None:
         a, b = random.normal(size=6), random.uniform(2, 40, 6)
         times = np.linspace(0, 1, 4001)
         turn = lambda t, a=a, b=b: float(np.sum(a * np.sin(b * t)))  # noqa: E731
-        s, _ = slid(turn, times, angle)
-        w = np.array([turn(t) for t in times])
-        power = s * w
+        held, s = slid(turn, times, angle)
+        power = held * np.array([turn(t) for t in times])
         work = np.concatenate([[0.0], np.cumsum((power[1:] + power[:-1]) / 2 * np.diff(times))])
-        lost = work - (angle + 1e-5) * s**2 / 2
+        lost = work - (angle + 1e-5) * s**2 @ ANGLES**2 / 6
         assert np.diff(lost).min() > -1e-5
         assert lost[-1] > 0.1

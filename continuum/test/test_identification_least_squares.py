@@ -50,7 +50,7 @@ class Problem:
     def unknowns(self, bound: float = np.inf) -> Unknowns:
         return Unknowns(
             np.zeros(SHARED), self.spread, np.full(SHARED, -bound), np.full(SHARED, bound),
-            [np.zeros(OWN) for _ in self.begin], self.own_spread,
+            [np.zeros(OWN) for _ in self.begin], [self.own_spread for _ in self.begin],
         )  # fmt: skip
 
     def dense(self) -> tuple[np.ndarray, np.ndarray]:

@@ -104,10 +104,10 @@ def test_slopes_by_the_shared_unknowns(effect: str | None) -> None:
         np.testing.assert_allclose(found[:, i], slope, rtol=0, atol=0.01 * size, err_msg=str(one.space.unknowns[i]))
 
 
-@pytest.mark.parametrize("effect", [None, "sensor_delay", "actuator_lag", "base_compliance", "backlash"])
+@pytest.mark.parametrize("effect", [None, "sensor_delay", "actuator_lag", "base_compliance", "backlash", "presliding"])
 @pytest.mark.parametrize("window", [0, 1])
 def test_slopes_by_a_windows_first_state(effect: str | None, window: int) -> None:
-    """Also those by way of effects that rest with the arm where a run begins."""
+    """Also those by way of effects that rest with the arm where a run begins, or nearly so."""
     one = residual(effect)
     shared, own = somewhere(one)
     memory = chained(one, shared, own)[0].memory if window else None
@@ -119,7 +119,7 @@ def test_slopes_by_a_windows_first_state(effect: str | None, window: int) -> Non
         assert there is not None
         return there.part.errors
 
-    for i, unit in enumerate(np.eye(2 * N)):
+    for i, unit in enumerate(np.eye(own[window].size)):
         slope = slope_along(lambda step, unit=unit: errors_of(own[window] + step * unit))
         np.testing.assert_allclose(at.part.by_own[:, i], slope, rtol=0, atol=0.01 * np.max(np.abs(slope)))
 

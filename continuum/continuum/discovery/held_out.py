@@ -20,12 +20,11 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
     for with half the logarithm of the number of errors for each such unknown (Schwarz 1978). With one run, stretches
     of it are held out instead. A model that could not be simulated explains no window.
     """
-    spread = fitted.unknowns.own_spread
     groups, single = _groups(fitted), len(fitted.runs) == 1
     if not fitted.parts:
         nothing = MOST_MISFIT * np.concatenate([run.errors_by_window for run in fitted.runs])
         return [nothing[group] for group in groups]
-    slopes = [reduced(part, spread) for part in fitted.parts]
+    slopes = [reduced(part, spread) for part, spread in zip(fitted.parts, fitted.unknowns.own_spread, strict=True)]
     weights = [weight_of(part) for part in fitted.parts]
     found: list[Array] = []
     for number, group in enumerate(groups):

@@ -85,8 +85,8 @@ def residual_torques(question: Question, model: Model) -> list[ResidualTorque]:
     for recording in question.recordings:
         fitted = fit(simulator, [recording], question.noise, free, iterations=_ITERATIONS)
         torque, deviation, middle = [], [], []
-        for rows, part in zip(fitted.runs[0].rows, fitted.parts, strict=True):
-            slopes = reduced(part, fitted.unknowns.own_spread)
+        for rows, part, spread in zip(fitted.runs[0].rows, fitted.parts, fitted.unknowns.own_spread, strict=True):
+            slopes = reduced(part, spread)
             covariance = np.linalg.inv(slopes.T @ slopes + 1e-6 * np.eye(n))
             at = fitted.coordinates - covariance @ slopes.T @ part.errors
             torque.append(_TYPICAL * at)

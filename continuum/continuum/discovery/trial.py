@@ -87,7 +87,7 @@ def fit_extension(
 def judged(extension: Extension, fitted: Fit) -> Trial:
     """The trial of an extension that was fitted."""
     held_out = held_out_misfits(fitted)
-    own = fitted.unknowns.own_spread.size
+    own = np.array([spread.size for spread in fitted.unknowns.own_spread])
     sizes = np.maximum(np.concatenate([run.errors_by_window for run in fitted.runs]) - own, 1.0)
     return Trial(
         extension,

@@ -57,8 +57,7 @@ class Unknowns:
 
     Attributes:
         shared, spread, lower, upper: (k,).
-        own: one (j,) for each window.
-        own_spread: (j,).
+        own, own_spread: one (j,) for each window; j may differ.
     """
 
     shared: Array
@@ -66,7 +65,7 @@ class Unknowns:
     lower: Array
     upper: Array
     own: Sequence[Array]
-    own_spread: Array
+    own_spread: Sequence[Array]
 
 
 @dataclass(frozen=True)
@@ -161,8 +160,8 @@ def _beyond(part: Part) -> float:
 def shared_information(unknowns: Unknowns, parts: Sequence[Part]) -> Array:
     """Fisher information of the shared unknowns with prior, each window's own unknowns eliminated, (k, k)."""
     matrix = np.diag(unknowns.spread**-2.0)
-    for part in parts:
-        matrix = matrix + part.by_shared.T @ reduced(part, unknowns.own_spread) * weight_of(part)
+    for part, spread in zip(parts, unknowns.own_spread, strict=True):
+        matrix = matrix + part.by_shared.T @ reduced(part, spread) * weight_of(part)
     return (matrix + matrix.T) / 2
 
 
@@ -173,7 +172,7 @@ def reduced(part: Part, own_spread: Array) -> Array:
 
 
 def _cost(unknowns: Unknowns, parts: Sequence[Part], shared: Array, own: Sequence[Array]) -> float:
-    priors = sum(float(np.sum((mine / unknowns.own_spread) ** 2)) for mine in own)
+    priors = sum(float(np.sum((mine / spread) ** 2)) for mine, spread in zip(own, unknowns.own_spread, strict=True))
     return (sum(misfit_of(part) for part in parts) + priors + float(np.sum((shared / unknowns.spread) ** 2))) / 2
 
 
@@ -182,13 +181,13 @@ def _damped_step(
 ) -> tuple[Array, list[Array], float]:
     """Steps of shared and own unknowns, and the gain that the linear model expects of them."""
     gradient, matrix = shared / unknowns.spread**2, np.diag(unknowns.spread**-2.0)
-    windows, prior = [], np.diag(unknowns.own_spread**-2.0)
-    for part, mine in zip(parts, own, strict=True):
+    windows = []
+    for part, mine, spread in zip(parts, own, unknowns.own_spread, strict=True):
         weight = weight_of(part)
         slopes = np.hstack([part.by_shared, part.by_own])
         square, pull, k = weight * slopes.T @ slopes, weight * slopes.T @ part.errors, shared.size
         gradient, matrix = gradient + pull[:k], matrix + square[:k, :k]
-        windows.append((pull[k:] + mine / unknowns.own_spread**2, square[:k, k:], square[k:, k:] + prior))
+        windows.append((pull[k:] + mine / spread**2, square[:k, k:], square[k:, k:] + np.diag(spread**-2.0)))
     free = ~(((shared <= unknowns.lower) & (gradient > 0)) | ((shared >= unknowns.upper) & (gradient < 0)))
     schur, right = matrix + damping * np.diag(np.diag(matrix)), -gradient
     inner = []

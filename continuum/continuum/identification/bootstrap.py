@@ -48,8 +48,9 @@ def moves_without(fitted: Fit) -> Array:
     found, at = [], 0
     for run in fitted.runs:
         parts = fitted.parts[at : at + len(run.rows)]
+        spreads = fitted.unknowns.own_spread[at : at + len(run.rows)]
         at += len(run.rows)
-        slopes = [reduced(part, fitted.unknowns.own_spread) for part in parts]
+        slopes = [reduced(part, spread) for part, spread in zip(parts, spreads, strict=True)]
         weights = [weight_of(part) for part in parts]
         for first in range(0, len(parts), _WINDOWS):
             mine = range(first, min(first + _WINDOWS, len(parts)))

@@ -110,7 +110,8 @@ def fit(
         start: coordinates to start from, (k,); the model's own values without.
         length: of the windows [s]; 0 for the usual one, None for one window a run.
         iterations: at most so many.
-        own: coordinates of each window's own unknowns to start from, run after run; as measured without.
+        own: coordinates of each window's own unknowns to start from, run after run, those of its joints at least; as
+            measured without.
         seekings: how often first states of windows that fit badly are sought anew, at most.
 
     Raises:
@@ -121,9 +122,11 @@ def fit(
         WindowResidual(simulator, recording, i, noise, space, usual_length(recording) if length == 0.0 else length)
         for i, recording in enumerate(recordings)
     ]
-    first = own or [coordinates for run in runs for coordinates in run.start]
+    first = _begun([coordinates for run in runs for coordinates in run.start], own)
     begin = np.zeros(len(space.unknowns)) if start is None else space.clipped(start)
-    unknowns = Unknowns(begin, space.spread, space.lower, space.upper, first, runs[0].spread)
+    unknowns = Unknowns(
+        begin, space.spread, space.lower, space.upper, first, [spread for run in runs for spread in run.spreads]
+    )
 
     def evaluate(shared: Array, owns: Sequence[Array], anew: bool) -> tuple[list[Part], list[Array]] | None:
         windows: list[WindowAt] = []
@@ -138,3 +141,13 @@ def fit(
     ended = replace(unknowns, shared=found.shared, own=list(found.own))
     simulations = round(sum(run.windows_simulated / len(run.rows) for run in runs))
     return Fit(found.status, simulator, space, runs, ended, found.parts, found.cost, simulations, found.promised)
+
+
+def _begun(start: Sequence[Array], own: Sequence[Array] | None) -> list[Array]:
+    """Coordinates to start from, of windows whose effects may have other states than where ``own`` is from."""
+    if own is None:
+        return list(start)
+    return [
+        mine if mine.size == usual.size else np.concatenate([mine, usual[mine.size :]])[: usual.size]
+        for usual, mine in zip(start, own, strict=True)
+    ]

@@ -33,7 +33,8 @@ _NUDGE = 1e-5  # of a sensor's parameter, in units of its coordinate
 class Memory:
     """States of the effects where a window begins, (n_states,), and their slopes, (n_states, k + 2 n).
 
-    By the shared unknowns, and by those of the window that begins there: an arm at rest has its effects rest with it.
+    By the shared unknowns, and by those of the window that begins there where they move with it: an arm at rest has its
+    effects rest with it.
     """
 
     states: Array
@@ -62,7 +63,8 @@ class WindowResidual:
 
     A window's own unknowns are the joints' angles and rates where it begins, less those that were measured there and
     what sensors have added to them, (2 n,). Late sensors are tensions that come later. States of effects run on from
-    window to window, with their slopes; their own beginning is that of an arm at rest.
+    window to window, with their slopes; their own beginning is that of an arm at rest, less what is unknown of it: how
+    springs and contacts were left by what came before. The first window has these unknowns, too.
 
     Args:
         simulator: of the model.
@@ -73,6 +75,7 @@ class WindowResidual:
         length: of the windows [s]; None for one window, a free run.
 
     Attributes:
+        spreads: of each window's own unknowns, (2 n,) or, in the first window, (2 n + uncertain states,).
         windows_simulated: how often any window was, so far.
     """
 
@@ -91,7 +94,13 @@ class WindowResidual:
         self.rows = window_rows(recording, length)
         n = self._model.n_joints
         self._unit = np.concatenate([np.full(n, _ANGLE_UNIT), np.full(n, _RATE_UNIT)])
-        self.spread = np.concatenate([np.full(n, _ANGLE_SPREAD), np.full(n, _RATE_SPREAD)])
+        states = np.repeat(
+            [a.effect.state_spread for a in self._model.effects], [a.effect.n_states(n) for a in self._model.effects]
+        )
+        self._uncertain = np.diag(states)[:, states > 0]
+        of_motion = np.concatenate([np.full(n, _ANGLE_SPREAD), np.full(n, _RATE_SPREAD)])
+        self.spreads = [of_motion for _ in self.rows]
+        self.spreads[0] = np.concatenate([of_motion, np.ones(self._uncertain.shape[1])])
         self._measured = [first_state(recording, rows.start) for rows in self.rows]
         self._whiten = [whitener(noise, recording, rows) for rows in self.rows]
         self._of_sensors = _parameters_of_sensors(self._model)
@@ -107,23 +116,24 @@ class WindowResidual:
     @property
     def start(self) -> list[Array]:
         """Coordinates of the windows' own unknowns before any fit: as measured."""
-        return [np.zeros(self._unit.size) for _ in self.rows]
+        return [np.zeros(spread.size) for spread in self.spreads]
 
     def window(self, window: int, shared: Array, own: Array, memory: Memory | None) -> WindowAt | None:
         """One window whose effects' states begin as the window before left them; without one, as in an arm at rest."""
         memory = memory or self.first_memory(shared, own)
-        k, extra = shared.size, memory.states
+        k, m, extra = shared.size, self._unit.size, memory.states
         p = self.space.origin + self._directions @ shared
         free = np.hstack([self._directions, np.zeros((p.size, own.size))])
-        slope0 = np.zeros((own.size + extra.size, free.shape[1]))
-        slope0[: own.size, :k] = self._motion_slopes(window, p)
-        slope0[: own.size, k:] = np.diag(self._unit)
-        slope0[own.size :] = memory.slopes
+        slope0 = np.zeros((m + extra.size, free.shape[1]))
+        slope0[:m, :k] = self._motion_slopes(window, p)
+        slope0[:m, k : k + m] = np.diag(self._unit)
+        slope0[m:, : memory.slopes.shape[1]] = memory.slopes
+        slope0[m:, k + m :] = self._uncertain[:, : own.size - m]
         late = self._lateness_slopes(p, free)
         run = self._run(window, p, own, extra, free, slope0, late)
         if run is None or not np.all(np.isfinite(run.slopes)):
             return None
-        memory = Memory(run.states[-1, own.size :], run.slopes[-1, own.size :] * (np.arange(free.shape[1]) < k))
+        memory = Memory(run.states[-1, m:], run.slopes[-1, m:, :k])
         seen = self._readings(p, run)
         mine = self._samples(window)
         jacobian = self._whiten[window](*(slope[mine] for slope in self._reading_slopes(p, run, seen, free)))
@@ -139,7 +149,8 @@ class WindowResidual:
         """Coordinates of a first state in which joints slower than ``slow`` [rad/s] rest, (2 n,)."""
         n = self._model.n_joints
         rate = self._measured[window][n:]
-        return np.concatenate([np.zeros(n), np.where(np.abs(rate) < slow, -rate / _RATE_UNIT, 0.0)])
+        at_rest = np.concatenate([np.zeros(n), np.where(np.abs(rate) < slow, -rate / _RATE_UNIT, 0.0)])
+        return np.concatenate([at_rest, np.zeros(self.spreads[window].size - at_rest.size)])
 
     def simulate(self, shared: Array, own: Sequence[Array]) -> Reading | None:
         """What the sensors would read, window after window; None where the model cannot be simulated."""
@@ -173,7 +184,9 @@ class WindowResidual:
         """
         self.windows_simulated += 1
         rows, times = self.rows[window], self.recording.times
-        x0 = np.concatenate([self._motion(window, p) + self._unit * own, extra])
+        of_motion, of_states = own[: self._unit.size], own[self._unit.size :]
+        states = extra + self._uncertain[:, : of_states.size] @ of_states
+        x0 = np.concatenate([self._motion(window, p) + self._unit * of_motion, states])
         pull, rates = self._pull(p), self._simulator.equations.rates
         if late is not None and slope0 is not None:
             slope0 = slope0 + np.outer(rates(x0, pull.at(times[rows.start]), p), late)
@@ -217,20 +230,20 @@ class WindowResidual:
 
     def first_memory(self, shared: Array, own: Array) -> Memory:
         """States of the effects at the first sample, as in an arm at rest."""
-        n = self._model.n_joints
+        n, of_motion = self._model.n_joints, own[: self._unit.size]
         if not self._model.n_states:
-            return Memory(np.zeros(0), np.zeros((0, shared.size + own.size)))
+            return Memory(np.zeros(0), np.zeros((0, shared.size)))
         p = self.space.origin + self._directions @ shared
         u = self._pull(p).at(self.recording.times[0])
 
         def states(by: Array) -> Array:
             values = p + self._directions @ by[: shared.size]
             model = with_vector(self._model, values)
-            theta = (self._motion(0, values) + self._unit * (own + by[shared.size :]))[:n]
+            theta = (self._motion(0, values) + self._unit * (of_motion + by[shared.size :]))[:n]
             return np.concatenate([a.effect.initial_state(theta, u, a.values, model.parameters) for a in model.effects])
 
-        begin = states(np.zeros(shared.size + own.size))
-        slopes = [(states(_NUDGE * unit) - begin) / _NUDGE for unit in np.eye(shared.size + own.size)]
+        begin = states(np.zeros(shared.size + of_motion.size))
+        slopes = [(states(_NUDGE * unit) - begin) / _NUDGE for unit in np.eye(shared.size + of_motion.size)]
         return Memory(begin, np.stack(slopes, axis=1))
 
     def _reading_slopes(self, p: Array, run: Trajectory, seen: Reading, free: Array) -> tuple[Array, Array]:

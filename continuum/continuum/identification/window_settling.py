@@ -44,7 +44,7 @@ def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bo
             if found:
                 starts.append(run.from_state(window, shared, found[-1].end))
             others = [_begun(run, window, shared, start, memory) for start in starts]
-            at = min((at, *(one for one in others if one is not None)), key=lambda one: _cost(run, one))
+            at = min((at, *(one for one in others if one is not None)), key=lambda one: _cost(run, window, one))
         memory = at.memory
         found.append(at)
     return found
@@ -60,20 +60,20 @@ def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memo
     damping = 1e-3
     for _ in range(_STEPS):
         slopes = at.part.by_own
-        square = slopes.T @ slopes + np.diag(run.spread**-2.0)
-        pull = slopes.T @ at.part.errors + at.own / run.spread**2
+        square = slopes.T @ slopes + np.diag(run.spreads[window] ** -2.0)
+        pull = slopes.T @ at.part.errors + at.own / run.spreads[window] ** 2
         step = -np.linalg.solve(square + damping * np.diag(np.diag(square)), pull)
         bad = float(at.part.errors @ at.part.errors) - _BAD * at.part.errors.size
         if -pull @ step < max(_ENOUGH, _ENOUGH_OF_BAD * bad):
             break
         there = run.window(window, shared, at.own + step, memory)
-        if there is not None and _cost(run, there) < _cost(run, at):
+        if there is not None and _cost(run, window, there) < _cost(run, window, at):
             at, damping = there, max(0.1 * damping, 1e-6)
         else:
             damping *= 30
     return at
 
 
-def _cost(run: WindowResidual, at: WindowAt) -> float:
+def _cost(run: WindowResidual, window: int, at: WindowAt) -> float:
     """Minus twice the logarithm of likelihood and prior."""
-    return misfit_of(at.part) + float(np.sum((at.own / run.spread) ** 2))
+    return misfit_of(at.part) + float(np.sum((at.own / run.spreads[window]) ** 2))
