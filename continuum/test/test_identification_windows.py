@@ -207,6 +207,19 @@ def test_windows_that_were_simulated_are_counted() -> None:
     assert one.windows_simulated == len(one.rows)
 
 
+@pytest.mark.parametrize("effect", ["presliding", "actuator_lag", "backlash"])
+def test_bad_windows_are_begun_anew_beside_effects_with_states(effect: str) -> None:
+    """By a model that is far off, so that every window is bad."""
+    simulator = small_simulator(effect)
+    wrong = simulator.around(simulator.model.with_values({"stiffness": 3.0}))
+    one = WindowResidual(wrong, simulated(simulator), 0, white_noise(), FreeSpace(wrong.model, ()), 0.067)
+    found, anew = (descended(one, np.zeros(0), one.start, is_anew) for is_anew in (False, True))
+    assert found is not None
+    assert anew is not None
+    assert [at.own.size for at in anew] == [start.size for start in one.start]
+    assert all(at.end.size == 2 * N for at in anew)
+
+
 def test_settled_windows_are_no_worse_and_near_their_truth() -> None:
     """From first states as measured, with their noise, to those that explain their windows."""
     simulator = small_simulator()

@@ -22,6 +22,7 @@ _LEADING = 0.35  # of the best one's hope
 _HOPELESS = 4.0  # log-likelihood on half of the runs
 _CONTENDING = 0.5  # of the best one's gain
 _LEADER_ITERATIONS, _ITERATIONS, _BASELINE_ITERATIONS = 8, 12, 10
+_ITERATIONS_ANEW = 4
 _ROUNDS = 3
 
 
@@ -113,7 +114,7 @@ def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[fl
 
 def _as_well_fitted(make: Make, before: Trial, best: Trial) -> Trial:
     """The round's beginning fitted once more, from where the best one ended: what a longer search found is no gain."""
-    (again,) = make([Task(before.extension, best, _ITERATIONS)])
+    (again,) = make([Task(before.extension, best, _ITERATIONS_ANEW)])
     return again if again.cost < before.cost else before
 
 

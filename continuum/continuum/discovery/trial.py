@@ -15,6 +15,7 @@ from continuum.dynamics.simulator import Simulator
 from continuum.identification.arrow_least_squares import FitStatus
 from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free, FreeSpace
+from continuum.identification.window_settling import STEPS
 
 TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # over a window errors stay below a hundredth of a degree
 
@@ -59,7 +60,12 @@ class Trial:
 
 
 def fit_extension(
-    question: Question, extension: Extension, near: Trial | None = None, iterations: int = 12, seekings: int = 2
+    question: Question,
+    extension: Extension,
+    near: Trial | None = None,
+    iterations: int = 12,
+    seekings: int = 2,
+    steps: int = STEPS,
 ) -> Fit:
     """Fit the extended model to all runs.
 
@@ -68,7 +74,7 @@ def fit_extension(
         extension: effects beyond Eq. 12.
         iterations: of the fit, at most.
         near: a trial to start from; what is not among its unknowns starts absent or at a part of a typical size.
-        seekings: of the fit, at most.
+        seekings, steps: of the fit, at most.
     """
     model = extended(question.model, extension)
     added = [u for a in extension for u in unknowns_of(a, model.n_joints, len(question.recordings))]
@@ -80,7 +86,15 @@ def fit_extension(
     own = near.own if near is not None and near.own else None
     simulator = Simulator(model, TOLERANCES)
     return fit(
-        simulator, question.recordings, question.noise, free, begin, iterations=iterations, own=own, seekings=seekings
+        simulator,
+        question.recordings,
+        question.noise,
+        free,
+        begin,
+        iterations=iterations,
+        own=own,
+        seekings=seekings,
+        steps=steps,
     )
 
 

@@ -16,7 +16,8 @@ from continuum.discovery.some_runs import some_runs
 from continuum.discovery.trial import Trial, fit_extension, judged
 
 _FIRST_LOOK = 2  # iterations: what helps shows in what they gain and what the slopes promise then
-_MANY_RUNS = 4
+_LOOK_STEPS = 3  # of each window's first state at each of them
+_MANY_RUNS = 3
 
 
 @dataclass(frozen=True)
@@ -28,26 +29,28 @@ class Task:
         near: a trial to start from.
         iterations: of the fit, at most.
         find_joints: whether to find out at which joints the last effect acts, and to fit it there alone.
-        on_part: whether half of the runs are enough.
+        is_look: whether half of the runs are enough, and their first states need not be found well.
     """
 
     extension: Extension
     near: Trial | None
     iterations: int
     find_joints: bool = False
-    on_part: bool = False
+    is_look: bool = False
 
 
 def first_look(extension: Extension, near: Trial) -> Task:
     """A few iterations on half of the runs."""
-    return Task(extension, near, _FIRST_LOOK, on_part=True)
+    return Task(extension, near, _FIRST_LOOK, is_look=True)
 
 
 def make(question: Question, task: Task) -> Trial:
     """One trial."""
-    if task.on_part and task.near is not None and len(question.recordings) >= _MANY_RUNS:
-        part, near = some_runs(question, task.near)
-        return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, seekings=0))
+    if task.is_look and task.near is not None:
+        part, near = question, task.near
+        if len(question.recordings) >= _MANY_RUNS:
+            part, near = some_runs(question, task.near)
+        return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, 0, _LOOK_STEPS))
     fitted = fit_extension(question, task.extension, task.near, task.iterations)
     whole = judged(task.extension, fitted)
     last = task.extension[-1] if task.extension else None

@@ -24,7 +24,7 @@ from continuum.identification.free import Free, FreeSpace
 from continuum.identification.noise import Noise
 from continuum.identification.recording import Recording
 from continuum.identification.window_residual import WindowAt, WindowResidual
-from continuum.identification.window_settling import descended
+from continuum.identification.window_settling import STEPS, descended
 from continuum.identification.windows import usual_length
 
 THESIS_PARAMETERS = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
@@ -99,6 +99,7 @@ def fit(
     iterations: int = 30,
     own: Sequence[Array] | None = None,
     seekings: int = 2,
+    steps: int = STEPS,
 ) -> Fit:
     """Fit the unknowns ``free`` of a model, and the first state of every window.
 
@@ -113,6 +114,7 @@ def fit(
         own: coordinates of each window's own unknowns to start from, run after run, those of its joints at least; as
             measured without.
         seekings: how often first states of windows that fit badly are sought anew, at most.
+        steps: of each window's first state at every iteration, at most.
 
     Raises:
         InvalidValueError: an unknown that the model does not have.
@@ -131,7 +133,7 @@ def fit(
     def evaluate(shared: Array, owns: Sequence[Array], anew: bool) -> tuple[list[Part], list[Array]] | None:
         windows: list[WindowAt] = []
         for run in runs:
-            found = descended(run, shared, owns[len(windows) : len(windows) + len(run.rows)], anew)
+            found = descended(run, shared, owns[len(windows) : len(windows) + len(run.rows)], anew, steps)
             if found is None:
                 return None
             windows += found

@@ -138,7 +138,7 @@ class WindowResidual:
         mine = self._samples(window)
         jacobian = self._whiten[window](*(slope[mine] for slope in self._reading_slopes(p, run, seen, free)))
         part = Part(self._errors(window, seen), jacobian[:, :k], jacobian[:, k:])
-        return WindowAt(own, part, memory, run.states[-1, : own.size])
+        return WindowAt(own, part, memory, run.states[-1, :m])
 
     def from_state(self, window: int, shared: Array, motion: Array) -> Array:
         """Coordinates of a first state of given angles and rates, (2 n,) [rad, rad/s]."""

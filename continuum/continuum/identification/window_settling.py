@@ -20,10 +20,13 @@ _BAD = 1.5  # squared errors, per error, beyond which other beginnings are tried
 _SLOW = 0.1  # rad/s; slower joints may be stuck
 _ENOUGH = 0.5  # of squared errors: a smaller expected gain is not worth a step
 _ENOUGH_OF_BAD = 0.03  # the same, of squared errors that are not noise
-_STEPS = 8
+STEPS = 8
+"""Most steps of a window for which its first state shall be found well."""
 
 
-def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bool) -> list[WindowAt] | None:
+def descended(
+    run: WindowResidual, shared: Array, own: Sequence[Array], anew: bool, steps: int = STEPS
+) -> list[WindowAt] | None:
     """Every window near the best first state; None where the model cannot be simulated.
 
     Args:
@@ -31,6 +34,7 @@ def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bo
         shared: coordinates of the shared unknowns, (k,).
         own: of each window's first state, (2 n,), to begin with.
         anew: try other beginnings for windows that stay bad.
+        steps: at most, for each window.
     """
     found: list[WindowAt] = []
     memory: Memory | None = None
@@ -38,27 +42,31 @@ def descended(run: WindowResidual, shared: Array, own: Sequence[Array], anew: bo
         at = run.window(window, shared, mine, memory)
         if at is None:
             return None
-        at = _descent(run, window, shared, at, memory)
+        at = _descent(run, window, shared, at, memory, steps)
         if anew and at.part.errors @ at.part.errors > _BAD * at.part.errors.size:
             starts = [np.zeros(mine.size), run.still(window, _SLOW)]
             if found:
                 starts.append(run.from_state(window, shared, found[-1].end))
-            others = [_begun(run, window, shared, start, memory) for start in starts]
+            others = [_begun(run, window, shared, start, memory, steps) for start in starts]
             at = min((at, *(one for one in others if one is not None)), key=lambda one: _cost(run, window, one))
         memory = at.memory
         found.append(at)
     return found
 
 
-def _begun(run: WindowResidual, window: int, shared: Array, start: Array, memory: Memory | None) -> WindowAt | None:
+def _begun(
+    run: WindowResidual, window: int, shared: Array, start: Array, memory: Memory | None, steps: int
+) -> WindowAt | None:
     """Where the descent from a beginning ends."""
     at = run.window(window, shared, start, memory)
-    return None if at is None else _descent(run, window, shared, at, memory)
+    return None if at is None else _descent(run, window, shared, at, memory, steps)
 
 
-def _descent(run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None) -> WindowAt:
+def _descent(
+    run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None, steps: int
+) -> WindowAt:
     damping = 1e-3
-    for _ in range(_STEPS):
+    for _ in range(steps):
         slopes = at.part.by_own
         square = slopes.T @ slopes + np.diag(run.spreads[window] ** -2.0)
         pull = slopes.T @ at.part.errors + at.own / run.spreads[window] ** 2
