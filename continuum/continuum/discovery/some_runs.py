@@ -12,8 +12,9 @@ from continuum.identification.dataset import halves
 
 
 def some_runs(question: Question, near: Trial) -> tuple[Question, Trial]:
-    """The identification half, each kind of run with its share."""
-    half = halves(question.recordings).identification
+    """The larger half, each kind of run with its share."""
+    split = halves(question.recordings)
+    half = max(split.identification, split.validation, key=len)
     chosen = [i for i, recording in enumerate(question.recordings) if any(recording is one for one in half)]
     number = {old: new for new, old in enumerate(chosen)}
     kept = [i for i, u in enumerate(near.unknowns) if u.recording is None or u.recording in number]
