@@ -14,10 +14,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum.discovery.candidate import Addition
-from continuum.discovery.evidence import gain, is_adequate, unexplained
+from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
 from continuum.discovery.findings import Estimate, Findings
 from continuum.discovery.in_words import cost_in_words, verdict_in_words
-from continuum.discovery.judgement import judge
+from continuum.discovery.judgement import confirmed, judge
 from continuum.discovery.measured_gain import RunScore, closed_gap
 from continuum.discovery.verdict import Kind, Verdict
 from continuum.discovery.verdict_json import as_mapping, write_json
@@ -235,6 +235,26 @@ def test_the_part_of_the_gap_that_is_closed() -> None:
     assert closed_gap(runs(0.45), runs(0.45)) == 0.0
     assert closed_gap(runs(0.25), runs(0.45)) == pytest.approx(-1.0)
     assert closed_gap(runs(0.05), runs(0.05)) == 0.0  # nothing to close
+
+
+def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
+    def scores(*positions: float) -> list[RunScore]:
+        return [score(f"run_{i}", position) for i, position in enumerate(positions)]
+
+    for kind, verdict in judged().items():
+        named = kind in (Kind.CAUSE, Kind.AMBIGUOUS)
+        assert confirmed(verdict, scores(0.45, 0.45), scores(0.05, 0.25)) is verdict
+        assert confirmed(verdict, scores(0.05, 0.04), scores(0.05, 0.05)) is verdict  # nothing to predict better
+        doubted = confirmed(verdict, scores(0.45, 0.45), scores(0.44, 0.40))
+        assert doubted.kind is (Kind.UNKNOWN if named else kind)
+        assert not (named and doubted.alternatives)
+
+
+def test_more_has_to_be_explained_to_name_a_cause_than_to_call_a_model_adequate() -> None:
+    assert is_adequate(trial(bad=0.05))
+    assert not explains_all(trial(bad=0.05))
+    assert explains_all(trial(bad=0.03))
+    assert judge(BAD, [a_round(BAD, trial("base_tilt", bad=0.05))]).kind is Kind.UNKNOWN
 
 
 def test_the_trials_here_are_of_the_size_that_is_meant() -> None:

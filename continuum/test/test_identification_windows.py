@@ -26,7 +26,8 @@ from continuum.dynamics.values import parameter_vector
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.noise import Channel, Noise
 from continuum.identification.recording import Recording
-from continuum.identification.window_residual import WindowAt, WindowResidual, first_state
+from continuum.identification.sensors import first_state
+from continuum.identification.window_residual import WindowAt, WindowResidual
 from continuum.identification.window_settling import descended
 from continuum.identification.windows import usual_length, whitener, window_rows
 
@@ -175,7 +176,7 @@ def test_sensors_show_of_windows_what_they_show_of_the_whole_run(effect: str, le
     whole = readings(model, motion)
     run = Recording("run", times, whole.theta, whole.theta_rate)
     one = WindowResidual(simulator.around(model), run, 0, white_noise(), FreeSpace(model, ()), length)
-    first = [one._motion(window, parameter_vector(model)) for window in range(len(one.rows))]
+    first = [one._sensors.meant(rows.start, parameter_vector(model)) for rows in one.rows]
     own = [(motion.states[rows.start] - at) / one._unit for rows, at in zip(one.rows, first, strict=True)]
     seen = one.simulate(np.zeros(0), own)
     assert seen is not None

@@ -13,6 +13,7 @@ from continuum.discovery.trial import Trial
 _UNEXPLAINED = 2.0  # misfit of a window beside that of noise
 _BY_CHANCE = 0.02  # share of windows that stay so of a right model: sticking joints now and then hold one
 _CHANCE = 0.01  # probability of as many by chance, below which something is missing
+_CHANCE_OF_CAUSE = 0.1  # the same where a cause is to be named: the wrong one is worse than none
 _SIGNIFICANT, _DISTINCT = 15.0, 8.0  # log-likelihood
 _SPREAD = 1.5  # deviations
 _STRETCH = 4  # windows, over which errors may hang together
@@ -55,8 +56,18 @@ def unexplained(trial: Trial) -> float:
 
 def is_adequate(trial: Trial) -> bool:
     """Whether what is left is noise: no more unexplained windows than a right model leaves by chance."""
+    return _chance(trial) > _CHANCE
+
+
+def explains_all(trial: Trial) -> bool:
+    """Whether its effects explain so much that they may be named."""
+    return _chance(trial) > _CHANCE_OF_CAUSE
+
+
+def _chance(trial: Trial) -> float:
+    """Probability that a right model leaves as many windows unexplained."""
     n = trial.relative.size
-    return bool(binom.sf(round(unexplained(trial) * n) - 1, n, _BY_CHANCE) > _CHANCE)
+    return float(binom.sf(round(unexplained(trial) * n) - 1, n, _BY_CHANCE))
 
 
 def gain(trial: Trial, over: Trial) -> Gain:

@@ -9,6 +9,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.diagnose import Diagnosis
+from continuum.discovery.judgement import confirmed
 from continuum.discovery.measured_gain import RunScore, closed_gap, held_out_scores
 from continuum.discovery.question import Question
 from continuum.discovery.trial import fit_extension
@@ -75,10 +76,11 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         diagnosis: what was found.
         random: for the intervals.
     """
-    question, verdict = diagnosis.question, diagnosis.verdict
-    split = halves(question.recordings)
-    before = held_out_scores(question, verdict.baseline, split)
-    after = held_out_scores(question, verdict.best, split) if verdict.extension else before
+    question, split = diagnosis.question, halves(diagnosis.question.recordings)
+    baseline, best = diagnosis.verdict.baseline, diagnosis.verdict.best
+    before = held_out_scores(question, baseline, split)
+    after = held_out_scores(question, best, split) if best.extension else before
+    verdict = confirmed(diagnosis.verdict, before, after)
     fitted = fit_extension(question, verdict.extension, verdict.best, 2)
     return Findings(
         verdict,

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
-from continuum.discovery.evidence import gain, is_adequate, unexplained
+from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
+from continuum.discovery.measured_gain import RunScore, closed_gap, is_open
 from continuum.discovery.search import Round
 from continuum.discovery.trial import Trial
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
+
+_LEAST_CLOSED = 0.25  # of the distance to the noise floor
 
 
 def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
@@ -22,7 +26,7 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
     best = added[-1].best if added else baseline
     share = unexplained(baseline), unexplained(best)
     causes = tuple(_cause(r) for r in added)
-    if not is_adequate(best):
+    if not (explains_all(best) if added else is_adequate(best)):
         return Verdict(Kind.UNKNOWN, causes, (), baseline, best, share)
     if not added:
         return Verdict(Kind.ADEQUATE, (), (), baseline, best, share)
@@ -31,6 +35,17 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
         experiment = " ".join(dict.fromkeys(effect_named(c.addition.effect).experiment for c in (*causes, *rivals)))
         return Verdict(Kind.AMBIGUOUS, causes, rivals, baseline, best, share, experiment)
     return Verdict(Kind.CAUSE, causes, (), baseline, best, share)
+
+
+def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunScore]) -> Verdict:
+    """The verdict, unless its model does not predict runs that were held out: then its cause is not the one.
+
+    Windows as short as these are explained by what only looks like the cause, a free run is not.
+    """
+    named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
+    if named and is_open(before) and closed_gap(before, after) < _LEAST_CLOSED:
+        return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="")
+    return verdict
 
 
 def _cause(one: Round) -> Cause:

@@ -21,6 +21,7 @@ from continuum.identification.nrmse import position_nrmse, rate_nrmse
 from continuum.identification.recording import Recording
 
 _ITERATIONS = 8
+_OPEN = 1.05  # times the noise floor, an error is more than noise
 
 
 @dataclass(frozen=True)
@@ -57,12 +58,17 @@ def held_out_scores(question: Question, trial: Trial, split: Split) -> list[RunS
     return found
 
 
+def is_open(before: Sequence[RunScore]) -> bool:
+    """Whether there is a distance to the noise floor that may be closed."""
+    return any(b.position > _OPEN * b.floor for b in before)
+
+
 def closed_gap(before: Sequence[RunScore], after: Sequence[RunScore]) -> float:
     """Part of the distance to the noise floor that is closed, mean over the runs; 1 is all of it."""
     parts = [
         (b.position - a.position) / (b.position - b.floor)
         for b, a in zip(before, after, strict=True)
-        if b.position > 1.05 * b.floor
+        if b.position > _OPEN * b.floor
     ]
     return float(np.mean(parts)) if parts else 0.0
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from continuum.discovery.candidate import Addition
-from continuum.discovery.evidence import gain, is_adequate
+from continuum.discovery.evidence import explains_all, gain
 from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
 from continuum.discovery.workers import Make, Task, first_look
@@ -67,7 +67,7 @@ def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[
     (baseline,) = make([Task((), None, _BASELINE_ITERATIONS)])
     rounds: list[Round] = []
     before = baseline
-    while len(rounds) < _ROUNDS and not (rounds and is_adequate(before)):
+    while len(rounds) < _ROUNDS and not (rounds and explains_all(before)):
         rounds.append(_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}")))
         if len(rounds) == 1:
             baseline = rounds[0].before
