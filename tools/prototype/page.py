@@ -136,7 +136,7 @@ def _gained(verdict: Mapping[str, Any]) -> str:
         return "There is no extended model, so that both are the same."
     before, after = verdict["unexplained"]["before"], verdict["unexplained"]["after"]
     closed = verdict["gap_closed"]
-    change = f"closes {_percent(closed)} of" if closed >= 0 else f"is {_percent(-closed)} farther than before by"
+    change = f"closes {_percent(closed)} of" if closed >= 0 else f"adds {_percent(-closed)} to"
     return paragraph(
         f"The extended model ({_and(_name(one) for one in added)}) {change} the distance to the noise",
         f"floor there, and lowers what noise does not explain from {_percent(before)} of the windows to",
