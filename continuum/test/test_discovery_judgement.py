@@ -138,6 +138,15 @@ def test_two_causes_by_two_rounds() -> None:
     assert verdict.best is both
 
 
+def test_a_cause_is_no_alternative_to_another() -> None:
+    """As good as the first one alone, and needed beside it."""
+    rival = replace(HALF, extension=(Addition("base_tilt"),))
+    both = trial("tip_payload", "base_tilt", seed=3)
+    verdict = judge(BAD, [a_round(BAD, HALF, rival), a_round(HALF, both)])
+    assert verdict.kind is Kind.CAUSE
+    assert [str(cause.addition) for cause in verdict.causes] == ["tip_payload", "base_tilt"]
+
+
 def test_a_last_round_that_found_nothing_adds_no_cause() -> None:
     verdict = judge(BAD, [a_round(BAD, HALF), a_round(HALF, replace(HALF, extension=(Addition("base_tilt"),)))])
     assert [str(cause.addition) for cause in verdict.causes] == ["tip_payload"]
@@ -235,6 +244,9 @@ def test_the_part_of_the_gap_that_is_closed() -> None:
     assert closed_gap(runs(0.45), runs(0.45)) == 0.0
     assert closed_gap(runs(0.25), runs(0.45)) == pytest.approx(-1.0)
     assert closed_gap(runs(0.05), runs(0.05)) == 0.0  # nothing to close
+    assert closed_gap(runs(np.inf, 0.25), runs(0.3, 0.25)) == pytest.approx(0.5)  # one run could not be simulated
+    assert closed_gap(runs(np.inf), runs(np.inf)) == 0.0
+    assert closed_gap(runs(0.25), runs(np.inf)) == -np.inf
 
 
 def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
@@ -248,6 +260,7 @@ def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
         doubted = confirmed(verdict, scores(0.45, 0.45), scores(0.44, 0.40))
         assert doubted.kind is (Kind.UNKNOWN if named else kind)
         assert not (named and doubted.alternatives)
+        assert ("does not predict runs" in verdict_in_words(doubted)) == named
 
 
 def test_more_has_to_be_explained_to_name_a_cause_than_to_call_a_model_adequate() -> None:

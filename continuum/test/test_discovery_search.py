@@ -95,6 +95,8 @@ def test_a_first_effect_that_the_second_makes_needless_is_dropped() -> None:
     _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
     assert [effects_of(one.best.extension) for one in rounds] == [["tip_payload"], ["tip_payload"]]
     assert rounds[1].best is rounds[1].before
+    led = [effects_of(one.extension)[-1] for one in rounds[0].leaders]
+    assert len(set(led)) == len(led)
 
 
 def test_progress_goes_from_nothing_to_done() -> None:

@@ -16,6 +16,7 @@ from continuum.dynamics.effect_lookup import effect_names
 from continuum.dynamics.model import Model
 from continuum.dynamics.simulator import Simulator
 from continuum.errors import InvalidValueError
+from continuum.identification.arrow_least_squares import FitStatus
 from continuum.identification.baseline import baseline_unknowns, with_dry_friction
 from continuum.identification.dataset import Dataset
 from continuum.identification.noise import SensorKnowledge, estimate_noise
@@ -52,7 +53,8 @@ def diagnose(
         effects: names of those to try; all that are installed without.
 
     Raises:
-        InvalidValueError: the recordings have another number of joints than the model, or an effect is not installed.
+        InvalidValueError: the recordings have another number of joints than the model, an effect is not installed, or
+            no model can be simulated from what was measured.
     """
     if dataset.n_joints != model.n_joints:
         raise InvalidValueError("joints in the recordings", dataset.n_joints, f"{model.n_joints}, as the model has")
@@ -67,4 +69,7 @@ def diagnose(
     present = {active.effect.name for active in model.effects}
     with workers(question, processes or os.cpu_count() or 1) as make:
         baseline, rounds = search(make, [name for name in tried if name not in present], tell)
-    return Diagnosis(question, tuple(rounds), judge(baseline, rounds))
+    verdict = judge(baseline, rounds)
+    if verdict.best.status is FitStatus.NO_SIMULATION:
+        raise InvalidValueError("model", verdict.best.status.value, "one that moves from the angles that were measured")
+    return Diagnosis(question, tuple(rounds), verdict)

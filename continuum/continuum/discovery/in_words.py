@@ -34,7 +34,7 @@ def verdict_in_words(verdict: Verdict) -> str:
         case Kind.UNKNOWN:
             return (
                 f"The simulation is wrong in {before} of the data, and no effect that is known here explains why. "
-                + (f"{_helps(verdict)} helps, yet {after} stay unexplained." if verdict.causes else "None even helps.")
+                + _what_helps(verdict, after)
             )
 
 
@@ -53,8 +53,13 @@ def _names(verdict: Verdict) -> str:
     return ", ".join(dict.fromkeys(str(c.addition) for c in (*verdict.causes, *verdict.alternatives)))
 
 
-def _helps(verdict: Verdict) -> str:
-    return " with ".join(str(c.addition) for c in verdict.causes)
+def _what_helps(verdict: Verdict, after: str) -> str:
+    helps = " with ".join(str(c.addition) for c in verdict.causes)
+    if not helps:
+        return "None even helps."
+    if not verdict.predicts:
+        return f"{helps} explains short stretches of them, yet it does not predict runs that it was not fitted to."
+    return f"{helps} helps, yet {after} stay unexplained."
 
 
 def worth_in_words(closed: float) -> str:

@@ -30,7 +30,8 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
         return Verdict(Kind.UNKNOWN, causes, (), baseline, best, share)
     if not added:
         return Verdict(Kind.ADEQUATE, (), (), baseline, best, share)
-    rivals = tuple(rival for r in added for rival in _rivals(r))
+    named = {cause.addition.effect for cause in causes}  # beside each other they are no alternatives
+    rivals = tuple(rival for r in added for rival in _rivals(r) if rival.addition.effect not in named)
     if rivals:
         experiment = " ".join(dict.fromkeys(effect_named(c.addition.effect).experiment for c in (*causes, *rivals)))
         return Verdict(Kind.AMBIGUOUS, causes, rivals, baseline, best, share, experiment)
@@ -44,7 +45,7 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
     """
     named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
     if named and is_open(before) and closed_gap(before, after) < _LEAST_CLOSED:
-        return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="")
+        return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", predicts=False)
     return verdict
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -65,12 +65,15 @@ def is_open(before: Sequence[RunScore]) -> bool:
 
 def closed_gap(before: Sequence[RunScore], after: Sequence[RunScore]) -> float:
     """Part of the distance to the noise floor that is closed, mean over the runs; 1 is all of it."""
-    parts = [
-        (b.position - a.position) / (b.position - b.floor)
-        for b, a in zip(before, after, strict=True)
-        if b.position > _OPEN * b.floor
-    ]
+    parts = [_closed(b, a) for b, a in zip(before, after, strict=True) if b.position > _OPEN * b.floor]
     return float(np.mean(parts)) if parts else 0.0
+
+
+def _closed(before: RunScore, after: RunScore) -> float:
+    """Of one run; all of it where only the model after can be simulated, nothing where neither can."""
+    if np.isinf(before.position):
+        return float(np.isfinite(after.position))
+    return (before.position - after.position) / (before.position - before.floor)
 
 
 def _scored(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...]) -> RunScore:
@@ -91,4 +94,4 @@ def _own_unknowns(trial: Trial) -> tuple[Free, ...]:
 
 def _without_runs(trial: Trial) -> Trial:
     """The trial as a start for other runs: windows of other runs begin elsewhere."""
-    return Trial(**(vars(trial) | {"own": ()}))
+    return replace(trial, own=())

@@ -71,7 +71,7 @@ class ResidualTorque:
 
 
 def residual_torques(question: Question, model: Model) -> list[ResidualTorque]:
-    """Of every run.
+    """Of every run that the model can be simulated in.
 
     Args:
         question: data.
@@ -84,6 +84,8 @@ def residual_torques(question: Question, model: Model) -> list[ResidualTorque]:
     found = []
     for recording in question.recordings:
         fitted = fit(simulator, [recording], question.noise, free, iterations=_ITERATIONS)
+        if not fitted.parts:
+            continue
         torque, deviation, middle = [], [], []
         for rows, part, spread in zip(fitted.runs[0].rows, fitted.parts, fitted.unknowns.own_spread, strict=True):
             slopes = reduced(part, spread)

@@ -87,7 +87,9 @@ def _first_anew(
     (alone,) = make([Task(second.best.extension[-1:], second.best, _ITERATIONS)])
     again = _round(make, alone, effects, tell)
     if again.best is again.before:  # the second one alone does it
-        return [replace(first, leaders=(again.before, *first.leaders)), again]
+        effect = alone.extension[-1].effect
+        others = [trial for trial in first.leaders if trial.extension[-1].effect != effect]  # it is no rival of itself
+        return [replace(first, leaders=(again.before, *others)), again]
     return [second, again]
 
 

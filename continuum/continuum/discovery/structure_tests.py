@@ -1,9 +1,8 @@
 """Does the missing torque go with something: position, direction, speed, tension, load, time, order of runs?
 
 Correlations by ranks, so that few large values do not decide. Their probability by chance respects that neighbouring
-windows
-are alike: what chance gives is seen by turning each run's series against the other by random amounts (Theiler 1992),
-which leaves both as alike in themselves as they are.
+windows are alike: what chance gives is seen by turning each run's series against the other by random amounts (Theiler
+1992), which leaves both as alike in themselves as they are.
 """
 
 from __future__ import annotations

@@ -48,6 +48,7 @@ class Verdict:
         best: the best trial, whose extension the extended model has.
         unexplained: share of the data that stays unexplained before and after, 0 to 1.
         experiment: what to measure to tell alternatives apart, in words; empty where nothing is to be told apart.
+        predicts: whether the best one's free runs come nearer to what was held out; if not, its cause is not named.
     """
 
     kind: Kind
@@ -57,6 +58,7 @@ class Verdict:
     best: Trial
     unexplained: tuple[float, float]
     experiment: str = ""
+    predicts: bool = True
 
     @property
     def extension(self) -> Extension:

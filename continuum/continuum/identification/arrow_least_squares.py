@@ -93,7 +93,7 @@ class Solution:
 def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int, seekings: int = 2) -> Solution:
     """Search from where the unknowns are, with at most so many iterations.
 
-    Damping holds the shared unknowns only; the windows' own follow each step by themselves. Where the search settles,
+    Damping holds the shared unknowns and the windows' own alike. Where the search settles,
     windows that are still bad are sought anew, at most ``seekings`` times, and it goes on if that helped.
     """
     shared = unknowns.shared

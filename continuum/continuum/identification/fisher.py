@@ -23,7 +23,8 @@ class Identifiability:
         learnt: part of each one's prior standard deviation that the data took away, 0 to 1, (k,).
         correlation: of the estimates, (k, k).
         condition: ratio of the largest to the smallest singular value of the data's own information, scaled by the
-        prior. rank: number of directions of which the data tell more than the prior.
+            prior.
+        rank: number of directions of which the data tell more than the prior.
     """
 
     unknowns: tuple[Free, ...]

@@ -66,7 +66,12 @@ def _shares_before_jumps(recording: Recording) -> list[float]:
 
 
 def _strangeness(fitted: Fit) -> float:
-    """Sum over the windows of the logarithm of their squared errors, which no single one rules."""
+    """Sum over the windows of the logarithm of their squared errors, which no single one rules.
+
+    Infinite where the model cannot be simulated.
+    """
+    if not fitted.parts:
+        return np.inf
     moved = np.array([_change_of_tension(run.recording, rows) for run in fitted.runs for rows in run.rows])
     return sum(
         part.errors.size * float(np.log1p(np.mean(part.errors**2)))
