@@ -244,9 +244,10 @@ def test_the_part_of_the_gap_that_is_closed() -> None:
     assert closed_gap(runs(0.45), runs(0.45)) == 0.0
     assert closed_gap(runs(0.25), runs(0.45)) == pytest.approx(-1.0)
     assert closed_gap(runs(0.05), runs(0.05)) == 0.0  # nothing to close
-    assert closed_gap(runs(np.inf, 0.25), runs(0.3, 0.25)) == pytest.approx(0.5)  # one run could not be simulated
+    assert closed_gap(runs(np.inf, 0.25), runs(0.3, 0.25)) == pytest.approx(1 / 1.2)  # one could not be simulated
+    assert closed_gap(runs(0.06, 0.45), runs(0.12, 0.05)) > 0.9  # next to the floor a run has no say
     assert closed_gap(runs(np.inf), runs(np.inf)) == 0.0
-    assert closed_gap(runs(0.25), runs(np.inf)) == -np.inf
+    assert closed_gap(runs(0.25), runs(np.inf)) == -1.0
 
 
 def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
@@ -261,6 +262,9 @@ def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
         assert doubted.kind is (Kind.UNKNOWN if named else kind)
         assert not (named and doubted.alternatives)
         assert ("does not predict runs" in verdict_in_words(doubted)) == named
+    needless = judge(GOOD, [a_round(GOOD, trial("base_tilt", misfit=0.6, seed=3))])
+    assert needless.kind is Kind.CAUSE
+    assert confirmed(needless, scores(0.45), scores(0.44)).kind is Kind.ADEQUATE
 
 
 def test_more_has_to_be_explained_to_name_a_cause_than_to_call_a_model_adequate() -> None:

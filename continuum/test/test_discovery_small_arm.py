@@ -66,6 +66,17 @@ def test_what_a_run_has_for_itself_is_paid_for() -> None:
         assert predicted.sum() == pytest.approx(misfits.sum() + N * np.log(errors), rel=1e-6)
 
 
+def test_uncertain_states_of_effects_are_paid_for_where_a_run_begins() -> None:
+    """With nothing shared to fit, all else is predicted as it was fitted."""
+    simulator = small_simulator("presliding", TOLERANCES)
+    bent = simulator.around(simulator.model.with_values({"presliding.angle": 0.02}))
+    runs = [recorded(bent, bend, np.random.default_rng(2)) for bend in BENDS[:2]]
+    own = fit(bent, runs, white_noise(), [])
+    for predicted, misfits in zip(held_out_misfits(own), own.misfits, strict=True):
+        assert predicted[0] > misfits[0] + 1
+        np.testing.assert_allclose(predicted[1:], misfits[1:])
+
+
 def test_one_run_alone_is_held_out_in_stretches() -> None:
     one = fitted(releases(1, small_simulator(), 3))
     pieces = held_out_misfits(one)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import binom
+from scipy.stats import binom, chi2
 
 from continuum.arrays import Array
 from continuum.discovery.trial import Trial
 
-_UNEXPLAINED = 2.0  # misfit of a window beside that of noise
+_UNEXPLAINED = 2.0  # misfit of a window beside that of noise, ...
+_RARE = 0.005  # ... or what noise seldom is, where a window holds few errors
 _BY_CHANCE = 0.02  # share of windows that stay so of a right model: sticking joints now and then hold one
 _CHANCE = 0.01  # probability of as many by chance, below which something is missing
 _CHANCE_OF_CAUSE = 0.1  # the same where a cause is to be named: the wrong one is worse than none
@@ -51,7 +52,8 @@ class Gain:
 
 def unexplained(trial: Trial) -> float:
     """Share of windows that noise does not explain, 0 to 1."""
-    return float(np.mean(trial.relative > _UNEXPLAINED))
+    sizes = np.concatenate(trial.sizes)
+    return float(np.mean(trial.relative > np.maximum(_UNEXPLAINED, chi2.isf(_RARE, sizes) / sizes)))
 
 
 def is_adequate(trial: Trial) -> bool:

@@ -81,6 +81,7 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
     before = held_out_scores(question, baseline, split)
     after = held_out_scores(question, best, split) if best.extension else before
     verdict = confirmed(diagnosis.verdict, before, after)
+    after = after if verdict.extension else before
     fitted = fit_extension(question, verdict.extension, verdict.best, 2)
     return Findings(
         verdict,

@@ -17,8 +17,9 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
     """Misfit of every window of every run, each run predicted by the others.
 
     What belongs to a run alone, its windows' first states and its sensors' offsets, is the run's own; that is paid
-    for with half the logarithm of the number of errors for each such unknown (Schwarz 1978). With one run, stretches
-    of it are held out instead. A model that could not be simulated explains no window.
+    for with half the logarithm of the number of errors for each such unknown (Schwarz 1978), and what is uncertain of
+    the effects' states where it begins with what it took of its prior (Laplace's method). With one run, stretches of it
+    are held out instead. A model that could not be simulated explains no window.
     """
     groups, single = _groups(fitted), len(fitted.runs) == 1
     if not fitted.parts:
@@ -38,8 +39,22 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
         step = np.linalg.solve(rest + 1e-9 * np.diag(np.diag(rest)), pull)
         step = np.clip(fitted.coordinates + step, fitted.space.lower, fitted.space.upper) - fitted.coordinates
         price = int(mine.sum()) * np.log(sum(fitted.parts[i].errors.size for i in group)) / len(group)
-        found.append(np.array([_predicted(fitted.parts[i], slopes[i] @ step) + price for i in group]))
+        prices = [price + _price_of_states(fitted, i) for i in group]
+        found.append(np.array([_predicted(fitted.parts[i], slopes[i] @ step) for i in group]) + prices)
     return found
+
+
+def _price_of_states(fitted: Fit, window: int) -> float:
+    """What the window's uncertain states of effects have taken of their prior: c^2 + log det(1 + information of c)."""
+    part, own = fitted.parts[window], fitted.unknowns.own[window]
+    of_motion = 2 * fitted.simulator.model.n_joints
+    motion, states = part.by_own[:, :of_motion], part.by_own[:, of_motion:]
+    if not states.size:
+        return 0.0
+    alone = states - motion @ np.linalg.lstsq(motion, states)[0]
+    spread = fitted.unknowns.own_spread[window][of_motion:]
+    information = np.eye(spread.size) + weight_of(part) * (alone * spread).T @ (alone * spread)
+    return float(np.sum((own[of_motion:] / spread) ** 2) + np.linalg.slogdet(information)[1])
 
 
 def _groups(fitted: Fit) -> list[list[int]]:

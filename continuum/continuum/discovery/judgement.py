@@ -41,12 +41,16 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
 def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunScore]) -> Verdict:
     """The verdict, unless its model does not predict runs that were held out: then its cause is not the one.
 
-    Windows as short as these are explained by what only looks like the cause, a free run is not.
+    Windows as short as these are explained by what only looks like the cause, a free run is not. Where the model
+    without it is adequate, nothing has to be explained, and that model it is.
     """
     named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
-    if named and is_open(before) and closed_gap(before, after) < _LEAST_CLOSED:
-        return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", predicts=False)
-    return verdict
+    if not named or not is_open(before) or closed_gap(before, after) >= _LEAST_CLOSED:
+        return verdict
+    if is_adequate(verdict.baseline):
+        share = verdict.unexplained[0], verdict.unexplained[0]
+        return Verdict(Kind.ADEQUATE, (), (), verdict.baseline, verdict.baseline, share)
+    return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", predicts=False)
 
 
 def _cause(one: Round) -> Cause:

@@ -64,9 +64,14 @@ def is_open(before: Sequence[RunScore]) -> bool:
 
 
 def closed_gap(before: Sequence[RunScore], after: Sequence[RunScore]) -> float:
-    """Part of the distance to the noise floor that is closed, mean over the runs; 1 is all of it."""
-    parts = [_closed(b, a) for b, a in zip(before, after, strict=True) if b.position > _OPEN * b.floor]
-    return float(np.mean(parts)) if parts else 0.0
+    """Part of the distance to the noise floor that is closed, over the runs; 1 is all of it.
+
+    A run weighs as much as it is away, and can take away no more than another one gives.
+    """
+    pairs = [(b, a) for b, a in zip(before, after, strict=True) if b.position > _OPEN * b.floor]
+    weights = [b.position - b.floor if np.isfinite(b.position) else 1.0 for b, _ in pairs]
+    parts = [max(_closed(b, a), -1.0) for b, a in pairs]
+    return float(np.average(parts, weights=weights)) if pairs else 0.0
 
 
 def _closed(before: RunScore, after: RunScore) -> float:

@@ -100,7 +100,7 @@ def test_figures_are_those_of_the_account() -> None:
     assert "closes 40 % of the distance" in flat(text)
     assert "brings the least of these to 0.52: 34 % less, and 26 times" in flat(text)
     assert "There is no extended model" in PAGES["adequate"]
-    assert "is 10 % farther than before by" in flat(page(account(verdict("cause", CABLE, closed=-0.1))))
+    assert "adds 10 % to the distance to the noise floor" in flat(page(account(verdict("cause", CABLE, closed=-0.1))))
     assert "his parameters 0.84, 0.79, in the order of the table" in flat(text)
     worse = replace(account(VERDICTS["adequate"]), refitted=[Simulated("refitted", 0.9, 0.9)])
     assert "does not lower it: 0.90 at best" in flat(page(worse))
