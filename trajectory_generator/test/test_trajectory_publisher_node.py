@@ -143,8 +143,12 @@ def test_being_late_is_told_but_not_of_the_start(domain, probe):
         clock.clock.sec, clock.clock.nanosec = divmod(now, 10**9)
         say_clock(clock)
 
+    def go_on() -> None:
+        """The clock waits for a node that a busy machine holds up: a pose is due every 20 ms."""
+        tick(5_000_000 if not poses or now < instants(poses)[-1] + 20_000_000 else 0)
+
     def until(count: int) -> None:
-        probe.wait_until(lambda: (tick(), len(poses) > count)[1], lambda: f"{count} poses, not {len(poses)}")
+        probe.wait_until(lambda: (go_on(), len(poses) > count)[1], lambda: f"{count} poses, not {len(poses)}")
 
     with ended_in_any_case(publisher(domain, use_sim_time=True, lead_time=5.0, rate=50.0)) as (node,):
         until(2)
