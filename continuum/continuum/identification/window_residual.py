@@ -40,7 +40,7 @@ class WindowAt:
     """One window at one first state: errors and slopes there, and what it hands on to the next window.
 
     Attributes:
-        own: coordinates of its first state, (2 n,).
+        own: coordinates of its first state, (2 n,); in the first window also of what is uncertain of effects' states.
         part: errors and slopes.
         memory: of the effects.
         end: joint angles and rates where the next window begins, (2 n,) [rad, rad/s].

@@ -32,7 +32,7 @@ def descended(
     Args:
         run: the recording.
         shared: coordinates of the shared unknowns, (k,).
-        own: of each window's first state, (2 n,), to begin with.
+        own: of each window's own unknowns, as `WindowAt.own`, to begin with.
         anew: try other beginnings for windows that stay bad.
         steps: at most, for each window.
     """
