@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from recorded_runs import ARM, arm_file, run, tips, write
 
 from continuum.arm import load_arm
+from continuum.cli import main
 from continuum.cli.tables import print_pairs
 from continuum.dynamics.model_path import model_path
 
@@ -78,6 +79,15 @@ def test_nobody_reads_on(words: tuple[str, ...]) -> None:
     os.close(writer)
     assert done.stderr == ""
     assert done.returncode in (0, 1)  # argparse ends with 0, read or not
+
+
+def test_an_interrupt_ends_in_one_line(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(_arguments: list[str]) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("continuum.cli._run", interrupted)
+    assert main(["diagnose"]) == 130
+    assert capsys.readouterr().err == "continuum: stopped\n"
 
 
 def test_a_model_is_no_arm_and_an_arm_no_model(capsys: Captured) -> None:

@@ -153,6 +153,12 @@ def test_one_seed_one_answer() -> None:
     assert as_mapping(again) == as_mapping(payload_found())
 
 
+@pytest.mark.parametrize("processes", [0, -2])
+def test_a_number_of_processes_that_is_none(processes: int) -> None:
+    with pytest.raises(InvalidValueError, match="processes is"):
+        diagnose(Dataset(runs_of(None, 0)[:1]), small_simulator().model, processes=processes)
+
+
 def test_an_arm_of_another_number_of_joints() -> None:
     with pytest.raises(InvalidValueError, match="joints in the recordings is 2; allowed: 5, as the model has"):
         diagnose(Dataset(runs_of(None, 0)[:1]), prototype_model(5), processes=1)

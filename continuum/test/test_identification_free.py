@@ -1,5 +1,7 @@
 """What a fit may move: coordinates around a model's values, bounds, and what belongs to which recording."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from dynamics_laws import active, prototype_model
@@ -8,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum.dynamics.model import Model
+from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.values import parameter_slots, with_vector
 from continuum.errors import InvalidValueError
 from continuum.identification.baseline import BATCH, DRY_SLOPE, baseline_unknowns, with_dry_friction
@@ -58,6 +61,15 @@ def test_within_the_bounds_every_value_is_allowed(far: list[float]) -> None:
     for name, values in values_at(space, UNEVEN, clipped, 0).values().items():
         assert np.all(values >= meanings[name].lower - 1e-9 * abs(meanings[name].lower) - 1e-12)
         assert np.all(values <= meanings[name].upper * (1 + 1e-9) + 1e-12)
+
+
+def test_what_all_share_and_one_has_for_itself_never_leaves_the_bounds(tmp_path: Path) -> None:
+    """Friction that all joints share at zero, and one joint's own below it: the model can be written and read."""
+    space = FreeSpace(MODEL, [Free("viscous_friction"), Free("viscous_friction", 1, tolerance=0.03)])
+    model = with_vector(MODEL, space.common_values(np.array([space.lower[0], -2.0])))
+    np.testing.assert_array_equal(model.values()["viscous_friction"], 0.0)
+    save_model(model, tmp_path / "model.yaml")
+    load_model(tmp_path / "model.yaml")
 
 
 def test_bounds_are_reached() -> None:

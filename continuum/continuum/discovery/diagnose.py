@@ -56,6 +56,8 @@ def diagnose(
         InvalidValueError: the recordings have another number of joints than the model, an effect is not installed, or
             no model can be simulated from what was measured.
     """
+    if processes is not None and processes < 1:
+        raise InvalidValueError("processes", processes, "1 or more")
     if dataset.n_joints != model.n_joints:
         raise InvalidValueError("joints in the recordings", dataset.n_joints, f"{model.n_joints}, as the model has")
     ready = with_dry_friction(model)

@@ -60,6 +60,10 @@ class FreeSpace:
         slots, meanings = parameter_slots(model), model.meanings()
         self.unknowns = tuple(unknowns)
         self.origin = parameter_vector(model)
+        bounds = [
+            (meanings[name].lower, meanings[name].upper) for name, slot in slots.items() for _ in self.origin[slot]
+        ]
+        self._allowed = np.array(bounds).T
         k = len(self.unknowns)
         self.directions, self.scale = np.zeros((self.origin.size, k)), np.zeros(k)
         self.lower, self.upper, self.spread = np.zeros(k), np.zeros(k), np.zeros(k)
@@ -92,8 +96,11 @@ class FreeSpace:
         return np.asarray(self.directions * np.array(mine, dtype=float).reshape(1, -1))
 
     def common_values(self, coordinates: Array) -> Array:
-        """All values of the model, (n_p,), at coordinates (n_free,); what belongs to single recordings is left out."""
-        return np.asarray(self.origin + self.directions_of(-1) @ coordinates)
+        """All values of the model, (n_p,), at coordinates (n_free,); what belongs to single recordings is left out.
+
+        Where what all joints share and what one has for itself add up to more than a parameter may be, it is that.
+        """
+        return np.asarray(np.clip(self.origin + self.directions_of(-1) @ coordinates, *self._allowed))
 
     def clipped(self, coordinates: Array) -> Array:
         """Coordinates within the bounds."""
