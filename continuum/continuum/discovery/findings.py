@@ -122,7 +122,8 @@ def _entry(values: Array, joint: int | None) -> float:
 
 
 def _told(fitted: Fit, names: Sequence[str]) -> Model:
-    """The fitted model with the source of what was fitted."""
+    """The fitted model with the source of what the fit has changed."""
     source = "identified from " + ", ".join(names)
-    changed = {unknown.name: source for unknown in fitted.space.unknowns if unknown.recording is None}
+    before, after = fitted.simulator.model.values(), fitted.model.values()
+    changed = {name: source for name in after if not np.allclose(before[name], after[name], rtol=1e-9, atol=0.0)}
     return replace(fitted.model, sources=dict(fitted.simulator.model.sources) | changed)

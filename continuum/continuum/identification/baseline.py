@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from continuum.dynamics.model import Model
 from continuum.identification.fit import THESIS_PARAMETERS
 from continuum.identification.free import Free
@@ -28,5 +30,6 @@ def baseline_unknowns(model: Model) -> list[Free]:
 def with_dry_friction(model: Model) -> Model:
     """The model with friction as steep as Coulomb's, which sticks; a smoother one creeps where an arm rests."""
     steep = {"friction_slope": DRY_SLOPE, "cable_slope": CABLE_SLOPE}
-    values = model.values()
-    return model.with_values({name: max(slope, float(values[name][0])) for name, slope in steep.items()})
+    raised = {name: slope for name, slope in steep.items() if slope > float(model.values()[name][0])}
+    sources = dict(model.sources) | dict.fromkeys(raised, "so steep that it cannot be told from dry friction")
+    return replace(model.with_values(raised), sources=sources)
