@@ -6,6 +6,7 @@ files below, before it calls any hook: hence at import.
 """
 
 import importlib
+import signal
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -20,7 +21,12 @@ for manifest in sorted(Path(__file__).parent.glob("*/package.xml")):
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Let ROS's message support import its parser, which uses a module that Python is about to drop; no deadlines."""
+    """Let ROS's message support import its parser, which uses a module that Python is about to drop; no deadlines.
+
+    Shells start what runs in the background deaf to interrupts, and so would be every process that a test interrupts.
+    """
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     config.addinivalue_line("filterwarnings", "ignore:module 'sre_.*' is deprecated:DeprecationWarning")
     settings.register_profile("untimed", deadline=None)  # a busy machine makes no test fail
     settings.load_profile("untimed")
