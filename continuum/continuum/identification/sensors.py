@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache, partial
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,6 +33,7 @@ class Sensors:
     def __init__(self, model: Model, recording: Recording) -> None:
         self._model, self._recording = model, recording
         self._parameters = _parameters_of_sensors(model)
+        self._first_state = cache(partial(first_state, recording))  # asked for at every step of a fit
         self._is_late = any(type(a.effect).late is not Effect.late for a in model.effects)
 
     def readings(self, p: Array, run: Trajectory) -> Reading:
@@ -63,7 +66,7 @@ class Sensors:
 
     def meant(self, row: int, p: Array) -> Array:
         """Joint angles and rates that what was read at one sample means, to first order, (2 n,) [rad, rad/s]."""
-        read = first_state(self._recording, row)
+        read = self._first_state(row)
         if not self._parameters.size:
             return read
         times, n = self._recording.times[row : row + 1], self._model.n_joints
