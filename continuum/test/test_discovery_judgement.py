@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
 from continuum.discovery.findings import Estimate, Findings
-from continuum.discovery.in_words import cost_in_words, verdict_in_words
+from continuum.discovery.in_words import cost_in_words, verdict_in_words, worth_in_words
 from continuum.discovery.judgement import confirmed, judge
 from continuum.discovery.measured_gain import RunScore, closed_gap
 from continuum.discovery.verdict import Kind, Verdict
@@ -170,6 +170,12 @@ def test_every_kind_in_words() -> None:
 def test_what_a_simulation_costs_is_told_by_the_usual_run() -> None:
     quick, slow = ([replace(score("run", 0.1), seconds=s) for s in seconds] for seconds in ((0.01, 9.0, 0.01), (0.03,)))
     assert cost_in_words(quick, slow) == "simulating a run takes 30 ms instead of 10 ms"
+
+
+def test_what_an_extension_is_worth_may_be_less_than_nothing() -> None:
+    assert "closes 50 %" in worth_in_words(0.5)
+    assert worth_in_words(-0.01).endswith("no better")
+    assert "worse" in worth_in_words(-0.1)
 
 
 RUN = Recording("run_1", np.arange(3) / 120, np.zeros((3, 5)))
