@@ -58,8 +58,9 @@ def _cause(one: Round) -> Cause:
 
 
 def _rivals(one: Round) -> list[Cause]:
-    """Effects that explain as much as the best one does."""
-    others = [trial for trial in one.leaders[1:] if not gain(one.best, trial).is_distinct]
+    """Effects that help for sure, too, and explain as much as the best one does."""
+    sure = [trial for trial in one.leaders[1:] if gain(trial, one.before).is_significant]
+    others = [trial for trial in sure if not gain(one.best, trial).is_distinct]
     return [Cause(t.extension[-1], _confidence(one, t), gain(t, one.before), t) for t in others]
 
 
