@@ -5,7 +5,7 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo test reproduction bench-dynamics bench-ik bench-discovery prototype check format lock clean
+.PHONY: help setup demo test reproduction bench-dynamics bench-ik bench-identification bench-discovery prototype check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -29,6 +29,9 @@ bench-dynamics: setup ## measure the integrators (6 minutes); overwrites docs/nu
 
 bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/ik-benchmark.md unless ARGS say otherwise
 	@$(IN_WORKSPACE) python3 -m tools.bench_ik $(ARGS)
+
+bench-identification: setup ## compare the fit with the thesis's swarm (10 minutes); overwrites docs/identification.md
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_identification $(ARGS)
 
 bench-discovery: setup ## hide effects and see what is found; ARGS="--minutes 60" stops it; overwrites docs/discovery-benchmark.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_discovery $(ARGS)
