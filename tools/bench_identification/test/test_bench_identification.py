@@ -10,7 +10,7 @@ TRUTH = dict.fromkeys(THESIS_PARAMETERS, 2.0)
 
 def comparison(simulations: int, seconds: float, error: float) -> Comparison:
     """An arm whose fit and swarm are wrong by a relative error and twice that."""
-    fit, swarm = ({name: 2.0 * (1 + e) for name in TRUTH} for e in (error, -2 * error))
+    fit, swarm = (dict.fromkeys(TRUTH, 2.0 * (1 + e)) for e in (error, -2 * error))
     return Comparison(MeasuredArm((), TRUTH), Answer(fit, simulations, seconds), Answer(swarm, 2000, 40.0))
 
 
