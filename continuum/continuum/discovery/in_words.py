@@ -33,6 +33,11 @@ def verdict_in_words(verdict: Verdict) -> str:
                 f"Each of them explains what was left ({before} of the data before, {after} after). "
                 f"To tell them apart: {verdict.experiment}"
             )
+        case Kind.UNKNOWN if not (verdict.causes or verdict.predicts):
+            return (
+                "The simulation explains short stretches of these data but does not predict whole runs: left to itself "
+                "it ends far from what was measured. No effect that is known here explains why."
+            )
         case Kind.UNKNOWN:
             return (
                 f"The simulation is wrong in {before} of the data, and no effect that is known here explains why. "
