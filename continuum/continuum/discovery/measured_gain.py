@@ -22,7 +22,7 @@ from continuum.identification.recording import Recording
 
 _ITERATIONS = 8
 _OPEN = 1.05  # times the noise floor, an error is more than noise
-_FAR = 3.0  # times the noise floor; arms that the model describes stay below 2
+_FAR = 6.0  # times the noise floor; sticking and slipping take arms that the model describes up to 4
 
 
 @dataclass(frozen=True)
