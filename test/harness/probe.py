@@ -17,7 +17,6 @@ from rclpy.qos import QoSProfile
 from continuum_manipulator.nodekit.qos import REPORT, STREAM
 from harness.waiting import LONG
 
-
 LEVELS = {getattr(DiagnosticStatus, name): name for name in ("OK", "WARN", "ERROR", "STALE")}
 
 
