@@ -74,7 +74,7 @@ class ImuFrame:
         """
         values = np.hstack([np.degrees(rates) / RATE_STEP, forces / FORCE_STEP])
         steps = np.clip(np.rint(values), -LARGEST, LARGEST).astype(int).tolist()
-        return cls(sample, tuple(Reading(*row, int(flag)) for row, flag in zip(steps, flags, strict=True)))
+        return cls(sample, tuple(Reading._make([*row, int(flag)]) for row, flag in zip(steps, flags, strict=True)))
 
     def encode(self) -> bytes:
         counted("number of sensors", len(self.readings), MOST_SENSORS, 1)
