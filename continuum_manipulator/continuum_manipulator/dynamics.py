@@ -12,7 +12,6 @@ from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from continuum import joint_names
 from continuum.dynamics.live.live_arm import INTEGRATORS, LiveArm
 from continuum.dynamics.live.tension_follower import TensionFollower
 from continuum.dynamics.model_file import load_model
@@ -23,6 +22,7 @@ from continuum.parameter_spec import ParameterSpec
 from continuum_manipulator.load_meter import LoadMeter, Mark
 from continuum_manipulator.nodekit import tension_limits
 from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.planar_arm import PlanarArm
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 from continuum_manipulator.nodekit.tension_commands import read_tensions
 from continuum_manipulator.pace import Pace
@@ -67,18 +67,11 @@ class DynamicsNode(CheckedNode):
 
     def __init__(self) -> None:
         super().__init__()
-        section = str(self.values["section"])
-        joint_names.check_section(section)
         model = load_model(self.values["model"])
+        self._planar = PlanarArm(str(self.values["section"]), model)
         self._n_joints = model.n_joints
         self._posture = initial_posture(model.n_joints, self.values)
         self._arm = LiveArm(model, self._posture, self.values["integrator"])
-        self._joints = [
-            joint_names.phi_joint(section),
-            *joint_names.theta_joints(section, model.n_joints),
-            joint_names.phi_back_joint(section),
-        ]
-        self._cables = list(joint_names.cable_names(section, len(SIDES)))
         self._limits = tension_limits.limits_from(self.values)
         self._tensions = TensionFollower(self._limits, len(SIDES))
         self._pace: Pace | None = None  # until there is a time
@@ -167,26 +160,18 @@ class DynamicsNode(CheckedNode):
             self._failure = status
 
     def _publish(self) -> None:
-        """Publish the state at the last instant simulated. Joints have no motors, so only cables have an effort."""
+        """Publish the state at the last instant simulated."""
         stamp = Time(nanoseconds=self._pace.last).to_msg()
-        joints = JointState(name=self._joints)
-        joints.header.stamp = stamp
-        joints.position = [0.0, *self._arm.angles, 0.0]  # positive bends are towards phi = 0
-        joints.velocity = [0.0, *self._arm.rates, 0.0]
-        cables = CableStates(section=CableStates.WHOLE_ARM, name=self._cables)
-        cables.header.stamp = stamp
-        cables.position = self._arm.cable_lengths
-        cables.velocity = self._arm.cable_rates
-        cables.effort = self._tensions.tension
-        self._publish_joints(joints)
-        self._publish_cables(cables)
+        angles, rates = self._arm.angles, self._arm.rates
+        self._publish_joints(self._planar.joint_state(stamp, angles, rates))
+        self._publish_cables(self._planar.cable_states(stamp, angles, rates, self._tensions.tension))
 
     def _on_command(self, message: CableStates) -> None:
         now = self._now()
-        wanted = read_tensions(message, self._cables, now, self.values["command_timeout"])
+        wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
         if self._pace is None:
             return  # within the first period
-        tension_limits.tell_limited(self.diagnostics, self._cables, wanted, self._limits.max_tension)
+        tension_limits.tell_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
         self._tensions.command(wanted, self._pace.seconds(min(now, nanoseconds(message.header.stamp))))
 
     def _release(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
