@@ -26,6 +26,7 @@ class TensionGate:
     def __init__(self, limits: TensionLimits, n_cables: int) -> None:
         self._follower = TensionFollower(limits, n_cables)
         self._last: float | None = None
+        self._commanded: float | None = None
         self.is_open = False
         self.stopped = False
 
@@ -40,20 +41,25 @@ class TensionGate:
         return self._follower.abandoned
 
     @property
+    def decided(self) -> float | None:
+        """When the command that is followed was decided; None where the gate itself asks for less, just now."""
+        return None if self.abandoned else self._commanded
+
+    @property
     def is_tight(self) -> bool:
         return bool(np.any(self.set_point > 0))
 
     def open(self) -> bool:
         """Let commands through from now on, from zero; False while a stop is latched."""
         if not self.stopped:
-            self._follower.release()
+            self._release()
             self.is_open = True
         return self.is_open
 
     def shut(self) -> None:
         """Zero, and nothing through."""
         self.is_open = False
-        self._follower.release()
+        self._release()
 
     def stop(self) -> None:
         """Shut and latch."""
@@ -68,6 +74,7 @@ class TensionGate:
         """Go for tensions (n_cables,) [N], finite and none negative, said at ``at``; False where nothing passes."""
         if self.is_open:
             self._follower.command(wanted, at)
+            self._commanded = at
         return self.is_open
 
     def move_on(self, now: float) -> Array:
@@ -77,3 +84,7 @@ class TensionGate:
         if self.is_open:
             self._follower.move_on(now, passed)
         return self.set_point
+
+    def _release(self) -> None:
+        self._follower.release()
+        self._commanded = None
