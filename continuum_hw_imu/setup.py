@@ -12,4 +12,9 @@ setup(
     ],
     install_requires=["setuptools"],
     zip_safe=True,
+    entry_points={
+        "console_scripts": [
+            "bench_emulator = continuum_hw_imu.emulator.command:main",
+        ],
+    },
 )
