@@ -18,6 +18,7 @@ from continuum.inertial.integrated_rate import curvature, error_of_gap, turn_sin
 from continuum.inertial.joint_angles import of_neighbours, with_neighbour, within_half_a_turn
 
 _SAME_TIME = 1e-6  # s
+_FEW = 3  # missing readings that break no rest
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class AngleEstimate:
         rates: (n,) [rad/s]; by sensors that give means, those over the last period.
         good: joints whose angle is known, (n,).
         why_not: why a joint is not good, empty where it is, (n,).
-        errors: of the angles as reckoned, infinite where nothing is known, (n,) [rad].
+        errors: of the angles as reckoned, half a turn or more where nothing is known, (n,) [rad].
         resting: links that are at rest, (n,).
     """
 
@@ -60,13 +61,16 @@ class AngleEstimator:
         self.calibration, self.settings = calibration, settings or EstimatorSettings()
         s, n = self.settings, calibration.n_sensors
         self._filter = ComplementaryFilter(s.time_constant, s.bias_time, s.inclination_error)
-        self._rates: deque[Array] = deque(maxlen=max(3, round(s.rest_window / s.period)))
-        self._forces: deque[Array] = deque(maxlen=self._rates.maxlen)
-        self._state = Correction(np.zeros(n), np.zeros(n), np.full(n, np.inf))
-        self._run = np.zeros(n)  # readings since the last one that was missed or clipped
-        self._count = np.zeros(n)  # of them at rest since the angle was lost
+        self._window = max(3, round(s.rest_window / s.period))
+        self._rates: deque[Array] = deque(maxlen=self._window)
+        self._forces: deque[Array] = deque(maxlen=self._window)
+        self._state = Correction(np.zeros(n), np.zeros(n), np.full(n, np.pi))
+        self._lost = np.ones(n, dtype=bool)
+        self._unbroken = np.zeros(n)  # readings since the last one that was missed or clipped
+        self._run = np.zeros(n)  # since more than a few were missed, or one clipped
+        self._count = np.zeros(n)  # of readings at rest since the angle was lost
         self._heard = np.full(n, -np.inf)
-        self._rate_before, self._curvature = np.zeros(n), np.full(n, np.inf)
+        self._rate_before, self._curvature = np.zeros(n), np.zeros(n)
         self._clipped = np.zeros(n)  # readings clipped one after the other
         self._last: AngleEstimate | None = None
         self.ignored = 0
@@ -84,8 +88,8 @@ class AngleEstimator:
             return self._last
         since = self.settings.period if self._last is None else sample.time - self._last.time
         heard = sample.usable()
-        rate = np.sum(self.calibration.axis * (sample.rates - self.calibration.bias), axis=1)
-        rate = np.where(heard, rate - self._state.drift, self._rate_before)
+        rates = np.where(heard[:, None], sample.rates - self.calibration.bias, 0.0)
+        rate = np.where(heard, np.sum(self.calibration.axis * rates, axis=1) - self._state.drift, self._rate_before)
         self._integrate(sample.time, rate, heard, sample.clipped & heard)
         resting = self._resting(rate, sample, heard)
         self._correct(sample, resting, since)
@@ -107,36 +111,42 @@ class AngleEstimator:
         angle = state.angle + turn_since(rate, self._rate_before, elapsed, s.period, s.rates_are_means)
         error = np.hypot(state.error, unsure) + s.bias_left * elapsed
         lost = elapsed > s.longest_gap
-        self._state = Correction(angle, state.drift, np.where(lost, np.inf, error))
+        self._state = Correction(angle, state.drift, np.minimum(np.where(lost, np.pi, error), np.pi))
         self._heard = np.where(heard, time, self._heard)
         self._rate_before = rate
-        self._run = np.where(heard & ~clipped, np.where(missing > 0, 1, self._run + 1), 0)
+        counts = heard & ~clipped
+        self._unbroken = np.where(counts, np.where(missing > 0, 1, self._unbroken + 1), 0)
+        self._run = np.where(counts & (missing <= _FEW), self._run + 1, np.where(heard, 0, self._run))
 
     def _resting(self, rate: Array, sample: ImuSample, heard: Truths) -> Truths:
         """Links whose sensors were heard without a gap and quiet over the whole window."""
         s = self.settings
         size = np.linalg.norm(sample.forces, axis=1) - self.calibration.gravity
-        self._rates.append(np.where(heard, rate, np.inf))
+        self._rates.append(rate)
         self._forces.append(np.where(heard, np.abs(size), np.inf))
-        whole = self._run >= len(self._rates) if len(self._rates) == self._rates.maxlen else np.zeros(heard.size, bool)
-        rates, forces = np.array(self._rates), np.array(self._forces)
-        with np.errstate(invalid="ignore"):
-            bent = curvature(rates, s.period)
-            quiet = (
-                (np.abs(rates).max(axis=0) <= s.rest_rate)
-                & (np.ptp(rates, axis=0) <= s.rest_spread)
-                & (forces.max(axis=0) <= s.rest_force)
-            )
-        self._curvature = np.where(self._run >= 3, bent, self._curvature)
+        rates = np.array(self._rates)
+        if len(rates) >= 3:
+            faded = self._curvature * np.exp(-s.period / s.rest_window)
+            bent = np.maximum(faded, curvature(rates[-3:], s.period))
+            self._curvature = np.where(self._unbroken >= 3, bent, self._curvature)
+        whole = self._run >= self._window
+        quiet = (
+            (np.abs(rates).max(axis=0) <= s.rest_rate)
+            & (rates.max(axis=0) - rates.min(axis=0) <= s.rest_spread)
+            & (np.max(self._forces, axis=0) <= s.rest_force)
+        )
         return np.asarray(whole & quiet)
 
     def _correct(self, sample: ImuSample, resting: Truths, since: float) -> None:
         s, calibration = self.settings, self.calibration
-        bad = self._state.error > s.largest_error
-        self._count = np.where(bad & (self._count * s.period > s.rest_window), 0, self._count) + resting
+        self._lost |= self._state.error > s.largest_error
+        self._count = np.where(resting, self._count + 1, np.where(self._lost, 0, self._count))
         forces = np.where(resting[:, None], sample.forces, calibration.zero)
         off = within_half_a_turn(inclination(forces, calibration.axis, calibration.zero) - self._state.angle)
-        self._state = self._filter.corrected(self._state, off, since, resting, self._count)
+        state = self._filter.corrected(self._state, off, since, np.where(resting, self._count, 0))
+        found = self._lost & (self._count >= self._window / 2)
+        self._lost &= ~found
+        self._state = Correction(state.angle, state.drift, np.where(found, s.inclination_error, state.error))
 
     def _estimate(self, time: float, rate: Array, heard: Truths, resting: Truths) -> AngleEstimate:
         errors = with_neighbour(self._state.error)
@@ -160,8 +170,7 @@ class AngleEstimator:
     def _why_not(self, sensor: int, heard: bool) -> str:
         if not heard:
             return f"sensor {sensor + 1} is missing"
-        if np.isinf(self._state.error[sensor]):
-            return f"sensor {sensor + 1} waits for rest"
-        if self._state.error[sensor] > self.settings.largest_error:
-            return f"sensor {sensor + 1} missed too much and waits for rest"
+        if self._lost[sensor]:
+            missed = self._state.error[sensor] < np.pi
+            return f"sensor {sensor + 1} {'missed too much and ' if missed else ''}waits for rest"
         return ""

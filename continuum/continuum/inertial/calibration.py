@@ -109,10 +109,9 @@ def load_calibration(path: str | Path) -> Calibration:
         if not isinstance(sensor, Mapping) or set(sensor) != set(_KEYS):
             raise FileError(path, f"sensor {number} has to have {', '.join(_KEYS)}, and nothing else")
     try:
-        return Calibration(
-            *([sensor[key] for sensor in sensors] for key in _KEYS[:3]),  # type: ignore[arg-type]  # checked there
-            sources=tuple(str(sensor["source"]) for sensor in sensors),
-        )
+        n = len(sensors)
+        bias, axis, zero = (finite_of_shape(key, [sensor[key] for sensor in sensors], (n, 3)) for key in _KEYS[:3])
+        return Calibration(bias, axis, zero, tuple(str(sensor["source"]) for sensor in sensors))
     except InvalidValueError as error:
         raise InvalidValueError(f"{path}: {error.name}", error.value, error.allowed) from None
 

@@ -16,7 +16,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.inertial.imu_sample import Truths
 
 _LARGEST_DRIFT = np.radians(1.0)  # rad/s that the integral part may learn
 
@@ -38,22 +37,22 @@ class ComplementaryFilter:
     bias_time: float
     inclination_error: float
 
-    def corrected(self, before: Correction, off: Array, elapsed: float, resting: Truths, count: Array) -> Correction:
+    def corrected(self, before: Correction, off: Array, elapsed: float, count: Array) -> Correction:
         """One step at sensors that rest; the others stay as they are.
 
         Args:
             before: values before it.
             off: inclination less angle, (n,) [rad].
             elapsed: since the step before [s].
-            resting: whom it concerns, (n,).
-            count: of resting readings since the angle was lost, this one included, (n,).
+            count: of corrections since the angle was lost, this one included; 0 at those that do not rest, (n,).
         """
-        gain = np.where(resting, np.maximum(min(elapsed / self.time_constant, 1.0), 1 / np.maximum(count, 1)), 0.0)
-        learns = resting & (count * elapsed > self.time_constant)
-        drift = before.drift - np.where(learns, off * elapsed / (self.time_constant * self.bias_time), 0.0)
-        old = np.where(gain < 1, before.error, 0.0)  # not inf * 0
+        share, resting = min(elapsed / self.time_constant, 1.0), count > 0
+        gain = np.where(resting, np.maximum(share, 1 / np.maximum(count, 1)), 0.0)
+        learns = count * share > 1
+        drift = before.drift - np.where(learns, off * share / self.bias_time, 0.0)
+        error = before.error + share * (self.inclination_error - before.error)
         return Correction(
             before.angle + gain * off,
             np.clip(drift, -_LARGEST_DRIFT, _LARGEST_DRIFT),
-            np.where(resting, (1 - gain) * old + gain * self.inclination_error, before.error),
+            np.where(resting, error, before.error),
         )

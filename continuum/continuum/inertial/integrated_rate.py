@@ -32,13 +32,11 @@ def error_of_gap(missing: Array, curvature: Array) -> Array:
 
     Args:
         missing: how many, (n,).
-        curvature: largest error lately of interpolating one reading that was heard, (n,) [rad].
+        curvature: largest error, lately, of interpolating one reading that was heard, (n,) [rad].
     """
     return np.asarray(_SAFETY * curvature * missing * (missing + 1) ** 2 / 4)
 
 
 def curvature(rates: Array, period: float) -> Array:
-    """Largest error that interpolating any one of the rates (m, n) would make of its turn, (n,) [rad]."""
-    if rates.shape[0] < 3:
-        return np.full(rates.shape[1], np.inf)
-    return np.asarray(np.abs(rates[1:-1] - (rates[:-2] + rates[2:]) / 2).max(axis=0) * period)
+    """Error that interpolating the middle one of three rates (3, n) would make of its turn, (n,) [rad]."""
+    return np.asarray(np.abs(rates[1] - (rates[0] + rates[2]) / 2) * period)

@@ -9,7 +9,7 @@ from continuum.arrays import Array
 
 def of_neighbours(links: Array) -> Array:
     """Angles or rates of the joints from those of the links, (..., n): theta_i = alpha_i - alpha_(i-1)."""
-    return np.diff(links, axis=-1, prepend=0.0)
+    return np.asarray(np.diff(links, axis=-1, prepend=0.0))
 
 
 def within_half_a_turn(angles: Array) -> Array:
@@ -20,4 +20,4 @@ def within_half_a_turn(angles: Array) -> Array:
 def with_neighbour(errors: Array) -> Array:
     """Errors of the joints' angles from independent ones of the links', (n,) [rad]."""
     before = np.concatenate([[0.0], errors[:-1]])
-    return np.hypot(errors, before)
+    return np.asarray(np.hypot(errors, before))

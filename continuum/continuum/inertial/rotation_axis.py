@@ -22,8 +22,8 @@ _ALIKE = 0.5  # correlation of a link's angle with that of the last
 def axes_of_motion(recording: ImuRecording, bias: Array, first_turn: int) -> Array:
     """Unit vectors along the axes of the links, in each sensor's own axes, (n, 3).
 
-    Positive turns bend the arm towards cable 1. Rates cannot tell to which side the arm bends, so the person who moves
-    it must: the links turn to the same side for the most part, and the last one first by half its way to the side named.
+    Positive turns bend the arm towards cable 1. Rates cannot tell to which side that is, so the person who moves the
+    arm must: the side to which the last link first turns by half its way. The others turn mostly to the same side.
 
     Args:
         recording: of the arm bending in its plane by at least `LEAST_TURN` in the first joint, and some rest.
