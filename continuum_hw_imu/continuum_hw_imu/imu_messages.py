@@ -2,34 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Vector3
 from sensor_msgs.msg import Imu
 
 from continuum.arrays import Array
+from continuum_hw_imu.emulator.sensor_model import SensorQuality
 
-NO_ORIENTATION = [-1.0, *[0.0] * 8]
+NO_ORIENTATION = np.array([-1.0, *[0.0] * 8])
 """Of REP-145: the sensor says nothing of it."""
-
-
-@dataclass(frozen=True)
-class SensorNoise:
-    """Standard deviations of one sensor's signals, the same along each axis, and what it can measure at most.
-
-    Attributes:
-        rate: of the angular rate [rad/s].
-        force: of the specific force [m/s^2].
-        largest_rate: range of the angular rate [rad/s].
-        largest_force: range of the specific force [m/s^2].
-    """
-
-    rate: float
-    force: float
-    largest_rate: float
-    largest_force: float
 
 
 class ImuMessages:
@@ -37,25 +19,29 @@ class ImuMessages:
 
     Args:
         frame: name of the sensor's own frame, in which it measures.
-        noise: of the sensor.
+        quality: of the sensor: its noise and its ranges.
     """
 
-    def __init__(self, frame: str, noise: SensorNoise) -> None:
+    def __init__(self, frame: str, quality: SensorQuality) -> None:
         self._frame = frame
-        self._rate, self._rate_clipped = _covariance(noise.rate), _covariance(noise.largest_rate)
-        self._force, self._force_clipped = _covariance(noise.force), _covariance(noise.largest_force)
+        self._sure = _covariance(quality.rate_noise), _covariance(quality.force_noise)
+        self._clipped = _covariance(quality.rate_range), _covariance(quality.force_range)
 
     def message(self, stamp: Time, rate: Array, force: Array, clipped: bool) -> Imu:
         """Angular rate (3,) [rad/s] and specific force (3,) [m/s^2]; where clipped, they may be anything in range."""
-        message = Imu()
+        message = Imu(angular_velocity=_vector(rate), linear_acceleration=_vector(force))
         message.header.stamp, message.header.frame_id = stamp, self._frame
         message.orientation_covariance = NO_ORIENTATION
-        message.angular_velocity = Vector3(**dict(zip("xyz", rate.tolist(), strict=True)))
-        message.angular_velocity_covariance = self._rate_clipped if clipped else self._rate
-        message.linear_acceleration = Vector3(**dict(zip("xyz", force.tolist(), strict=True)))
-        message.linear_acceleration_covariance = self._force_clipped if clipped else self._force
+        covariances = self._clipped if clipped else self._sure
+        message.angular_velocity_covariance, message.linear_acceleration_covariance = covariances
         return message
 
 
-def _covariance(deviation: float) -> list[float]:
-    return (deviation**2 * np.eye(3)).ravel().tolist()
+def _vector(values: Array) -> Vector3:
+    x, y, z = values.tolist()
+    return Vector3(x=x, y=y, z=z)
+
+
+def _covariance(deviation: float) -> Array:
+    """Of three independent axes, row by row, (9,)."""
+    return (deviation**2 * np.eye(3)).ravel()

@@ -50,12 +50,6 @@ class SensorWatch:
         self.steps = steps
         self._use(steps)
 
-    def begin(self) -> None:
-        """The device's time begins anew: what was before does not go on."""
-        with self._mutex:
-            self._kept.clear()
-        self._use(self.steps)
-
     def take(self, heard: Heard, frame: ImuFrame) -> ImuSample:
         """A frame came, later than the one before; its sample, sensors from base to tip.
 

@@ -221,7 +221,8 @@ class BenchClient:
             self._news.notify_all()
             if arrival is Arrival.LATE:
                 return None
-            return Heard(frame.message, self.clock.host_time(device_time), now, device_time)
+            host_time = self.clock.host_time(device_time)
+            return Heard(frame.message, host_time, now, device_time, self.conversations)
 
     def _keep(self, message: Message, now: float) -> None:
         talk = self.conversation

@@ -18,12 +18,14 @@ class Heard:
         time: instant that it tells of, by `time.monotonic` [s], without the jitter of the way.
         read: when its bytes were there, by the same clock [s].
         device_time: the instant by the device's clock, unwrapped [us].
+        conversation: number of the conversation that it is a part of.
     """
 
     message: Message
     time: float
     read: float
     device_time: int
+    conversation: int
 
 
 @dataclass

@@ -1,0 +1,318 @@
+"""Lifecycle node between the workspace and a bench: sensors in, joint and cable states out; tension commands in."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from lifecycle_msgs.msg import State
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
+from rclpy.lifecycle.node import LifecycleNodeMixin
+from sensor_msgs.msg import Imu, JointState
+from std_srvs.srv import Trigger
+
+from continuum.dynamics.model_file import load_model
+from continuum.errors import ContinuumError, InvalidValueError
+from continuum.inertial.calibration import save_calibration
+from continuum_hw_imu.bench_diagnostics import SILENT, BenchDiagnostics
+from continuum_hw_imu.bench_parameters import PARAMETERS, steps_from
+from continuum_hw_imu.bench_streams import BenchStreams
+from continuum_hw_imu.emulator.sensor_model import SensorQuality
+from continuum_hw_imu.imu_messages import ImuMessages
+from continuum_hw_imu.link.bench_client import BenchClient
+from continuum_hw_imu.protocol.messages import GuardState, Result
+from continuum_hw_imu.sensor_watch import SensorWatch
+from continuum_hw_imu.tension_gate import TensionGate
+from continuum_manipulator.nodekit import tension_limits
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.faults import MessageFault
+from continuum_manipulator.nodekit.planar_arm import PlanarArm
+from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
+from continuum_manipulator.nodekit.tension_commands import read_tensions
+from continuum_msgs.msg import CableStates
+
+COMMANDS = "cable_tension_cmd"
+
+OPEN_TIME = 0.3
+"""Within which a port that is there opens [s]."""
+
+ANSWER_TIME = 0.5
+"""Within which a bench answers [s]; for slack cables it is waited longer."""
+
+AUTOSTART_PERIOD = 1.0
+"""Between two attempts to begin [s]."""
+
+DONE, FAILED = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
+
+Answer = Trigger.Response
+
+
+class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
+    """A bench's sensors to ``imu_N/data_raw``, ``joint_states``, ``cable_states``; ``cable_tension_cmd`` to its cables.
+
+    A lifecycle node: configured, it has the port and publishes; only while active it lets tension through. It becomes
+    inactive by itself, cables slack, when the link is lost, the bench begins anew, another one commands it, or
+    ``~/stop`` was called, which ``~/reset_stop`` ends. Joint states are published while every joint is known: first
+    ``~/calibrate_bias`` (at rest), ``~/find_axes`` (after bending towards cable 1 and back) and ``~/zero`` (at rest,
+    straight), or a calibration file.
+    """
+
+    NAME = "bench_bridge"
+    PARAMETERS = PARAMETERS
+
+    def __init__(self) -> None:
+        CheckedNode.__init__(self)
+        if self.get_parameter("use_sim_time").value:
+            raise InvalidValueError("use_sim_time", True, "false; a bench lives in real time")
+        model = load_model(self.values["model"])
+        section = str(self.values["section"])
+        self._planar = PlanarArm(section, model)
+        self._n_joints = model.n_joints
+        self._steps = steps_from(self.values["calibration"], model.n_joints)
+        LifecycleNodeMixin.__init__(self)
+        self._client: BenchClient | None = None
+        self._limits = tension_limits.limits_from(self.values)
+        self._gate = TensionGate(self._limits, len(self._planar.cables))
+        self._streams = self._offered_streams(section)
+        self._starts_by_itself = self.values["autostart"] != "none"
+        self._autostart_at = 0.0
+        self.listen(CableStates, COMMANDS, self._on_command)
+        services: dict[str, Callable[[], str]] = {
+            "zero": partial(self._calibrate, lambda watch: watch.find_zero(self.values["rest_time"]), "the zero"),
+            "calibrate_bias": partial(
+                self._calibrate, lambda watch: watch.find_bias(self.values["rest_time"]), "the bias"
+            ),
+            "find_axes": partial(self._calibrate, SensorWatch.find_axes, "the axes"),
+            "stop": self._stop,
+            "reset_stop": self._reset_stop,
+        }
+        for name, carry_out in services.items():
+            self.create_service(Trigger, f"~/{name}", partial(self._serve, carry_out))
+        name = self.get_fully_qualified_name().lstrip("/")
+        told = BenchDiagnostics(
+            name, self._streams, self._gate, lambda: self._client, str(self.values["port"]), self._n_joints
+        )
+        self.diagnostics.subjects += told.subjects()
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = self.create_timer(1.0 / self.values["command_rate"], self._tick, clock=steady)
+
+    def in_words(self) -> str:
+        return f"{Path(self.values['model']).name}, {self._n_joints} joints, bench at {self.values['port']}"
+
+    def _offered_streams(self, section: str) -> BenchStreams:
+        quality = SensorQuality(rate_noise=self.values["rate_noise"], force_noise=self.values["force_noise"])
+        links = range(1, self._n_joints + 1)
+        return BenchStreams(
+            self._planar,
+            [ImuMessages(f"{section}_imu_{k}", quality) for k in links],
+            self.get_clock(),
+            self._steps,
+            self.offer(JointState, "joint_states"),
+            self.offer(CableStates, "cable_states"),
+            [self.offer(Imu, f"imu_{k}/data_raw") for k in links],
+        )
+
+    # --- life cycle
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """Open the port and wait for a bench that fits."""
+        client = BenchClient(str(self.values["port"]), int(self.values["baud_rate"]), self._streams.take)
+        client.start()
+        client.wait_for(lambda: client.link.is_open, OPEN_TIME)
+        if client.link.is_open:
+            client.wait_for(lambda: client.hello is not None, ANSWER_TIME)
+        problem = client.link.problem or self._streams.problem
+        if client.hello is None or problem:
+            client.close()
+            problem = problem or "the port is open, but no bench says who it is"
+            self._streams.forget()
+            self._refuse("configure", problem)
+            return FAILED
+        limits, own = client.hello.limits, self._limits
+        self._client = client
+        self.get_logger().info(
+            f"{client.hello.firmware} at {self.values['port']}: {len(client.hello.sensors)} sensors at "
+            f"{client.hello.sample_rate:g} Hz, {client.hello.n_cables} cables, up to "
+            f"{min(limits.max_tension, own.max_tension):g} N"
+        )
+        return DONE
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """Become the bench's commander, with slack cables."""
+        problem = self._why_not_active() or self._claimed()
+        if problem:
+            self._refuse("activate", problem)
+            return FAILED
+        self._gate.open()
+        return DONE
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """Let the cables go."""
+        self._gate.shut()
+        if self._client is not None and self._client.commands:
+            self._client.release(ANSWER_TIME)
+        return DONE
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """Close the port."""
+        self._hang_up()
+        return DONE
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """As on deactivation and clean-up."""
+        self.on_deactivate(state)
+        return self.on_cleanup(state)
+
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """A transition broke off; rclpy does not tell why."""
+        self.get_logger().error(f"a transition from {state.label} broke off; the port is closed")
+        return self.on_shutdown(state)
+
+    @property
+    def _is_active(self) -> bool:
+        return bool(self._state_machine.current_state[0] == State.PRIMARY_STATE_ACTIVE)
+
+    @property
+    def _is_configured(self) -> bool:
+        return bool(self._state_machine.current_state[0] == State.PRIMARY_STATE_INACTIVE)
+
+    def _refuse(self, transition: str, problem: str) -> None:
+        self.diagnostics.warnings.note(f"cannot {transition}", problem)
+
+    def _why_not_active(self) -> str:
+        """What keeps tension from going through; empty if nothing does."""
+        client = self._client
+        if client is None or not client.link.is_open:
+            return "the link is lost" if client is None else f"the link is lost: {client.link.problem}"
+        if client.hello is None or self._streams.problem:
+            return self._streams.problem or "the bench has begun anew"
+        if client.silent_for(time.monotonic()) > SILENT:
+            return "the bench is silent"
+        return "stopped, until ~/reset_stop" if self._gate.stopped else ""
+
+    def _claimed(self) -> str:
+        """Claim the bench; why it did not work."""
+        limits = self._client.hello.limits
+        result = self._client.claim(limits.slack_time + ANSWER_TIME)
+        return "" if result is Result.DONE else _refusal(result)
+
+    def _hang_up(self) -> None:
+        client, self._client = self._client, None
+        if client is not None:
+            client.close()
+            self._streams.forget()
+
+    def _autostart(self, now: float) -> None:
+        """Go on towards where the node is to be by itself, until it is there once."""
+        if not self._starts_by_itself or now < self._autostart_at:
+            return
+        self._autostart_at = now + AUTOSTART_PERIOD
+        if self._is_active or (self._is_configured and self.values["autostart"] == "configure"):
+            self._starts_by_itself = False
+        elif self._is_configured:
+            self.trigger_activate()
+        else:
+            self.trigger_configure()
+
+    # --- tension
+
+    def _tick(self) -> None:
+        """Keep the line up, look after safety, and send what is let through."""
+        now = time.monotonic()
+        self._autostart(now)
+        client = self._client
+        if client is None:
+            return
+        client.ask_who(now)
+        self._look_at_stop(client)
+        if not self._is_active:
+            return
+        problem = self._why_not_active() or ("" if client.commands else "this node is no longer the bench's commander")
+        if problem:
+            self.diagnostics.warnings.note("fell back to inactive, cables slack", problem)
+            self.trigger_deactivate()
+            return
+        before = self._gate.abandoned
+        set_point = self._gate.move_on(now)
+        if self._gate.abandoned and not before:
+            tension_limits.tell_abandoned(self.diagnostics, self._limits)
+        client.set_tension(set_point.tolist(), self._gate.decided)
+
+    def _look_at_stop(self, client: BenchClient) -> None:
+        """A stop holds at both ends, wherever it began."""
+        status = client.conversation.status
+        stopped_there = status is not None and status.state is GuardState.STOPPED
+        if self._gate.stopped and not stopped_there:
+            client.stop()
+        elif stopped_there and not self._gate.stopped:
+            self._gate.stop()
+            self.diagnostics.warnings.note("stopped", "by the bench; until ~/reset_stop")
+
+    def _on_command(self, message: CableStates) -> None:
+        speakers = self.count_publishers(COMMANDS)
+        if speakers > 1:
+            raise MessageFault("several commanders", f"{speakers} publishers; one at a time may command")
+        now = self.get_clock().now().nanoseconds
+        wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
+        age = max(0, now - nanoseconds(message.header.stamp)) / NANOSECONDS
+        if not self._gate.command(wanted, time.monotonic() - age):
+            raise MessageFault("not active", "a tension command; the node has to be activated first")
+        tension_limits.tell_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
+
+    # --- services
+
+    def _serve(self, carry_out: Callable[[], str], _request: Trigger.Request, response: Answer) -> Answer:
+        """What was done in words, or why nothing was."""
+        try:
+            response.message, response.success = carry_out(), True
+        except ContinuumError as error:
+            response.message = str(error)
+        return response
+
+    def _calibrate(self, step: Callable[[SensorWatch], None], what: str) -> str:
+        watch = self._streams.watch
+        if self._client is None or watch is None:
+            raise InvalidValueError("state of the node", "no bench", "configured, with a bench that fits")
+        step(watch)
+        self._streams.steps = watch.steps
+        calibration = watch.steps.complete()
+        if calibration is None:
+            return f"{what} is known; still to find: {', '.join(watch.steps.missing)}"
+        if not self.values["calibration"]:
+            return f"{what} is known; nothing is missing. It is not kept: there is no parameter calibration"
+        save_calibration(calibration, self.values["calibration"])
+        return f"{what} is known; nothing is missing. Written to {self.values['calibration']}"
+
+    def _stop(self) -> str:
+        self._gate.stop()
+        if self._client is not None:
+            self._client.stop()
+        return "stopped, until ~/reset_stop; then the node has to be activated again"
+
+    def _reset_stop(self) -> str:
+        client = self._client
+        if client is None or client.hello is None:
+            raise InvalidValueError("link", "lost", "a link to the bench, whose own stop is to be reset too")
+        problem = self._claimed()
+        if not problem:
+            result = client.reset_stop(ANSWER_TIME)
+            client.wait_for(lambda: client.conversation.status.state is not GuardState.STOPPED, ANSWER_TIME)
+            client.release(ANSWER_TIME)
+            problem = "" if result is Result.DONE else _refusal(result)
+        if problem:
+            raise InvalidValueError("reset of the stop", problem, "an answer of the bench that it is done")
+        self._gate.reset()
+        return "the stop is over; tension goes through after the node is activated"
+
+    def close(self) -> None:
+        """Let the cables go and close the port before the node ends."""
+        self.on_shutdown(LifecycleState(*reversed(self._state_machine.current_state)))
+        super().close()
+
+
+def _refusal(result: Result | None) -> str:
+    return "the bench does not answer" if result is None else f"the bench answers: {result.name.lower()}"
