@@ -18,15 +18,14 @@ from std_srvs.srv import Trigger
 from continuum.dynamics.model_file import load_model
 from continuum.errors import ContinuumError, InvalidValueError
 from continuum.inertial.calibration import save_calibration
-from continuum_hw_imu.bench_diagnostics import SILENT, BenchDiagnostics
+from continuum_hw_imu.bench_commander import ANSWER_TIME, BenchCommander
+from continuum_hw_imu.bench_diagnostics import BenchDiagnostics
 from continuum_hw_imu.bench_parameters import PARAMETERS, steps_from
 from continuum_hw_imu.bench_streams import BenchStreams
 from continuum_hw_imu.emulator.sensor_model import SensorQuality
 from continuum_hw_imu.imu_messages import ImuMessages
 from continuum_hw_imu.link.bench_client import BenchClient
-from continuum_hw_imu.protocol.messages import GuardState, Result
 from continuum_hw_imu.sensor_watch import SensorWatch
-from continuum_hw_imu.tension_gate import TensionGate
 from continuum_manipulator.nodekit import tension_limits
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
@@ -39,9 +38,6 @@ COMMANDS = "cable_tension_cmd"
 
 OPEN_TIME = 0.3
 """Within which a port that is there opens [s]."""
-
-ANSWER_TIME = 0.5
-"""Within which a bench answers [s]; for slack cables it is waited longer."""
 
 AUTOSTART_PERIOD = 1.0
 """Between two attempts to begin [s]."""
@@ -74,28 +70,24 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._n_joints = model.n_joints
         self._steps = steps_from(self.values["calibration"], model.n_joints)
         LifecycleNodeMixin.__init__(self)
-        self._client: BenchClient | None = None
         self._limits = tension_limits.limits_from(self.values)
-        self._gate = TensionGate(self._limits, len(self._planar.cables))
+        self._commander = BenchCommander(self._limits, len(self._planar.cables))
         self._streams = self._offered_streams(section)
         self._starts_by_itself = self.values["autostart"] != "none"
         self._autostart_at = 0.0
         self.listen(CableStates, COMMANDS, self._on_command)
+        rest_time = self.values["rest_time"]
         services: dict[str, Callable[[], str]] = {
-            "zero": partial(self._calibrate, lambda watch: watch.find_zero(self.values["rest_time"]), "the zero"),
-            "calibrate_bias": partial(
-                self._calibrate, lambda watch: watch.find_bias(self.values["rest_time"]), "the bias"
-            ),
-            "find_axes": partial(self._calibrate, SensorWatch.find_axes, "the axes"),
+            "zero": partial(self._calibrate, lambda watch: watch.find_zero(rest_time)),
+            "calibrate_bias": partial(self._calibrate, lambda watch: watch.find_bias(rest_time)),
+            "find_axes": partial(self._calibrate, SensorWatch.find_axes),
             "stop": self._stop,
             "reset_stop": self._reset_stop,
         }
         for name, carry_out in services.items():
             self.create_service(Trigger, f"~/{name}", partial(self._serve, carry_out))
         name = self.get_fully_qualified_name().lstrip("/")
-        told = BenchDiagnostics(
-            name, self._streams, self._gate, lambda: self._client, str(self.values["port"]), self._n_joints
-        )
+        told = BenchDiagnostics(name, self._streams, self._commander, str(self.values["port"]), self._n_joints)
         self.diagnostics.subjects += told.subjects()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(1.0 / self.values["command_rate"], self._tick, clock=steady)
@@ -121,40 +113,35 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
         """Open the port and wait for a bench that fits."""
         client = BenchClient(str(self.values["port"]), int(self.values["baud_rate"]), self._streams.take)
+        self._commander.client = client
         client.start()
         client.wait_for(lambda: client.link.is_open, OPEN_TIME)
         if client.link.is_open:
             client.wait_for(lambda: client.hello is not None, ANSWER_TIME)
-        problem = client.link.problem or self._streams.problem
-        if client.hello is None or problem:
-            client.close()
-            problem = problem or "the port is open, but no bench says who it is"
-            self._streams.forget()
+        self._commander.misfit = self._streams.problem
+        problem = self._commander.line_problem()
+        if problem:
+            self._hang_up()
             self._refuse("configure", problem)
             return FAILED
-        limits, own = client.hello.limits, self._limits
-        self._client = client
+        hello, own = client.hello, self._limits
+        most = min(hello.limits.max_tension, own.max_tension)
         self.get_logger().info(
-            f"{client.hello.firmware} at {self.values['port']}: {len(client.hello.sensors)} sensors at "
-            f"{client.hello.sample_rate:g} Hz, {client.hello.n_cables} cables, up to "
-            f"{min(limits.max_tension, own.max_tension):g} N"
+            f"{hello.firmware} at {self.values['port']}: {len(hello.sensors)} sensors at {hello.sample_rate:g} Hz, "
+            f"{hello.n_cables} cables, up to {most:g} N"
         )
         return DONE
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
         """Become the bench's commander, with slack cables."""
-        problem = self._why_not_active() or self._claimed()
+        problem = self._commander.begin()
         if problem:
             self._refuse("activate", problem)
-            return FAILED
-        self._gate.open()
-        return DONE
+        return FAILED if problem else DONE
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
         """Let the cables go."""
-        self._gate.shut()
-        if self._client is not None and self._client.commands:
-            self._client.release(ANSWER_TIME)
+        self._commander.end()
         return DONE
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
@@ -183,28 +170,11 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     def _refuse(self, transition: str, problem: str) -> None:
         self.diagnostics.warnings.note(f"cannot {transition}", problem)
 
-    def _why_not_active(self) -> str:
-        """What keeps tension from going through; empty if nothing does."""
-        client = self._client
-        if client is None or not client.link.is_open:
-            return "the link is lost" if client is None else f"the link is lost: {client.link.problem}"
-        if client.hello is None or self._streams.problem:
-            return self._streams.problem or "the bench has begun anew"
-        if client.silent_for(time.monotonic()) > SILENT:
-            return "the bench is silent"
-        return "stopped, until ~/reset_stop" if self._gate.stopped else ""
-
-    def _claimed(self) -> str:
-        """Claim the bench; why it did not work."""
-        limits = self._client.hello.limits
-        result = self._client.claim(limits.slack_time + ANSWER_TIME)
-        return "" if result is Result.DONE else _refusal(result)
-
     def _hang_up(self) -> None:
-        client, self._client = self._client, None
+        client, self._commander.client = self._commander.client, None
         if client is not None:
             client.close()
-            self._streams.forget()
+        self._streams.forget()
 
     def _autostart(self, now: float) -> None:
         """Go on towards where the node is to be by itself, until it is there once."""
@@ -224,33 +194,21 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         """Keep the line up, look after safety, and send what is let through."""
         now = time.monotonic()
         self._autostart(now)
-        client = self._client
-        if client is None:
-            return
-        client.ask_who(now)
-        self._look_at_stop(client)
+        commander = self._commander
+        commander.misfit = self._streams.problem
+        if commander.keep_up(now):
+            self.diagnostics.warnings.note("stopped", "by the bench; until ~/reset_stop")
         if not self._is_active:
             return
-        problem = self._why_not_active() or ("" if client.commands else "this node is no longer the bench's commander")
+        problem = commander.problem()
         if problem:
             self.diagnostics.warnings.note("fell back to inactive, cables slack", problem)
             self.trigger_deactivate()
             return
-        before = self._gate.abandoned
-        set_point = self._gate.move_on(now)
-        if self._gate.abandoned and not before:
+        before = commander.gate.abandoned
+        commander.send(now)
+        if commander.gate.abandoned and not before:
             tension_limits.tell_abandoned(self.diagnostics, self._limits)
-        client.set_tension(set_point.tolist(), self._gate.decided)
-
-    def _look_at_stop(self, client: BenchClient) -> None:
-        """A stop holds at both ends, wherever it began."""
-        status = client.conversation.status
-        stopped_there = status is not None and status.state is GuardState.STOPPED
-        if self._gate.stopped and not stopped_there:
-            client.stop()
-        elif stopped_there and not self._gate.stopped:
-            self._gate.stop()
-            self.diagnostics.warnings.note("stopped", "by the bench; until ~/reset_stop")
 
     def _on_command(self, message: CableStates) -> None:
         speakers = self.count_publishers(COMMANDS)
@@ -259,7 +217,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         now = self.get_clock().now().nanoseconds
         wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
         age = max(0, now - nanoseconds(message.header.stamp)) / NANOSECONDS
-        if not self._gate.command(wanted, time.monotonic() - age):
+        if not self._commander.gate.command(wanted, time.monotonic() - age):
             raise MessageFault("not active", "a tension command; the node has to be activated first")
         tension_limits.tell_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
 
@@ -273,46 +231,31 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             response.message = str(error)
         return response
 
-    def _calibrate(self, step: Callable[[SensorWatch], None], what: str) -> str:
+    def _calibrate(self, step: Callable[[SensorWatch], None]) -> str:
         watch = self._streams.watch
-        if self._client is None or watch is None:
-            raise InvalidValueError("state of the node", "no bench", "configured, with a bench that fits")
+        if watch is None:
+            raise InvalidValueError("bench", self._commander.line_problem() or "unknown", "one that fits, configured")
         step(watch)
         self._streams.steps = watch.steps
-        calibration = watch.steps.complete()
+        calibration, file = watch.steps.complete(), self.values["calibration"]
         if calibration is None:
-            return f"{what} is known; still to find: {', '.join(watch.steps.missing)}"
-        if not self.values["calibration"]:
-            return f"{what} is known; nothing is missing. It is not kept: there is no parameter calibration"
-        save_calibration(calibration, self.values["calibration"])
-        return f"{what} is known; nothing is missing. Written to {self.values['calibration']}"
+            return f"found; still to find: {', '.join(watch.steps.missing)}"
+        if not file:
+            return "found; the calibration is complete, and not kept: the parameter calibration is empty"
+        save_calibration(calibration, file)
+        return f"found; the calibration is complete, and written to {file}"
 
     def _stop(self) -> str:
-        self._gate.stop()
-        if self._client is not None:
-            self._client.stop()
+        self._commander.stop()
         return "stopped, until ~/reset_stop; then the node has to be activated again"
 
     def _reset_stop(self) -> str:
-        client = self._client
-        if client is None or client.hello is None:
-            raise InvalidValueError("link", "lost", "a link to the bench, whose own stop is to be reset too")
-        problem = self._claimed()
-        if not problem:
-            result = client.reset_stop(ANSWER_TIME)
-            client.wait_for(lambda: client.conversation.status.state is not GuardState.STOPPED, ANSWER_TIME)
-            client.release(ANSWER_TIME)
-            problem = "" if result is Result.DONE else _refusal(result)
+        problem = self._commander.reset_stop()
         if problem:
-            raise InvalidValueError("reset of the stop", problem, "an answer of the bench that it is done")
-        self._gate.reset()
+            raise InvalidValueError("reset of the stop", problem, "only with a bench that carries it out")
         return "the stop is over; tension goes through after the node is activated"
 
     def close(self) -> None:
         """Let the cables go and close the port before the node ends."""
         self.on_shutdown(LifecycleState(*reversed(self._state_machine.current_state)))
         super().close()
-
-
-def _refusal(result: Result | None) -> str:
-    return "the bench does not answer" if result is None else f"the bench answers: {result.name.lower()}"

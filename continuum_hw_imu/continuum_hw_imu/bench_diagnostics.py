@@ -8,16 +8,12 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
+from continuum_hw_imu.bench_commander import STOPPED, BenchCommander
 from continuum_hw_imu.bench_streams import BenchStreams
-from continuum_hw_imu.link.bench_client import BenchClient
 from continuum_hw_imu.protocol.messages import FaultCode, GuardState, Status
 from continuum_hw_imu.recent import RateMeter, Recent
-from continuum_hw_imu.tension_gate import TensionGate
 
 OK, WARN, ERROR, STALE = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR, DiagnosticStatus.STALE
-
-SILENT = 0.5
-"""Time without a frame from which a bench is silent [s]."""
 
 LATE = 0.05
 """Age of a sample on its arrival from which it is late [s]."""
@@ -43,21 +39,20 @@ class BenchDiagnostics:
     Args:
         prefix: name of the node.
         streams: what is published.
-        gate: of tension.
-        client: gives the client while the node is configured.
+        commander: of the bench; without a client while the node is not configured.
         port: name of the port.
+        n_sensors: number of sensors.
     """
 
     def __init__(
         self,
         prefix: str,
         streams: BenchStreams,
-        gate: TensionGate,
-        client: Callable[[], BenchClient | None],
+        commander: BenchCommander,
         port: str,
         n_sensors: int,
     ) -> None:
-        self._prefix, self._streams, self._gate, self._client, self._port = prefix, streams, gate, client, port
+        self._prefix, self._streams, self._commander, self._port = prefix, streams, commander, port
         self._recent = Recent()
         self._frames, self._samples = RateMeter(), [RateMeter() for _ in range(n_sensors)]
 
@@ -67,7 +62,7 @@ class BenchDiagnostics:
         return [self._link, self._clock, *sensors, self._angles, self._tension]
 
     def _link(self) -> DiagnosticStatus:
-        client = self._client()
+        client = self._commander.client
         if client is None:
             return self._status("link", [(STALE, NOT_CONFIGURED)], {"port": self._port})
         latency, now = self._streams.latency, time.monotonic()
@@ -82,7 +77,8 @@ class BenchDiagnostics:
         if client.conversation.status is not None:
             counts["frames that the bench found damaged"] = client.conversation.status.refused
         slow = latency.quantile(0.99)
-        complaints = [self._line_problem(client, now), *self._grown("link", counts)]
+        problem = self._commander.line_problem()
+        complaints = [*([(ERROR, problem)] if problem else []), *self._grown("link", counts)]
         if slow > SLOW:
             complaints.append((WARN, f"frames take {1e3 * slow:.1f} ms through this process"))
         values = {
@@ -101,20 +97,8 @@ class BenchDiagnostics:
         }
         return self._status("link", complaints, values, "streaming")
 
-    def _line_problem(self, client: BenchClient, now: float) -> Complaint | None:
-        if not client.link.is_open:
-            return ERROR, client.link.problem
-        if client.decoder.other_version is not None and client.hello is None:
-            return ERROR, f"the bench speaks version {client.decoder.other_version} of the protocol"
-        if client.hello is None:
-            return ERROR, "the port is open, but no bench says who it is"
-        if self._streams.problem:
-            return ERROR, self._streams.problem
-        silence = client.silent_for(now)
-        return (ERROR, f"silent for {silence:.1f} s") if silence > SILENT else None
-
     def _clock(self) -> DiagnosticStatus:
-        client = self._client()
+        client = self._commander.client
         if client is None or not client.clock.known:
             return self._status("clock", [(STALE, NOT_CONFIGURED if client is None else "nothing heard yet")], {})
         clock, age = client.clock, self._streams.age
@@ -131,7 +115,7 @@ class BenchDiagnostics:
         return self._status("clock", complaints, values, "device time is known")
 
     def _sensor(self, k: int) -> DiagnosticStatus:
-        subject, client, watch = f"imu {k + 1}", self._client(), self._streams.watch
+        subject, client, watch = f"imu {k + 1}", self._commander.client, self._streams.watch
         if client is None or watch is None or client.hello is None:
             return self._status(subject, [(STALE, NOT_CONFIGURED if client is None else "no bench")], {})
         missing, clipped = int(watch.missing[k]), int(watch.clipped[k])
@@ -158,8 +142,10 @@ class BenchDiagnostics:
 
     def _angles(self) -> DiagnosticStatus:
         streams, watch = self._streams, self._streams.watch
-        if self._client() is None or watch is None:
-            return self._status("angles", [(STALE, NOT_CONFIGURED if self._client() is None else "no bench")], {})
+        if self._commander.client is None or watch is None:
+            return self._status(
+                "angles", [(STALE, NOT_CONFIGURED if self._commander.client is None else "no bench")], {}
+            )
         estimate, complaints = watch.estimate, list(self._grown("angles", {"samples withheld": streams.withheld}))
         if watch.steps.missing:
             complaints.append((ERROR, f"not calibrated: no {', no '.join(watch.steps.missing)}"))
@@ -175,19 +161,19 @@ class BenchDiagnostics:
         return self._status("angles", complaints, values, "joint angles are known")
 
     def _tension(self) -> DiagnosticStatus:
-        client = self._client()
+        client = self._commander.client
         if client is None or client.conversation.status is None:
             why = NOT_CONFIGURED if client is None else "no status of the bench"
-            stop = [(ERROR, "stopped, until ~/reset_stop")] if self._gate.stopped else []
+            stop = [(ERROR, STOPPED)] if self._commander.gate.stopped else []
             return self._status("tension", [*stop, (STALE, why)], {})
         status = client.conversation.status
         complaints = list(_faults(status))
-        if self._gate.stopped or status.state is GuardState.STOPPED:
-            complaints.insert(0, (ERROR, "stopped, until ~/reset_stop"))
+        if self._commander.gate.stopped or status.state is GuardState.STOPPED:
+            complaints.insert(0, (ERROR, STOPPED))
         refused = {f"answers: {result.name.lower()}": n for result, n in client.results.counts.items() if result.value}
         complaints += self._grown("tension", refused)
         values: dict[str, object] = {
-            "node": "lets commands through" if self._gate.is_open else "lets nothing through",
+            "node": "lets commands through" if self._commander.gate.is_open else "lets nothing through",
             "bench": status.state.name.lower(),
             "let go the last time by": status.cause.name.lower(),
             "commander": "this node" if client.commands else "another" if status.claimed else "nobody",
@@ -207,10 +193,10 @@ class BenchDiagnostics:
                 yield WARN, f"{count} {cause}"
 
     def _status(
-        self, subject: str, complaints: Iterable[Complaint | None], values: dict[str, object], well: str = ""
+        self, subject: str, complaints: Iterable[Complaint], values: dict[str, object], well: str = ""
     ) -> DiagnosticStatus:
         """The worst of the complaints gives the level, and stands first."""
-        told = sorted(filter(None, complaints), key=lambda complaint: -_WEIGHT.index(complaint[0]))
+        told = sorted(complaints, key=lambda complaint: -_WEIGHT.index(complaint[0]))
         return DiagnosticStatus(
             level=told[0][0] if told else OK,
             name=f"{self._prefix}: {subject}",
