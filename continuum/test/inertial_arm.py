@@ -63,7 +63,7 @@ class SensorModel:
         mounting: standard deviation of the plates' angles from the nominal [rad]; with random turns, every sensor is
             besides mounted in any of the ways in which it can be turned.
         bias: of the gyroscopes [rad/s].
-        rate_noise, force_noise: standard deviations of readings at 120 Hz [rad/s, m/s2]; they grow with the rate's root.
+        rate_noise, force_noise: of readings at 120 Hz [rad/s, m/s2], standard deviation; grow with the rate's root.
         force_bias: of the accelerometers, after the vendor's calibration [m/s2].
         rate_scale: standard deviation of the gyroscopes' scale from 1.
         rate_limit: at which they clip [rad/s].
@@ -99,10 +99,8 @@ def sensed(motion: Motion, rate: float, sensors: SensorModel, seed: int) -> tupl
     force = _specific_force(motion.times, alpha, speed)
     per = round(FINE / rate)
     ends = np.arange(per, motion.times.size, per)
-    if sensors.means:
-        spin = np.diff(alpha[::per], axis=0)[: ends.size] * rate
-    else:
-        spin = speed[ends]
+    means = np.diff(alpha[::per], axis=0)[: ends.size] * rate
+    spin = means if sensors.means else speed[ends]
     force = np.stack([force[end - per : end + 1].mean(axis=0) for end in ends])
     rates, forces = np.zeros((2, ends.size, N, 3))
     axes = np.zeros((N, 3))
