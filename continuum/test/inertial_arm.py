@@ -5,6 +5,7 @@ It hangs; x is towards cable 1, z down along the straight arm, so that positive 
 
 from dataclasses import dataclass, replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
@@ -141,3 +142,22 @@ def with_losses(recording: ImuRecording, lost: Array) -> ImuRecording:
             recording.valid[keep],
         )  # fmt: skip
     return replace(recording, valid=recording.valid & ~lost)
+
+
+TAGS = tuple(f"link {i + 1}" for i in range(N))
+
+
+def write_exports(folder: Path, recording: ImuRecording, first_tick: int = 1_000_000) -> list[Path]:
+    """Files as the vendor's app exports them, one for each sensor; readings that are not valid are not in them."""
+    paths = []
+    for i, tag in enumerate(TAGS[: recording.n_sensors]):
+        head = ["sep=,", f"DeviceTag:,{tag}", "FirmwareVersion:,2.0.0", "AppVersion:,2021.0", "© X 2005-2021", ""]
+        lines = ["PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z,Status"]
+        ticks = np.round((recording.times - recording.times[0]) * 1e6).astype(int) + first_tick
+        for k in np.flatnonzero(recording.valid[:, i]):
+            numbers = [*recording.forces[k, i], *np.degrees(recording.rates[k, i])]
+            status = 0x0008 if recording.clipped[k, i] else 0x0200
+            lines.append(",".join([str(k), str(ticks[k] % 2**32), *(f"{x:.14f}" for x in numbers), str(status)]))
+        paths.append(folder / f"{tag.replace(' ', '_')}.csv")
+        paths[-1].write_text("\n".join([*head, *lines]) + "\n", encoding="utf-8")
+    return paths

@@ -29,8 +29,7 @@ def on_one_clock(exports: Sequence[DotExport]) -> list[Stream]:
     if late > _FARTHEST:
         names = exports[int(np.argmin(starts))].name, exports[int(np.argmax(starts))].name
         raise MeasurementError(
-            f"{names[1]} begins {late:.0f} s after {names[0]} by the sensors' clocks: they were not synchronised, or are "
-            "of different tests"
+            f"{names[1]} begins {late:.0f} s after {names[0]} by the sensors' clocks: not synchronised, or another test"
         )
     return [
         Stream(

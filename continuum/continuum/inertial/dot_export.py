@@ -140,7 +140,7 @@ def _export(path: Path, tag: str, columns: dict[str, Array], numbers: NDArray[np
         clipped |= columns.get(name, np.zeros(ticks.size)) > 0
     empty, again = ~readings.any(axis=1), np.diff(ticks, prepend=-1) == 0
     notes = [
-        f"{np.count_nonzero(rows)} row{'s' * (np.count_nonzero(rows) > 1)} {why}, left out (first: row {numbers[rows][0]})"
+        f"{np.count_nonzero(rows)} rows {why}, left out (first: row {numbers[rows][0]})"
         for rows, why in ((empty, "of nothing but zeros"), (again & ~empty, "with the time of the row before"))
         if rows.any()
     ]
@@ -160,4 +160,4 @@ def _unwrapped(path: Path, wrapped: NDArray[np.int64], numbers: NDArray[np.int64
         raise FileError(
             path, f"row {numbers[at + 1]}: time jumps by {steps[at] / 1e6:g} s; are these two recordings in one file?"
         )
-    return wrapped[0] + np.concatenate([[0], np.cumsum(steps)])
+    return np.asarray(wrapped[0] + np.concatenate([[0], np.cumsum(steps)]), dtype=np.int64)

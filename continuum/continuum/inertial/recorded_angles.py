@@ -36,7 +36,7 @@ class RecordedAngles:
 def recorded_angles(recording: ImuRecording, calibration: Calibration, settings: EstimatorSettings) -> RecordedAngles:
     """Run through the recording forwards and backwards.
 
-    Backwards nothing but the sign of what gyroscopes read changes, so that rest after a motion counts as much as rest before it.
+    Backwards nothing changes but the sign of what gyroscopes read. So rest after a motion counts as much as before it.
 
     Raises:
         InvalidValueError: rates at instants, or a calibration of another number of sensors.

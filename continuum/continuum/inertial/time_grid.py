@@ -45,8 +45,9 @@ class Stream:
 
     @property
     def period(self) -> float:
-        """Between readings [s]."""
-        return float(np.median(np.diff(self.times)))
+        """Between readings, as exact as the whole stream tells it [s]."""
+        lasts = self.times[-1] - self.times[0]
+        return float(lasts / round(lasts / np.median(np.diff(self.times))))
 
 
 def on_one_grid(streams: Sequence[Stream]) -> ImuRecording:
