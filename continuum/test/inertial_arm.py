@@ -5,6 +5,7 @@ It hangs; x is towards cable 1, z down along the straight arm, so that positive 
 
 from dataclasses import dataclass, replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
@@ -63,7 +64,7 @@ class SensorModel:
         mounting: standard deviation of the plates' angles from the nominal [rad]; with random turns, every sensor is
             besides mounted in any of the ways in which it can be turned.
         bias: of the gyroscopes [rad/s].
-        rate_noise, force_noise: standard deviations of readings at 120 Hz [rad/s, m/s2]; they grow with the rate's root.
+        rate_noise, force_noise: of readings at 120 Hz [rad/s, m/s2], standard deviation; grow with the rate's root.
         force_bias: of the accelerometers, after the vendor's calibration [m/s2].
         rate_scale: standard deviation of the gyroscopes' scale from 1.
         rate_limit: at which they clip [rad/s].
@@ -99,10 +100,8 @@ def sensed(motion: Motion, rate: float, sensors: SensorModel, seed: int) -> tupl
     force = _specific_force(motion.times, alpha, speed)
     per = round(FINE / rate)
     ends = np.arange(per, motion.times.size, per)
-    if sensors.means:
-        spin = np.diff(alpha[::per], axis=0)[: ends.size] * rate
-    else:
-        spin = speed[ends]
+    means = np.diff(alpha[::per], axis=0)[: ends.size] * rate
+    spin = means if sensors.means else speed[ends]
     force = np.stack([force[end - per : end + 1].mean(axis=0) for end in ends])
     rates, forces = np.zeros((2, ends.size, N, 3))
     axes = np.zeros((N, 3))
@@ -143,3 +142,22 @@ def with_losses(recording: ImuRecording, lost: Array) -> ImuRecording:
             recording.valid[keep],
         )  # fmt: skip
     return replace(recording, valid=recording.valid & ~lost)
+
+
+TAGS = tuple(f"link {i + 1}" for i in range(N))
+
+
+def write_exports(folder: Path, recording: ImuRecording, first_tick: int = 1_000_000) -> list[Path]:
+    """Files as the vendor's app exports them, one for each sensor; readings that are not valid are not in them."""
+    paths = []
+    for i, tag in enumerate(TAGS[: recording.n_sensors]):
+        head = ["sep=,", f"DeviceTag:,{tag}", "FirmwareVersion:,2.0.0", "AppVersion:,2021.0", "© X 2005-2021", ""]
+        lines = ["PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z,Status"]
+        ticks = np.round((recording.times - recording.times[0]) * 1e6).astype(int) + first_tick
+        for k in np.flatnonzero(recording.valid[:, i]):
+            numbers = [*recording.forces[k, i], *np.degrees(recording.rates[k, i])]
+            status = 0x0008 if recording.clipped[k, i] else 0x0200
+            lines.append(",".join([str(k), str(ticks[k] % 2**32), *(f"{x:.14f}" for x in numbers), str(status)]))
+        paths.append(folder / f"{tag.replace(' ', '_')}.csv")
+        paths[-1].write_text("\n".join([*head, *lines]) + "\n", encoding="utf-8")
+    return paths

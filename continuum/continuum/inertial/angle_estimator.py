@@ -170,6 +170,8 @@ class AngleEstimator:
     def _why_not(self, sensor: int, heard: bool) -> str:
         if not heard:
             return f"sensor {sensor + 1} is missing"
+        if self._clipped[sensor]:
+            return f"sensor {sensor + 1} is clipped"
         if self._lost[sensor]:
             missed = self._state.error[sensor] < np.pi
             return f"sensor {sensor + 1} {'missed too much and ' if missed else ''}waits for rest"

@@ -12,7 +12,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -68,18 +68,6 @@ class Calibration:
     def gravity(self) -> Array:
         """What each accelerometer reads at rest, (n,) [m/s2]."""
         return np.asarray(np.linalg.norm(self.zero, axis=1))
-
-    def with_bias(self, bias: Array, source: str) -> Calibration:
-        """Another bias (n, 3) [rad/s], found from ``source``."""
-        return replace(self, bias=bias, sources=(source,) * self.n_sensors)
-
-    def with_zero(self, zero: Array, source: str) -> Calibration:
-        """Another zero (n, 3) [m/s2], found from ``source``."""
-        return replace(self, zero=zero, sources=(source,) * self.n_sensors)
-
-    def with_axis(self, axis: Array, source: str) -> Calibration:
-        """Other axes (n, 3), found from ``source``."""
-        return replace(self, axis=axis, sources=(source,) * self.n_sensors)
 
 
 def _check_one(sensor: str, bias: Array, axis: Array, zero: Array) -> None:
