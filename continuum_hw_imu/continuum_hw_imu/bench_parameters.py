@@ -6,8 +6,8 @@ from pathlib import Path
 
 from continuum.errors import InvalidValueError
 from continuum.inertial.calibration import load_calibration
+from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum.parameter_spec import ParameterSpec
-from continuum_hw_imu.calibration_steps import CalibrationSteps
 from continuum_hw_imu.emulator.sensor_model import SensorQuality
 from continuum_manipulator.nodekit import tension_limits
 

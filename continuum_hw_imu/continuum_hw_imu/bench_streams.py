@@ -10,9 +10,9 @@ from builtin_interfaces.msg import Time as TimeMessage
 from rclpy.clock import Clock
 from rclpy.time import Time
 
+from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum.inertial.imu_sample import ImuSample
 from continuum_hw_imu.bench_fit import misfit
-from continuum_hw_imu.calibration_steps import CalibrationSteps
 from continuum_hw_imu.imu_messages import ImuMessages
 from continuum_hw_imu.latency_meter import LatencyMeter
 from continuum_hw_imu.link.heard import Heard

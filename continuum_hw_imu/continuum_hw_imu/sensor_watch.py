@@ -10,10 +10,10 @@ import numpy as np
 
 from continuum.errors import MeasurementError
 from continuum.inertial.angle_estimator import AngleEstimate, AngleEstimator
+from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.imu_sample import ImuSample
-from continuum_hw_imu.calibration_steps import CalibrationSteps
 from continuum_hw_imu.link.heard import Heard
 from continuum_hw_imu.protocol.messages import Hello, ImuFrame
 
