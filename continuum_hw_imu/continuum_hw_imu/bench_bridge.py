@@ -8,8 +8,10 @@ from functools import partial
 from pathlib import Path
 
 from lifecycle_msgs.msg import State
+from lifecycle_msgs.srv import ChangeState
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.lifecycle.node import LifecycleNodeMixin
 from sensor_msgs.msg import Imu, JointState
@@ -20,7 +22,7 @@ from continuum.errors import ContinuumError, InvalidValueError
 from continuum.inertial.calibration import save_calibration
 from continuum_hw_imu.bench_commander import ANSWER_TIME, BenchCommander
 from continuum_hw_imu.bench_diagnostics import BenchDiagnostics
-from continuum_hw_imu.bench_parameters import PARAMETERS, steps_from
+from continuum_hw_imu.bench_parameters import AUTOSTARTS, PARAMETERS, steps_from
 from continuum_hw_imu.bench_streams import BenchStreams
 from continuum_hw_imu.emulator.sensor_model import SensorQuality
 from continuum_hw_imu.imu_messages import ImuMessages
@@ -35,6 +37,8 @@ from continuum_manipulator.nodekit.tension_commands import read_tensions
 from continuum_msgs.msg import CableStates
 
 COMMANDS = "cable_tension_cmd"
+
+RCLError = rclpy_implementation.RCLError
 
 OPEN_TIME = 0.3
 """Within which a port that is there opens [s]."""
@@ -70,10 +74,11 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._n_joints = model.n_joints
         self._steps = steps_from(self.values["calibration"], model.n_joints)
         LifecycleNodeMixin.__init__(self)
+        self._refuse_what_is_none()
         self._limits = tension_limits.limits_from(self.values)
         self._commander = BenchCommander(self._limits, len(self._planar.cables))
         self._streams = self._offered_streams(section)
-        self._starts_by_itself = self.values["autostart"] != "none"
+        self._to_come = self.values["autostart"] != AUTOSTARTS[0]
         self._autostart_at = 0.0
         self.listen(CableStates, COMMANDS, self._on_command)
         rest_time = self.values["rest_time"]
@@ -130,14 +135,15 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             f"{hello.firmware} at {self.values['port']}: {len(hello.sensors)} sensors at {hello.sample_rate:g} Hz, "
             f"{hello.n_cables} cables, up to {most:g} N"
         )
-        return DONE
+        return self._reached("configure")
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
         """Become the bench's commander, with slack cables."""
         problem = self._commander.begin()
         if problem:
             self._refuse("activate", problem)
-        return FAILED if problem else DONE
+            return FAILED
+        return self._reached("activate")
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
         """Let the cables go."""
@@ -160,12 +166,23 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return self.on_shutdown(state)
 
     @property
-    def _is_active(self) -> bool:
-        return bool(self._state_machine.current_state[0] == State.PRIMARY_STATE_ACTIVE)
+    def _state(self) -> int:
+        """Of the life cycle, one of `lifecycle_msgs/State`."""
+        return int(self._state_machine.current_state[0])
 
-    @property
-    def _is_configured(self) -> bool:
-        return bool(self._state_machine.current_state[0] == State.PRIMARY_STATE_INACTIVE)
+    def _refuse_what_is_none(self) -> None:
+        """Let a transition that the state does not have be answered with no; rclpy would end the node."""
+        change = self._service_change_state.callback
+
+        def change_if_possible(request: ChangeState.Request, response: ChangeState.Response) -> ChangeState.Response:
+            try:
+                return change(request, response)
+            except RCLError:
+                response.success = False
+                self._refuse("change its state", f"no transition {request.transition.id} in state {self._state}")
+                return response
+
+        self._service_change_state.callback = change_if_possible
 
     def _refuse(self, transition: str, problem: str) -> None:
         self.diagnostics.warnings.note(f"cannot {transition}", problem)
@@ -177,16 +194,20 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._streams.forget()
 
     def _autostart(self, now: float) -> None:
-        """Go on towards where the node is to be by itself, until it is there once."""
-        if not self._starts_by_itself or now < self._autostart_at:
+        """Go on towards where the node is to be by itself, until it was there once: it never pulls again by itself."""
+        if not self._to_come or now < self._autostart_at:
             return
         self._autostart_at = now + AUTOSTART_PERIOD
-        if self._is_active or (self._is_configured and self.values["autostart"] == "configure"):
-            self._starts_by_itself = False
-        elif self._is_configured:
-            self.trigger_activate()
-        else:
+        if self._state == State.PRIMARY_STATE_UNCONFIGURED:
             self.trigger_configure()
+        elif self._state == State.PRIMARY_STATE_INACTIVE:
+            self.trigger_activate()
+
+    def _reached(self, where: str) -> TransitionCallbackReturn:
+        """The node is where a transition leads."""
+        if AUTOSTARTS.index(where) >= AUTOSTARTS.index(self.values["autostart"]):
+            self._to_come = False
+        return DONE
 
     # --- tension
 
@@ -198,7 +219,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         commander.misfit = self._streams.problem
         if commander.keep_up(now):
             self.diagnostics.warnings.note("stopped", "by the bench; until ~/reset_stop")
-        if not self._is_active:
+        if self._state != State.PRIMARY_STATE_ACTIVE:
             return
         problem = commander.problem()
         if problem:

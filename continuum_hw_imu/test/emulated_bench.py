@@ -13,6 +13,7 @@ from lifecycle_msgs.srv import ChangeState, GetState
 from sensor_msgs.msg import Imu, JointState
 from std_srvs.srv import Trigger
 
+from continuum_manipulator.nodekit.qos import STREAM
 from continuum_manipulator.nodekit.stamps import NANOSECONDS
 from continuum_msgs.msg import CableStates
 
@@ -61,20 +62,34 @@ class EmulatedBench:
         self.process.close()
 
 
-class Bridge:
-    """The node at an emulated bench, and a probe on its topics and services."""
+class Ears:
+    """A probe on the topics of bridges that come one after the other, and the one that commands them."""
 
-    def __init__(
-        self, probe: Probe, bench: EmulatedBench, domain: int, name: str = "bench_bridge", **parameters
-    ) -> None:
-        self.probe, self.bench, self.name = probe, bench, name
-        parameters = {"port": bench.port, "rest_time": 1.5, **parameters}
-        self.node = NodeProcess("continuum_hw_imu", "bench_bridge", domain, name=name, parameters=parameters)
+    def __init__(self, probe: Probe) -> None:
+        self.probe = probe
         self.joints = probe.hear(JointState, "joint_states")
         self.cables = probe.hear(CableStates, "cable_states")
         self.imus = [probe.hear(Imu, f"imu_{k}/data_raw") for k in range(1, N_SENSORS + 1)]
+        self.say = probe.node.create_publisher(CableStates, "cable_tension_cmd", STREAM).publish
+        self.bridges = 0
+
+    def clear(self) -> None:
+        for heard in (self.joints, self.cables, *self.imus):
+            heard.clear()
+
+
+class Bridge:
+    """The node at an emulated bench. Each has a name of its own, lest one that was killed be asked in its place."""
+
+    def __init__(self, ears: Ears, bench: EmulatedBench, domain: int, **parameters) -> None:
+        ears.bridges += 1
+        ears.clear()
+        self.probe, self.bench, self.name = ears.probe, bench, f"bench_bridge_{ears.bridges}"
+        self.joints, self.cables, self.imus, self._say = ears.joints, ears.cables, ears.imus, ears.say
+        parameters = {"port": bench.port, "rest_time": 1.5, **parameters}
+        self.node = NodeProcess("continuum_hw_imu", "bench_bridge", domain, name=self.name, parameters=parameters)
         self._clients = {
-            name: probe.node.create_client(kind, f"{self.name}/{name}")
+            name: ears.probe.node.create_client(kind, f"{self.name}/{name}")
             for kind, names in {
                 Trigger: ("zero", "calibrate_bias", "find_axes", "stop", "reset_stop"),
                 ChangeState: ("change_state",),
@@ -82,7 +97,6 @@ class Bridge:
             }.items()
             for name in names
         }
-        self._speaker = None
 
     def call(self, name: str, request=None):
         client = self._clients[name]
@@ -112,12 +126,10 @@ class Bridge:
         )
 
     def command(self, effort, age: float = 0.0) -> None:
-        if self._speaker is None:
-            self._speaker = self.probe.speaker(CableStates, "cable_tension_cmd")
         now = self.probe.node.get_clock().now().nanoseconds - round(age * NANOSECONDS)
         message = CableStates(name=CABLES, effort=effort)
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(now, NANOSECONDS)
-        self._speaker.publish(message)
+        self._say(message)
 
     def pull(self, effort, until) -> None:
         """Command tensions, with every cable state that comes, until ``until()``."""
@@ -167,7 +179,7 @@ def emulated_bench(domain: int, folder: Path, *options: str):
 
 
 @contextmanager
-def bridge_at(probe: Probe, bench: EmulatedBench, domain: int, **parameters):
-    bridge = Bridge(probe, bench, domain, **parameters)
+def bridge_at(ears: Ears, bench: EmulatedBench, domain: int, **parameters):
+    bridge = Bridge(ears, bench, domain, **parameters)
     with ended_in_any_case(bridge.node):
         yield bridge

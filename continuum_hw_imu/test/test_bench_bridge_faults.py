@@ -4,7 +4,7 @@ import signal
 
 import numpy as np
 import pytest
-from emulated_bench import Bridge, bridge_at, emulated_bench
+from emulated_bench import Bridge, Ears, bridge_at, emulated_bench
 from harness import Probe
 from test_bench_bridge_node import angles_beside_truth
 
@@ -27,16 +27,21 @@ def probe(domain):
 
 
 @pytest.fixture(scope="module")
+def ears(probe):
+    return Ears(probe)
+
+
+@pytest.fixture(scope="module")
 def bench(domain, tmp_path_factory):
     with emulated_bench(domain, tmp_path_factory.mktemp("bench")) as bench:
         yield bench
 
 
 @pytest.fixture(scope="module")
-def calibration(domain, probe, bench):
+def calibration(domain, ears, bench):
     """File of the emulated sensors' calibration."""
     file = bench.port.with_name("calibration.yaml")
-    with bridge_at(probe, bench, domain, calibration=file) as bridge:
+    with bridge_at(ears, bench, domain, calibration=file) as bridge:
         bridge.wait_for_state("inactive")
         bridge.calibrate()
         assert bridge.node.stop() == 0
@@ -44,10 +49,10 @@ def calibration(domain, probe, bench):
 
 
 @pytest.fixture
-def pulling(domain, probe, bench, calibration):
+def pulling(domain, ears, probe, bench, calibration):
     """A calibrated bridge, active, that pulls one cable by 8 N."""
     probe.wait_until(lambda: not bench.status["open"], "the port is free")
-    with bridge_at(probe, bench, domain, calibration=calibration, autostart="activate") as bridge:
+    with bridge_at(ears, bench, domain, calibration=calibration, autostart="activate") as bridge:
         bridge.wait_for_state("active")
         probe.wait_until(lambda: len(bridge.joints) > 5, lambda: f"joint states; {bridge.told('angles')}")
         pull(bridge)
@@ -178,12 +183,12 @@ def test_clipped_rates_make_no_wrong_angles(pulling):
     assert_no_wrong_angle(pulling, pulling.joints)
 
 
-def test_a_stop_at_the_bench_stops_the_node(pulling, domain, probe):
+def test_a_stop_at_the_bench_stops_the_node(pulling, domain, ears):
     """Seen as the node's own: it is latched, and reset by its service."""
     assert pulling.call("stop").success
     pulling.wait_for_state("inactive")
     pulling.node.close()
-    with bridge_at(probe, pulling.bench, domain, name="next") as after:
+    with bridge_at(ears, pulling.bench, domain) as after:
         after.node.wait_for_line("stopped: by the bench")
         assert not after.change("activate")
         assert after.call("reset_stop").success

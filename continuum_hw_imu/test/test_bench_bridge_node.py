@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from emulated_bench import CABLES, N_SENSORS, bridge_at, emulated_bench
+from emulated_bench import CABLES, N_SENSORS, Ears, bridge_at, emulated_bench
 from harness import NodeProcess, Probe, ended_in_any_case
 
 from continuum.dynamics.model_file import load_model
@@ -25,16 +25,21 @@ def probe(domain):
 
 
 @pytest.fixture(scope="module")
+def ears(probe):
+    return Ears(probe)
+
+
+@pytest.fixture(scope="module")
 def bench(domain, tmp_path_factory):
     with emulated_bench(domain, tmp_path_factory.mktemp("bench")) as bench:
         yield bench
 
 
 @pytest.fixture(scope="module")
-def bridge(domain, probe, bench):
+def bridge(domain, ears, probe, bench):
     """Configured by itself, and calibrated."""
     file = bench.port.with_name("calibration.yaml")
-    with bridge_at(probe, bench, domain, calibration=file, **LIMITS) as bridge:
+    with bridge_at(ears, bench, domain, calibration=file, **LIMITS) as bridge:
         bridge.wait_for_state("inactive")
         probe.wait_until(lambda: all(len(imu) > 5 for imu in bridge.imus), "data of all sensors")
         bridge.wait_for_level("angles", "ERROR", "not calibrated: no bias, no axis, no zero")
