@@ -32,6 +32,7 @@ class SensorWatch:
         steps: what is known of the sensors now.
         samples: how many there were.
         missing, clipped: samples in which each sensor was, (n,).
+        heard: sensors that were in the latest sample, (n,).
         estimate: the latest; None before the first, and while the calibration is not complete.
 
     Raises:
@@ -46,6 +47,7 @@ class SensorWatch:
         self._estimator: AngleEstimator | None = None
         self.samples = 0
         self.missing, self.clipped = (np.zeros(len(hello.sensors), dtype=int) for _ in range(2))
+        self.heard = np.zeros(len(hello.sensors), dtype=bool)
         self.estimate: AngleEstimate | None = None
         self.steps = steps
         self._use(steps)
@@ -65,6 +67,7 @@ class SensorWatch:
         with self._mutex:
             self._kept.append(sample)
             self.samples += 1
+            self.heard = sample.valid
             self.missing += ~sample.valid
             self.clipped += sample.clipped & sample.valid
             self.estimate = None if self._estimator is None else self._estimator.update(sample)

@@ -160,7 +160,7 @@ def test_late_frames_have_the_stamps_of_their_measurement(pulling):
 
 
 def test_joint_states_are_withheld_without_a_sensor(pulling):
-    pulling.bench.tell("drop sensor=3 for=2")
+    pulling.bench.tell("drop sensor=3 for=4")
     pulling.wait_for_level("angles", "ERROR", "sensor 3 is missing")
     pulling.joints.clear()
     pulling.imus[2].clear()
@@ -168,7 +168,7 @@ def test_joint_states_are_withheld_without_a_sensor(pulling):
     pulling.probe.wait_until(lambda: len(pulling.imus[0]) > before + 20, "the others' data")
     assert not pulling.imus[2]
     assert not pulling.joints
-    pulling.wait_for_level("imu 3", "ERROR")
+    pulling.wait_for_level("imu 3", "ERROR", "no data")
     pulling.probe.wait_until(lambda: len(pulling.joints) > 20, lambda: pulling.told("angles"))
     assert_no_wrong_angle(pulling, pulling.joints)
 
