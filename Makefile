@@ -5,7 +5,7 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo test reproduction bench-dynamics bench-ik bench-discovery prototype check format lock clean
+.PHONY: help setup demo test reproduction bench-dynamics bench-ik bench-discovery fuzz prototype check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -32,6 +32,11 @@ bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/
 
 bench-discovery: setup ## hide effects and see what is found; ARGS="--minutes 60" stops it; overwrites docs/discovery-benchmark.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_discovery $(ARGS)
+
+fuzz: setup ## damaged and made-up bytes through the bench protocol's parsers (2 minutes); overwrites docs/bench-fuzzing.md
+	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/fuzz/extra \
+	  -r tools/fuzz_bench/requirements.txt || echo "atheris cannot be installed and is left out"
+	@$(IN_WORKSPACE) python3 -m tools.fuzz_bench $(ARGS)
 
 prototype: setup ## diagnose the real arm; overwrites docs/prototype.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.prototype $(ARGS)

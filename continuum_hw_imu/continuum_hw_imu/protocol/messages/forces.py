@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Sequence
 
-from continuum_hw_imu.protocol.messages.base import in_steps
+from continuum_hw_imu.protocol.messages.base import PayloadFault, in_steps
 
 STEP = 0.01
 """[N]"""
@@ -30,8 +30,15 @@ def command_bytes(tensions: Sequence[float]) -> bytes:
 
 
 def commands(data: bytes) -> tuple[float, ...]:
-    """Set points [N] of their bytes."""
-    return tuple(steps / 100 for steps in struct.unpack(f"<{len(data) // 2}H", data))
+    """Set points [N] of their bytes.
+
+    Raises:
+        PayloadFault: one is larger than any that is written.
+    """
+    steps = struct.unpack(f"<{len(data) // 2}H", data)
+    if max(steps) > LARGEST:
+        raise PayloadFault(f"a set point of {max(steps)} steps; allowed: {LARGEST}")
+    return tuple(step / 100 for step in steps)
 
 
 def measured_bytes(tensions: Sequence[float | None]) -> bytes:
