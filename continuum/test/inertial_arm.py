@@ -15,6 +15,10 @@ from continuum.dynamics.pulled_posture import pulled_posture
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
+from continuum.inertial.angle_estimator import AngleEstimate, AngleEstimator
+from continuum.inertial.calibration import Calibration
+from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 
 N = 5
@@ -161,3 +165,30 @@ def write_exports(folder: Path, recording: ImuRecording, first_tick: int = 1_000
         paths.append(folder / f"{tag.replace(' ', '_')}.csv")
         paths[-1].write_text("\n".join([*head, *lines]) + "\n", encoding="utf-8")
     return paths
+
+
+def calibrated(recording: ImuRecording) -> Calibration:
+    """As a person would: bias and zero from the rest at the start, axes from the pull towards cable 1."""
+    rest = recording.part(0.2, REST - 0.5)
+    found = CalibrationSteps().with_bias(rest).with_axis(recording).with_zero(rest).complete()
+    assert found is not None
+    return found
+
+
+def estimated(
+    recording: ImuRecording, calibration: Calibration, settings: EstimatorSettings | None = None
+) -> list[AngleEstimate]:
+    """What the estimator says, sample by sample."""
+    estimator = AngleEstimator(calibration, settings)
+    return [estimator.update(sample) for sample in recording.samples()]
+
+
+def errors(estimates: list[AngleEstimate], motion: Motion) -> Array:
+    """Estimated less true joint angles, NaN where none is given, (n_times, n) [degrees]."""
+    theta, _ = motion.at(np.array([estimate.time for estimate in estimates]))
+    return np.degrees(np.array([estimate.angles for estimate in estimates]) - theta)
+
+
+def rms(values: Array) -> Array:
+    """Of each column, over what is not NaN."""
+    return np.sqrt(np.nanmean(values**2, axis=0))
