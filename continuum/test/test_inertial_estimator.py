@@ -42,7 +42,7 @@ def recording(motion: Motion) -> ImuRecording:
     return sensed(motion, LIVE, SensorModel(), seed=1)[0]
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(3))
 def test_release_within_half_a_degree_and_rest_within_three_tenths(motion: Motion, seed: int) -> None:
     recording, _ = sensed(motion, LIVE, SensorModel(), seed)
     estimates = estimated(recording, calibrated(recording))
@@ -81,17 +81,15 @@ def test_rates_at_instants_have_their_own_integral(motion: Motion) -> None:
 
 def test_a_bias_that_comes_after_the_calibration_is_learned_at_rest(motion: Motion, recording: ImuRecording) -> None:
     found = calibrated(recording)
-    drifted = replace(found, bias=found.bias + 0.05 * DEG)
-    rest = recording.part(0.5, REST - 0.5)
-    estimator = AngleEstimator(drifted)
-    off = []
-    for again in range(30):
-        for sample in rest.samples():
-            later = replace(sample, time=sample.time + again * 6.0)
-            off.append(np.degrees(estimator.update(later).angles))
-    settled = np.array(off[60:])
-    assert np.abs(settled).max() < 0.3
-    assert np.abs(settled[-300:].mean(axis=0)).max() < 0.5 * np.abs(settled[:300].mean(axis=0)).max()
+    signs = np.array([1, -1, 1, -1, 1])[:, None]
+    estimator = AngleEstimator(replace(found, bias=found.bias + 0.05 * DEG * signs * found.axis))
+    rest = list(recording.part(0.5, REST - 0.5).samples())
+    off = [
+        np.degrees(estimator.update(replace(rest[i % len(rest)], time=i / LIVE)).angles) for i in range(120 * int(LIVE))
+    ]
+    seconds = np.array(off[60:]).reshape(-1, 60, N).mean(axis=1)
+    assert np.abs(seconds).max() < 0.15
+    assert np.abs(seconds[-20:]).mean() < 0.5 * np.abs(seconds[5:25]).mean()
 
 
 def test_nothing_is_known_before_the_first_rest(motion: Motion, recording: ImuRecording) -> None:
@@ -134,13 +132,13 @@ KINDS = ("single frames", "bursts", "release unseen", "one sensor at times", "on
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(4))
 def test_no_wrong_angle_is_good(motion: Motion, recording: ImuRecording, kind: str, seed: int) -> None:
     found = calibrated(recording)
-    troubled = losses(kind, recording, ANY([seed, KINDS.index(kind)]))
+    troubled = losses(kind, recording.part(RELEASE - 4, RELEASE + 6), ANY([seed, KINDS.index(kind)]))
     estimates = estimated(troubled, found)
     off = errors(estimates, motion)
-    assert np.nanmax(np.abs(off)) < 1.5
+    assert np.nanmax(np.abs(off)) < 1.0
     assert rms(off).max() < 0.5
     assert np.array_equal(np.isfinite(off), [estimate.good for estimate in estimates])
     assert np.isfinite(off[-60:]).all()  # found again
