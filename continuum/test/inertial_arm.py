@@ -89,8 +89,9 @@ PERFECT = SensorModel(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def rotation(axis: Array, angle: float) -> Array:
-    cross = np.cross(np.eye(3), axis)
-    return np.eye(3) - np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    """R(axis, angle), by Rodrigues' formula."""
+    cross = np.cross(np.eye(3), axis)  # times v: axis x v
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
 
 
 def any_rotation(rng: np.random.Generator) -> Array:
@@ -99,7 +100,7 @@ def any_rotation(rng: np.random.Generator) -> Array:
 
 def sensed(motion: Motion, rate: float, sensors: SensorModel, seed: int) -> tuple[ImuRecording, Array]:
     """Readings at ``rate`` a second, and the axes of the links in the sensors' frames, (n, 3)."""
-    rng = np.random.default_rng(seed)
+    fixed, rng = np.random.default_rng(seed).spawn(2)
     alpha, speed = np.cumsum(motion.theta, axis=1), np.cumsum(motion.rate, axis=1)
     force = _specific_force(motion.times, alpha, speed)
     per = round(FINE / rate)
@@ -111,16 +112,16 @@ def sensed(motion: Motion, rate: float, sensors: SensorModel, seed: int) -> tupl
     axes = np.zeros((N, 3))
     grow = np.sqrt(rate / 120)
     for i in range(N):
-        tilt = rng.normal(size=3)
-        mount = any_rotation(rng) if sensors.mounting else np.eye(3)
+        tilt = fixed.normal(size=3)
+        mount = any_rotation(fixed) if sensors.mounting else np.eye(3)
         mount *= np.sign(np.linalg.det(mount))
-        mount = mount @ rotation(tilt / np.linalg.norm(tilt), rng.normal(scale=sensors.mounting or 1e-12))
+        mount = mount @ rotation(tilt / np.linalg.norm(tilt), fixed.normal(scale=sensors.mounting or 1e-12))
         axes[i] = mount.T @ [0, 1, 0]
-        true_rate = spin[:, i, None] * axes[i] * (1 + rng.normal(scale=sensors.rate_scale))
+        true_rate = spin[:, i, None] * axes[i] * (1 + fixed.normal(scale=sensors.rate_scale))
         noise = rng.normal(scale=sensors.rate_noise * grow, size=true_rate.shape)
-        rates[:, i] = true_rate + rng.normal(scale=sensors.bias, size=3) + noise
+        rates[:, i] = true_rate + fixed.normal(scale=sensors.bias, size=3) + noise
         shaken = rng.normal(scale=sensors.force_noise * grow, size=true_rate.shape)
-        forces[:, i] = force[:, i] @ mount + rng.normal(scale=sensors.force_bias, size=3) + shaken
+        forces[:, i] = force[:, i] @ mount + fixed.normal(scale=sensors.force_bias, size=3) + shaken
     clipped = np.any(np.abs(rates) >= sensors.rate_limit, axis=2)
     rates = np.clip(rates, -sensors.rate_limit, sensors.rate_limit)
     return ImuRecording(motion.times[ends], rates, forces, clipped, np.ones_like(clipped)), axes
