@@ -15,6 +15,10 @@ from continuum.dynamics.pulled_posture import pulled_posture
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
+from continuum.inertial.angle_estimator import AngleEstimate, AngleEstimator
+from continuum.inertial.calibration import Calibration
+from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 
 N = 5
@@ -85,8 +89,9 @@ PERFECT = SensorModel(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def rotation(axis: Array, angle: float) -> Array:
-    cross = np.cross(np.eye(3), axis)
-    return np.eye(3) - np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    """R(axis, angle), by Rodrigues' formula."""
+    cross = np.cross(np.eye(3), axis)  # times v: axis x v
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
 
 
 def any_rotation(rng: np.random.Generator) -> Array:
@@ -95,7 +100,7 @@ def any_rotation(rng: np.random.Generator) -> Array:
 
 def sensed(motion: Motion, rate: float, sensors: SensorModel, seed: int) -> tuple[ImuRecording, Array]:
     """Readings at ``rate`` a second, and the axes of the links in the sensors' frames, (n, 3)."""
-    rng = np.random.default_rng(seed)
+    fixed, rng = np.random.default_rng(seed).spawn(2)
     alpha, speed = np.cumsum(motion.theta, axis=1), np.cumsum(motion.rate, axis=1)
     force = _specific_force(motion.times, alpha, speed)
     per = round(FINE / rate)
@@ -107,16 +112,16 @@ def sensed(motion: Motion, rate: float, sensors: SensorModel, seed: int) -> tupl
     axes = np.zeros((N, 3))
     grow = np.sqrt(rate / 120)
     for i in range(N):
-        tilt = rng.normal(size=3)
-        mount = any_rotation(rng) if sensors.mounting else np.eye(3)
+        tilt = fixed.normal(size=3)
+        mount = any_rotation(fixed) if sensors.mounting else np.eye(3)
         mount *= np.sign(np.linalg.det(mount))
-        mount = mount @ rotation(tilt / np.linalg.norm(tilt), rng.normal(scale=sensors.mounting or 1e-12))
+        mount = mount @ rotation(tilt / np.linalg.norm(tilt), fixed.normal(scale=sensors.mounting or 1e-12))
         axes[i] = mount.T @ [0, 1, 0]
-        true_rate = spin[:, i, None] * axes[i] * (1 + rng.normal(scale=sensors.rate_scale))
+        true_rate = spin[:, i, None] * axes[i] * (1 + fixed.normal(scale=sensors.rate_scale))
         noise = rng.normal(scale=sensors.rate_noise * grow, size=true_rate.shape)
-        rates[:, i] = true_rate + rng.normal(scale=sensors.bias, size=3) + noise
+        rates[:, i] = true_rate + fixed.normal(scale=sensors.bias, size=3) + noise
         shaken = rng.normal(scale=sensors.force_noise * grow, size=true_rate.shape)
-        forces[:, i] = force[:, i] @ mount + rng.normal(scale=sensors.force_bias, size=3) + shaken
+        forces[:, i] = force[:, i] @ mount + fixed.normal(scale=sensors.force_bias, size=3) + shaken
     clipped = np.any(np.abs(rates) >= sensors.rate_limit, axis=2)
     rates = np.clip(rates, -sensors.rate_limit, sensors.rate_limit)
     return ImuRecording(motion.times[ends], rates, forces, clipped, np.ones_like(clipped)), axes
@@ -161,3 +166,30 @@ def write_exports(folder: Path, recording: ImuRecording, first_tick: int = 1_000
         paths.append(folder / f"{tag.replace(' ', '_')}.csv")
         paths[-1].write_text("\n".join([*head, *lines]) + "\n", encoding="utf-8")
     return paths
+
+
+def calibrated(recording: ImuRecording) -> Calibration:
+    """As a person would: bias and zero from the rest at the start, axes from the pull towards cable 1."""
+    rest = recording.part(0.2, REST - 0.5)
+    found = CalibrationSteps().with_bias(rest).with_axis(recording).with_zero(rest).complete()
+    assert found is not None
+    return found
+
+
+def estimated(
+    recording: ImuRecording, calibration: Calibration, settings: EstimatorSettings | None = None
+) -> list[AngleEstimate]:
+    """What the estimator says, sample by sample."""
+    estimator = AngleEstimator(calibration, settings)
+    return [estimator.update(sample) for sample in recording.samples()]
+
+
+def errors(estimates: list[AngleEstimate], motion: Motion) -> Array:
+    """Estimated less true joint angles, NaN where none is given, (n_times, n) [degrees]."""
+    theta, _ = motion.at(np.array([estimate.time for estimate in estimates]))
+    return np.degrees(np.array([estimate.angles for estimate in estimates]) - theta)
+
+
+def rms(values: Array) -> Array:
+    """Of each column, over what is not NaN."""
+    return np.sqrt(np.nanmean(values**2, axis=0))

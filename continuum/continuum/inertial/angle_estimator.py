@@ -14,7 +14,7 @@ from continuum.inertial.complementary_filter import ComplementaryFilter, Correct
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_sample import ImuSample, Truths
 from continuum.inertial.inclination import inclination
-from continuum.inertial.integrated_rate import curvature, error_of_gap, turn_since
+from continuum.inertial.integrated_rate import Liveliness, turn_since
 from continuum.inertial.joint_angles import of_neighbours, with_neighbour, within_half_a_turn
 
 _SAME_TIME = 1e-6  # s
@@ -70,8 +70,7 @@ class AngleEstimator:
         self._run = np.zeros(n)  # since more than a few were missed, or one clipped
         self._count = np.zeros(n)  # of readings at rest since the angle was lost
         self._heard = np.full(n, -np.inf)
-        self._rate_before, self._curvature = np.zeros(n), np.zeros(n)
-        self._clipped = np.zeros(n)  # readings clipped one after the other
+        self._rate_before, self._lively = np.zeros(n), Liveliness(np.zeros(n), np.zeros(n))
         self._last: AngleEstimate | None = None
         self.ignored = 0
 
@@ -88,12 +87,13 @@ class AngleEstimator:
             return self._last
         since = self.settings.period if self._last is None else sample.time - self._last.time
         heard = sample.usable()
+        clipped = sample.clipped & heard
         rates = np.where(heard[:, None], sample.rates - self.calibration.bias, 0.0)
         rate = np.where(heard, np.sum(self.calibration.axis * rates, axis=1) - self._state.drift, self._rate_before)
-        self._integrate(sample.time, rate, heard, sample.clipped & heard)
+        self._integrate(sample.time, rate, heard, clipped)
         resting = self._resting(rate, sample, heard)
         self._correct(sample, resting, since)
-        self._last = self._estimate(sample.time, rate, heard, resting)
+        self._last = self._estimate(sample.time, rate, heard, clipped, resting)
         return self._last
 
     def _integrate(self, time: float, rate: Array, heard: Truths, clipped: Truths) -> None:
@@ -101,16 +101,10 @@ class AngleEstimator:
         known = heard & np.isfinite(self._heard)
         elapsed = np.where(known, time - np.where(known, self._heard, time), 0.0)
         missing = np.where(known, np.maximum(np.round(elapsed / s.period) - 1, 0), 0.0)
-        self._clipped = np.where(clipped, self._clipped + missing + 1, np.where(heard, 0.0, self._clipped))
-        unsure = error_of_gap(missing, self._curvature)
-        # a run of clipped readings is a gap too, the value at the end of the range in the place of a line
-        clip = error_of_gap(self._clipped, self._curvature) - error_of_gap(
-            np.maximum(self._clipped - 1, 0), self._curvature
-        )
-        unsure = np.where(missing > 0, unsure, 0.0) + np.where(clipped, clip, 0.0)
+        unsure = self._lively.error_of_gap(missing, rate - self._rate_before, s.period)
         angle = state.angle + turn_since(rate, self._rate_before, elapsed, s.period, s.rates_are_means)
         error = np.hypot(state.error, unsure) + s.bias_left * elapsed
-        lost = elapsed > s.longest_gap
+        lost = clipped | (elapsed > s.longest_gap)  # how fast a clipped sensor turned nobody knows
         self._state = Correction(angle, state.drift, np.minimum(np.where(lost, np.pi, error), np.pi))
         self._heard = np.where(heard, time, self._heard)
         self._rate_before = rate
@@ -126,9 +120,11 @@ class AngleEstimator:
         self._forces.append(np.where(heard, np.abs(size), np.inf))
         rates = np.array(self._rates)
         if len(rates) >= 3:
-            faded = self._curvature * np.exp(-s.period / s.rest_window)
-            bent = np.maximum(faded, curvature(rates[-3:], s.period))
-            self._curvature = np.where(self._unbroken >= 3, bent, self._curvature)
+            now = self._lively.after(rates[-3:], s.period, s.rest_window)
+            known = self._unbroken >= 3
+            self._lively = Liveliness(
+                np.where(known, now.bend, self._lively.bend), np.where(known, now.step, self._lively.step)
+            )
         whole = self._run >= self._window
         quiet = (
             (np.abs(rates).max(axis=0) <= s.rest_rate)
@@ -148,9 +144,9 @@ class AngleEstimator:
         self._lost &= ~found
         self._state = Correction(state.angle, state.drift, np.where(found, s.inclination_error, state.error))
 
-    def _estimate(self, time: float, rate: Array, heard: Truths, resting: Truths) -> AngleEstimate:
+    def _estimate(self, time: float, rate: Array, heard: Truths, clipped: Truths, resting: Truths) -> AngleEstimate:
         errors = with_neighbour(self._state.error)
-        why = [self._why_not(sensor, bool(heard[sensor])) for sensor in range(heard.size)]
+        why = [self._why_not(i, bool(heard[i]), bool(clipped[i])) for i in range(heard.size)]
         told = tuple(
             own or before or ("" if error <= self.settings.largest_error else f"known to {np.degrees(error):.1f} deg")
             for own, before, error in zip(why, ["", *why], errors, strict=False)
@@ -167,12 +163,11 @@ class AngleEstimator:
             resting,
         )
 
-    def _why_not(self, sensor: int, heard: bool) -> str:
+    def _why_not(self, sensor: int, heard: bool, clipped: bool) -> str:
         if not heard:
             return f"sensor {sensor + 1} is missing"
-        if self._clipped[sensor]:
+        if clipped:
             return f"sensor {sensor + 1} is clipped"
         if self._lost[sensor]:
-            missed = self._state.error[sensor] < np.pi
-            return f"sensor {sensor + 1} {'missed too much and ' if missed else ''}waits for rest"
+            return f"sensor {sensor + 1} waits for rest"
         return ""

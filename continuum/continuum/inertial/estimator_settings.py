@@ -24,7 +24,8 @@ class EstimatorSettings:
         rest_rate: rate that is not exceeded at rest [rad/s]; slow pulling still is quiet.
         rest_spread: largest less smallest rate in the window at rest [rad/s].
         rest_force: how much the specific force may differ in size from that at the zero [m/s2].
-        longest_gap: without a sensor's readings after which its angle is lost until it rests again [s].
+        longest_gap: between a sensor's readings, after which its angle is lost until it rests again [s]; within less
+            than half a swing's time an arm that was let go is seen to move.
         bias_left: of the gyroscopes after calibration [rad/s].
         inclination_error: of a link's angle by the accelerometer at rest [rad].
         largest_error: of a joint's angle that still counts as good, as the estimator reckons it [rad].
@@ -38,10 +39,10 @@ class EstimatorSettings:
     rest_rate: float = 20 * _DEGREE
     rest_spread: float = 4 * _DEGREE
     rest_force: float = 0.3
-    longest_gap: float = 0.25
+    longest_gap: float = 0.1
     bias_left: float = 0.01 * _DEGREE
     inclination_error: float = 0.1 * _DEGREE
-    largest_error: float = 1.0 * _DEGREE
+    largest_error: float = 0.8 * _DEGREE
 
     def __post_init__(self) -> None:
         for field in fields(self):

@@ -12,6 +12,8 @@ from continuum.errors import InvalidValueError
 
 Truths = NDArray[np.bool_]
 
+_RATE, _FORCE = 1e3, 1e4  # rad/s, m/s2: no sensor goes so far
+
 
 @dataclass(frozen=True)
 class ImuSample:
@@ -47,6 +49,6 @@ class ImuSample:
         return int(self.valid.size)
 
     def usable(self) -> Truths:
-        """Sensors that were heard and gave finite numbers, (n,)."""
-        finite = np.isfinite(self.rates).all(axis=1) & np.isfinite(self.forces).all(axis=1)
-        return np.asarray(self.valid & finite)
+        """Sensors that were heard and gave numbers that a sensor can give, (n,)."""
+        possible = np.all(np.abs(self.rates) < _RATE, axis=1) & np.all(np.abs(self.forces) < _FORCE, axis=1)
+        return np.asarray(self.valid & possible)

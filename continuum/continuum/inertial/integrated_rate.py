@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from continuum.arrays import Array
@@ -25,18 +27,37 @@ def turn_since(rate: Array, rate_before: Array, elapsed: Array, period: float, m
     return np.asarray(rate * known + (rate_before + rate) / 2 * (elapsed - known))
 
 
-def error_of_gap(missing: Array, curvature: Array) -> Array:
-    """Error of the turn over readings that were not heard or clipped, (n,) [rad].
+@dataclass(frozen=True)
+class Liveliness:
+    """How much the rates changed lately, from which is reckoned what may have happened while nothing was heard.
 
-    With linear interpolation over m missing readings it grows as m (m + 1)^2 times the rate's second derivative.
-
-    Args:
-        missing: how many, (n,).
-        curvature: largest error, lately, of interpolating one reading that was heard, (n,) [rad].
+    Attributes:
+        bend: largest error that linear interpolation of a reading between its neighbours would have made of the turn,
+            (n,) [rad].
+        step: largest change from one reading to the next, (n,) [rad/s].
     """
-    return np.asarray(_SAFETY * curvature * missing * (missing + 1) ** 2 / 4)
 
+    bend: Array
+    step: Array
 
-def curvature(rates: Array, period: float) -> Array:
-    """Error that interpolating the middle one of three rates (3, n) would make of its turn, (n,) [rad]."""
-    return np.asarray(np.abs(rates[1] - (rates[0] + rates[2]) / 2) * period)
+    def after(self, rates: Array, period: float, remembered: float) -> Liveliness:
+        """With the newest three readings (3, n) [rad/s], older ones counting less from ``remembered`` [s] on."""
+        fade = np.exp(-period / remembered)
+        bend = np.abs(rates[1] - (rates[0] + rates[2]) / 2) * period
+        step = np.abs(rates[2] - rates[1])
+        return Liveliness(np.maximum(self.bend * fade, bend), np.maximum(self.step * fade, step))
+
+    def error_of_gap(self, missing: Array, change: Array, period: float) -> Array:
+        """Error of the turn over readings that were not heard and were taken as linear, (n,) [rad].
+
+        It grows as m (m + 1)^2 with their number m and the second derivative of the rate. If the rate changed by more
+        than it did lately in that time, the arm was let go or stopped within, at an instant that nobody knows.
+
+        Args:
+            missing: m, (n,).
+            change: of the rate over the gap, (n,) [rad/s].
+            period: between readings [s].
+        """
+        smooth = _SAFETY * self.bend * missing * (missing + 1) ** 2 / 4
+        sudden = np.maximum(np.abs(change) - self.step * (missing + 1), 0.0) * missing * period / 2
+        return np.asarray(smooth + sudden)
