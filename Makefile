@@ -5,7 +5,7 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo test reproduction bench-dynamics bench-ik bench-discovery fuzz prototype check format lock clean
+.PHONY: help setup demo bench-demo test reproduction bench-dynamics bench-ik bench-discovery fuzz prototype check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -15,6 +15,9 @@ setup: ## make .venv, install pinned versions, build the workspace; does nothing
 
 demo: setup ## follow the thesis's helix with real nodes, results in out/demo
 	@$(IN_WORKSPACE) python3 -m tools.demo $(ARGS)
+
+bench-demo: setup ## emulated bench, bridge and simulated arm: pulled, released, recorded, diagnosed; results in out/bench_demo
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.bench_demo $(ARGS)
 
 test: check ## run the checks and every test (ARGS="-k name" are given to pytest)
 	@$(IN_WORKSPACE) pytest $(ARGS)

@@ -56,9 +56,9 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
 
     A lifecycle node: configured, it has the port and publishes; only while active it lets tension through. It becomes
     inactive by itself, cables slack, when the link is lost, the bench begins anew, another one commands it, or
-    ``~/stop`` was called, which ``~/reset_stop`` ends. Joint states are published while every joint is known: first
-    ``~/calibrate_bias`` (at rest), ``~/find_axes`` (after bending towards cable 1 and back) and ``~/zero`` (at rest,
-    straight), or a calibration file.
+    ``~/stop`` was called, which ``~/reset_stop`` ends. ``~/release`` drops all tension at once; later commands pull
+    again. Joint states are published while every joint is known: first ``~/calibrate_bias`` (at rest), ``~/find_axes``
+    (after bending towards cable 1 and back) and ``~/zero`` (at rest, straight), or a calibration file.
     """
 
     NAME = "bench_bridge"
@@ -86,6 +86,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             "zero": partial(self._calibrate, lambda watch: watch.find_zero(rest_time)),
             "calibrate_bias": partial(self._calibrate, lambda watch: watch.find_bias(rest_time)),
             "find_axes": partial(self._calibrate, SensorWatch.find_axes),
+            "release": self._release,
             "stop": self._stop,
             "reset_stop": self._reset_stop,
         }
@@ -266,17 +267,24 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         save_calibration(calibration, file)
         return f"found; the calibration is complete, and written to {file}"
 
+    def _release(self) -> str:
+        _refuse_unless_done("release", self._commander.let_go())
+        return "all cables are slack"
+
     def _stop(self) -> str:
         self._commander.stop()
         return "stopped, until ~/reset_stop; then the node has to be activated again"
 
     def _reset_stop(self) -> str:
-        problem = self._commander.reset_stop()
-        if problem:
-            raise InvalidValueError("reset of the stop", problem, "only with a bench that carries it out")
+        _refuse_unless_done("reset of the stop", self._commander.reset_stop())
         return "the stop is over; tension goes through after the node is activated"
 
     def close(self) -> None:
         """Let the cables go and close the port before the node ends."""
         self.on_shutdown(LifecycleState(*reversed(self._state_machine.current_state)))
         super().close()
+
+
+def _refuse_unless_done(what: str, problem: str) -> None:
+    if problem:
+        raise InvalidValueError(what, problem, "only with a bench that carries it out")

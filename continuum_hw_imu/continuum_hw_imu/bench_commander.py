@@ -72,6 +72,15 @@ class BenchCommander:
         if self.client is not None and self.client.commands:
             self.client.release(ANSWER_TIME)
 
+    def let_go(self) -> str:
+        """Slack cables at once, as for a release test; why that did not work, empty if it did."""
+        problem = self.problem()
+        self.gate.let_go()
+        if problem:
+            return problem
+        result = self.client.let_go(ANSWER_TIME)
+        return "" if result is Result.DONE else _refusal(result)
+
     def stop(self) -> None:
         """Slack, here and there, until it is reset."""
         self.gate.stop()

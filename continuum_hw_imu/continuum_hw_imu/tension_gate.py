@@ -52,14 +52,19 @@ class TensionGate:
     def open(self) -> bool:
         """Let commands through from now on, from zero; False while a stop is latched."""
         if not self.stopped:
-            self._release()
+            self.let_go()
             self.is_open = True
         return self.is_open
 
     def shut(self) -> None:
         """Zero, and nothing through."""
         self.is_open = False
-        self._release()
+        self.let_go()
+
+    def let_go(self) -> None:
+        """Zero; later commands go through as before."""
+        self._follower.release()
+        self._commanded = None
 
     def stop(self) -> None:
         """Shut and latch."""
@@ -84,7 +89,3 @@ class TensionGate:
         if self.is_open:
             self._follower.move_on(now, passed)
         return self.set_point
-
-    def _release(self) -> None:
-        self._follower.release()
-        self._commanded = None

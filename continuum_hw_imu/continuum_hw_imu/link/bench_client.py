@@ -23,6 +23,7 @@ from continuum_hw_imu.protocol.messages import (
     Heartbeat,
     Hello,
     HelloRequest,
+    LetGo,
     Message,
     Release,
     ResetStop,
@@ -128,6 +129,10 @@ class BenchClient:
         """Command no more."""
         self.commands = False
         return self._ask(Release(self._token), timeout)
+
+    def let_go(self, timeout: float) -> Result | None:
+        """Slack cables at once; later set points pull again."""
+        return self._ask(LetGo(self._token), timeout)
 
     def reset_stop(self, timeout: float) -> Result | None:
         """End a stop, as the commander."""
