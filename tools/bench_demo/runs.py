@@ -41,16 +41,16 @@ def ramp(tension: float, cable: int, over: float) -> Callable[[float], Array]:
 
 
 def profile(t: float) -> Array:
-    """To and fro, ever further: each cable in its turn, by half a sine of 1.5 s; highest 18 N after 12 s."""
+    """To and fro, ever further: each cable in its turn, by half a sine of 1.5 s; highest 18 N after 6 s."""
     swing = np.sin(np.pi * t / 1.5)
-    highest = 6.0 + 12.0 * min(t / 12.0, 1.0)
+    highest = 6.0 + 12.0 * min(t / 6.0, 1.0)
     return highest * np.maximum([swing, -swing], 0.0)
 
 
 RUNS = (
-    Run("release_1", ramp(20.0, 1, 1.5), 2.5, True, 3.0),
-    Run("release_2", ramp(16.0, 2, 1.5), 2.5, True, 3.0),
-    Run("profile", profile, 12.0, False, 2.0),
+    Run("release_1", ramp(20.0, 1, 1.0), 1.5, True, 2.0),
+    Run("release_2", ramp(16.0, 2, 1.0), 1.5, True, 2.0),
+    Run("profile", profile, 6.0, False, 1.5),
 )
 
 BEND = Run("bend", lambda t: np.array([15.0 * np.sin(np.pi * min(t, 3.0) / 3.0) ** 2, 0.0]), 3.0, False, 1.5)
