@@ -47,6 +47,9 @@ class Bench:
         self.sequence = (self.sequence + 1) % (1 << 16) if sequence is None else sequence
         return self.guard.set_tension(token, self.sequence, (self.now - age) % (1 << 32), tensions, self.now)
 
+    def reset_stop(self, token: int = A, age: int = 0) -> Result:
+        return self.guard.reset_stop(token, (self.now - age) % (1 << 32), self.now)
+
     def seconds_to_slack(self) -> float:
         """How long from now on until no cable pulls, with nobody there."""
         start = self.now
@@ -106,6 +109,8 @@ def test_limits_hold_whatever_comes(steps, start):
                 guard.lose_link()
             case "beat":
                 guard.heartbeat(what, bench.now)
+            case "reset_stop":
+                bench.reset_stop(what)
             case _:
                 getattr(guard, kind)(what, bench.now)
         if kind != "pass" and not np.array_equal(before, guard.set_points):
@@ -139,7 +144,7 @@ def test_one_commands_at_a_time(pulling):
     assert pulling.guard.heartbeat(B, pulling.now) is Result.NOT_COMMANDER
     assert pulling.guard.release(B, pulling.now) is Result.NOT_COMMANDER
     assert pulling.guard.let_go(B, pulling.now) is Result.NOT_COMMANDER
-    assert pulling.guard.reset_stop(B, pulling.now) is Result.NOT_COMMANDER
+    assert pulling.reset_stop(B) is Result.NOT_COMMANDER
     pulling.run(0.3, pull=(20.0, 5.0))
     assert pulling.guard.set_points.tolist() == [20.0, 5.0]
 
@@ -273,13 +278,22 @@ def test_after_a_reset_only_what_is_decided_then_pulls(pulling):
     pulling.guard.stop(pulling.now)
     pulling.record.append(pulling.guard.set_points)
     pulling.run(0.5)
-    assert pulling.guard.reset_stop(A, pulling.now) is Result.DONE
+    assert pulling.reset_stop(A) is Result.DONE
     pulling.run(0.1)
     assert not pulling.guard.set_points.any()
     assert pulling.pull((5.0, 5.0), age=150_000) is Result.STALE
     assert pulling.pull((5.0, 5.0)) is Result.DONE
     pulling.run(0.1)
     assert pulling.guard.set_points.tolist() == [5.0, 5.0]
+
+
+@pytest.mark.parametrize(("wait", "age"), [(0.1, 0.2), (2.0, 0.6)])
+def test_no_word_from_before_a_stop_or_from_long_ago_ends_it(pulling, wait, age):
+    pulling.guard.stop(pulling.now)
+    pulling.record.append(pulling.guard.set_points)
+    pulling.run(wait)
+    assert pulling.reset_stop(age=round(age * 1e6)) is Result.STALE
+    assert pulling.guard.state is GuardState.STOPPED
 
 
 def test_letting_go_is_at_once_and_does_not_stay(pulling):
