@@ -48,7 +48,8 @@ OF_DEVICE = st.one_of(
 OF_HOST = st.one_of(
     st.builds(m.HelloRequest),
     st.builds(m.Stop),
-    *(st.builds(kind, U32) for kind in (m.Claim, m.Release, m.Heartbeat, m.ResetStop, m.LetGo)),
+    *(st.builds(kind, U32) for kind in (m.Claim, m.Release, m.Heartbeat, m.LetGo)),
+    st.builds(m.ResetStop, U32, U32),
     st.builds(m.SetTension, U32, U32, SET_POINTS),
 )
 FRAMES = st.builds(Frame, U16, U32, OF_DEVICE | OF_HOST)

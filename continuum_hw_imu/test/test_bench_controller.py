@@ -59,7 +59,7 @@ def test_every_request_is_carried_out(talk):
         m.LetGo(TOKEN),
         m.Stop(),
         talk.pull(),
-        m.ResetStop(TOKEN),
+        m.ResetStop(TOKEN, talk.now),
         m.Release(TOKEN),
     ]
     assert talk.results(*requests) == [done, done, done, done, stopped, done, done]

@@ -35,7 +35,7 @@ def examples(sensors: int = 5, cables: int = 2) -> dict[str, m.Message]:
         "HEARTBEAT": m.Heartbeat(0),
         "SET_TENSION": m.SetTension(0, 0, (0.0,) * cables),
         "STOP": m.Stop(),
-        "RESET_STOP": m.ResetStop(0),
+        "RESET_STOP": m.ResetStop(0, 0),
         "LET_GO": m.LetGo(0),
     }
 

@@ -1,59 +1,10 @@
-"""The receiver's rules hold whatever comes, in whatever order; each of them by itself as well."""
-
-from itertools import pairwise
+"""The receiver's rules, each by itself."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from guarded_bench import LIMITS, TICK, A, B, Bench
 
-from continuum_hw_imu.protocol.messages import Cause, GuardState, ReceiverLimits, Result
-from continuum_hw_imu.receiver.tension_guard import TensionGuard
-
-TICK = 5_000  # us
-LIMITS = ReceiverLimits(max_tension=40.0, max_rate=400.0)
-A, B = 11, 22
-
-
-class Bench:
-    """A guard, its clock, and the record of its set points. It begins 100 s after the device's start."""
-
-    def __init__(self, start: int = 100_000_000) -> None:
-        self.guard = TensionGuard(LIMITS, 2)
-        self.now = start
-        self.sequence = 0
-        self.record = [self.guard.set_points]
-
-    def run(
-        self, seconds: float, *, pull: tuple[float, ...] | None = None, beat: bool = True, token: int = A
-    ) -> Result:
-        """Let time pass; the last answer."""
-        result = Result.DONE
-        for _ in range(round(seconds * 1e6 / TICK)):
-            if pull is not None:
-                result = self.pull(pull, token=token)
-            elif beat:
-                result = self.guard.heartbeat(token, self.now)
-            self.tick()
-        return result
-
-    def tick(self) -> None:
-        interval = self.guard.move_on(self.now, TICK * 1e-6)
-        np.testing.assert_array_equal(interval.before, self.record[-1])
-        self.now += TICK
-        self.record.append(self.guard.set_points)
-
-    def pull(self, tensions: tuple[float, ...], token: int = A, age: int = 0, sequence: int | None = None) -> Result:
-        self.sequence = (self.sequence + 1) % (1 << 16) if sequence is None else sequence
-        return self.guard.set_tension(token, self.sequence, (self.now - age) % (1 << 32), tensions, self.now)
-
-    def seconds_to_slack(self) -> float:
-        """How long from now on until no cable pulls, with nobody there."""
-        start = self.now
-        while self.guard.set_points.any():
-            self.tick()
-            assert self.now - start < 10_000_000, "never slack"
-        return (self.now - start) * 1e-6
+from continuum_hw_imu.protocol.messages import Cause, GuardState, Result
 
 
 @pytest.fixture
@@ -64,65 +15,6 @@ def pulling() -> Bench:
     assert bench.run(0.2, pull=(20.0, 5.0)) is Result.DONE
     assert bench.guard.set_points.tolist() == [20.0, 5.0]
     return bench
-
-
-STEPS = st.lists(
-    st.one_of(
-        st.tuples(st.sampled_from(["claim", "release", "beat", "let_go", "reset_stop"]), st.sampled_from([A, B])),
-        st.tuples(st.sampled_from(["stop", "lose_link"]), st.just(0)),
-        st.tuples(
-            st.just("pull"),
-            st.tuples(
-                st.sampled_from([A, B]),
-                st.lists(st.floats(allow_nan=True), min_size=1, max_size=3),
-                st.integers(-1_000_000, 2_000_000),
-                st.integers(0, 5),
-            ),
-        ),
-        st.tuples(st.just("pass"), st.integers(1, 60)),
-    ),
-    max_size=60,
-)
-
-
-@settings(max_examples=200)
-@given(STEPS, st.sampled_from([100_000_000, (1 << 32) - 300_000]))
-def test_limits_hold_whatever_comes(steps, start):
-    bench = Bench(start)
-    guard, sequence, dropped = bench.guard, 0, set()
-    for kind, what in steps:
-        before = guard.set_points
-        match kind:
-            case "pull":
-                token, tensions, age, step = what
-                sequence += step
-                bench.pull(tuple(tensions), token, age, sequence)
-            case "pass":
-                for _ in range(what):
-                    bench.tick()
-            case "stop":
-                guard.stop(bench.now)
-            case "lose_link":
-                guard.lose_link()
-            case "beat":
-                guard.heartbeat(what, bench.now)
-            case _:
-                getattr(guard, kind)(what, bench.now)
-        if kind != "pass" and not np.array_equal(before, guard.set_points):
-            assert kind in ("stop", "let_go")  # the only ones that change tension at once, and only to zero
-            assert not guard.set_points.any()
-            dropped.add(len(bench.record))
-            bench.record.append(guard.set_points)
-        if guard.state is GuardState.STOPPED:
-            assert not guard.set_points.any()
-    record = np.array(bench.record)
-    assert np.all(np.isfinite(record))
-    assert record.min() >= 0.0
-    assert record.max() <= LIMITS.max_tension
-    for k, (earlier, later) in enumerate(pairwise(record), start=1):
-        if k not in dropped:
-            assert np.all(np.abs(later - earlier) <= LIMITS.max_rate * TICK * 1e-6 + 1e-9)
-    assert bench.seconds_to_slack() <= LIMITS.slack_after + 3 * TICK * 1e-6
 
 
 def test_it_starts_slack_with_nobody_in_command():
@@ -139,7 +31,7 @@ def test_one_commands_at_a_time(pulling):
     assert pulling.guard.heartbeat(B, pulling.now) is Result.NOT_COMMANDER
     assert pulling.guard.release(B, pulling.now) is Result.NOT_COMMANDER
     assert pulling.guard.let_go(B, pulling.now) is Result.NOT_COMMANDER
-    assert pulling.guard.reset_stop(B, pulling.now) is Result.NOT_COMMANDER
+    assert pulling.reset_stop(B) is Result.NOT_COMMANDER
     pulling.run(0.3, pull=(20.0, 5.0))
     assert pulling.guard.set_points.tolist() == [20.0, 5.0]
 
@@ -273,13 +165,22 @@ def test_after_a_reset_only_what_is_decided_then_pulls(pulling):
     pulling.guard.stop(pulling.now)
     pulling.record.append(pulling.guard.set_points)
     pulling.run(0.5)
-    assert pulling.guard.reset_stop(A, pulling.now) is Result.DONE
+    assert pulling.reset_stop(A) is Result.DONE
     pulling.run(0.1)
     assert not pulling.guard.set_points.any()
     assert pulling.pull((5.0, 5.0), age=150_000) is Result.STALE
     assert pulling.pull((5.0, 5.0)) is Result.DONE
     pulling.run(0.1)
     assert pulling.guard.set_points.tolist() == [5.0, 5.0]
+
+
+@pytest.mark.parametrize(("wait", "age"), [(0.1, 0.2), (2.0, 0.6)])
+def test_no_word_from_before_a_stop_or_from_long_ago_ends_it(pulling, wait, age):
+    pulling.guard.stop(pulling.now)
+    pulling.record.append(pulling.guard.set_points)
+    pulling.run(wait)
+    assert pulling.reset_stop(age=round(age * 1e6)) is Result.STALE
+    assert pulling.guard.state is GuardState.STOPPED
 
 
 def test_letting_go_is_at_once_and_does_not_stay(pulling):

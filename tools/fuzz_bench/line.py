@@ -115,15 +115,16 @@ def content_of(frame: Frame) -> bytes:
 
 def _request(random: np.random.Generator, now: int) -> Message:
     """One request, decided about now [us]."""
-    token = int(random.integers(1, 3))
+    token, as_of = int(random.integers(1, 3)), (now + int(random.integers(-300_000, BLOCK_TIME))) % WRAP_TIME
     tensions = tuple((random.integers(0, 32768, int(random.choice([2, 2, 2, 1, 3]))) / 100).tolist())
     chance = random.random()
     if chance < 0.8:
-        return SetTension(token, (now + int(random.integers(-300_000, BLOCK_TIME))) % WRAP_TIME, tensions)
+        return SetTension(token, as_of, tensions)
     if chance > 0.998:
         return Stop()
-    often, seldom = (Heartbeat, Claim, ResetStop), (Release, LetGo, Claim)
-    return (seldom if chance > 0.995 else often)[int(random.integers(3))](token)
+    if chance > 0.995:
+        return LetGo(token) if chance > 0.996 else Release(token)
+    return ResetStop(token, as_of) if chance > 0.95 else Heartbeat(token) if chance > 0.85 else Claim(token)
 
 
 def sound_contents(random: np.random.Generator) -> Iterator[bytes]:
@@ -139,5 +140,5 @@ def sound_contents(random: np.random.Generator) -> Iterator[bytes]:
 def _sizes(number: int) -> list[int]:
     """Lengths that payloads of a type have."""
     return {0x01: [30, 89], 0x02: [67, 132], 0x03: [8, 16], 0x04: [4], 0x05: [14], 0x06: [2]}.get(
-        number, {0x81: [0], 0x85: [12, 16], 0x86: [0]}.get(number, [4])
+        number, {0x81: [0], 0x85: [12, 16], 0x86: [0], 0x87: [8]}.get(number, [4])
     )

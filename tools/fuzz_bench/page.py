@@ -41,7 +41,8 @@ def page(tallies: Sequence[Tally], guided: Mapping[str, int] | None) -> str:
         )
     parts.append(
         paragraph(
-            "Frames behind a right check count as sent, whatever is in them. By chance a stretch made up at random has",
+            "Frames behind a right check count as sent, whatever is in them. Both parsers hear all, so that a",
+            "sound frame for the one is of an unknown type to the other. By chance a stretch made up at random has",
             "a right check once in 2^32.",
         )
     )

@@ -10,6 +10,7 @@ import random
 import threading
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from continuum_hw_imu.link.heard import Conversation, Heard, Results
 from continuum_hw_imu.link.serial_link import SerialLink
@@ -136,7 +137,7 @@ class BenchClient:
 
     def reset_stop(self, timeout: float) -> Result | None:
         """End a stop, as the commander."""
-        return self._ask(ResetStop(self._token), timeout)
+        return self._ask(ResetStop(self._token, self.conversation.newest % WRAP_TIME), timeout)
 
     def stop(self) -> None:
         """Ask for slack cables at once; to be repeated until the status tells it."""
@@ -168,13 +169,16 @@ class BenchClient:
             while (left := deadline - time.monotonic()) > 0:
                 number = self._say(request)
                 self._answers[number] = None
-                self._news.wait_for(lambda n=number: self._answers[n] is not None, min(left, AGAIN))
+                self._news.wait_for(partial(self._answered, number), min(left, AGAIN))
                 result = self._answers.pop(number)
                 if result is not None:
                     if until(result):
                         return result
                     self._news.wait(min(max(0.0, deadline - time.monotonic()), AGAIN / 2))
         return result
+
+    def _answered(self, number: int) -> bool:
+        return self._answers[number] is not None
 
     def _say(self, request: Message) -> int:
         """Send a request that is answered; its number."""

@@ -126,7 +126,7 @@ class SerialLink:
         port = self._serial
         problem = "opened again, since it was silent"
         try:
-            while not (self._end.is_set() or self._again.is_set()):
+            while port is not None and not (self._end.is_set() or self._again.is_set()):
                 data = port.read(1)
                 now = time.monotonic()
                 if data:

@@ -159,8 +159,8 @@ class BenchController:
                 return guard.release(token, now)
             case LetGo(token):
                 return guard.let_go(token, now)
-            case ResetStop(token):
-                return guard.reset_stop(token, now)
+            case ResetStop(token, as_of):
+                return guard.reset_stop(token, as_of, now)
             case Stop():
                 return guard.stop(now)
             case _:

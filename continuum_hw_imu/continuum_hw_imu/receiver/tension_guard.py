@@ -125,7 +125,7 @@ class TensionGuard:
         if claim.sequence is not None and not 0 < (sequence - claim.sequence) % WRAP_SEQUENCE < WRAP_SEQUENCE // 2:
             return Result.OUT_OF_ORDER
         decided = now + signed_difference(as_of, now % WRAP_TIME)
-        if not max(self._floor, now - self.limits.command_timeout * MICROSECONDS) <= decided <= now:
+        if not self._counts(decided, now):
             return Result.STALE
         claim.sequence = sequence
         self._follower.command(tensions, decided / MICROSECONDS)
@@ -144,10 +144,12 @@ class TensionGuard:
         self.stopped = True
         return Result.DONE
 
-    def reset_stop(self, token: int, now: int) -> Result:
-        """Take set points again, of those decided from now on."""
+    def reset_stop(self, token: int, as_of: int, now: int) -> Result:
+        """Take set points again, of those decided from now on. Not on a word from before the stop."""
         if not self._hears_commander(token, now):
             return Result.NOT_COMMANDER
+        if not self._counts(now + signed_difference(as_of, now % WRAP_TIME), now):
+            return Result.STALE
         self.stopped, self._floor = False, now
         return Result.DONE
 
@@ -172,6 +174,10 @@ class TensionGuard:
             return None
         self._claim.alive = now
         return self._claim
+
+    def _counts(self, decided: int, now: int) -> bool:
+        """Whether what was decided then [us] is neither too old nor from before the claim or the last stop."""
+        return max(self._floor, now - self.limits.command_timeout * MICROSECONDS) <= decided <= now
 
     def _end_claim(self, cause: Cause) -> None:
         if self._claim is not None:

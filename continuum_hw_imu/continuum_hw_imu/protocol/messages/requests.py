@@ -94,7 +94,8 @@ class SetTension:
 
     def encode(self) -> bytes:
         counted("number of cables", len(self.tensions), forces.MOST_CABLES, 1)
-        return _COMMAND.pack(self.token, self.as_of) + forces.command_bytes(self.tensions)
+        head = _COMMAND.pack(counted("token", self.token, 0xFFFFFFFF), counted("as of", self.as_of, 0xFFFFFFFF))
+        return head + forces.command_bytes(self.tensions)
 
     @classmethod
     def decode(cls, payload: bytes) -> Self:
@@ -111,10 +112,26 @@ class Stop(_Empty):
     TYPE: ClassVar[int] = 0x86
 
 
-class ResetStop(_WithToken):
-    """End a stop; of the commander, and when the cables are slack. Tension stays zero until a new `SetTension`."""
+@dataclass(frozen=True)
+class ResetStop:
+    """End a stop; of the commander. Tension stays zero until a new `SetTension`.
+
+    Attributes:
+        token: of the commander.
+        as_of: as in `SetTension`, so that no reset ends a stop that came after it was decided.
+    """
 
     TYPE: ClassVar[int] = 0x87
+
+    token: int
+    as_of: int
+
+    def encode(self) -> bytes:
+        return _COMMAND.pack(counted("token", self.token, 0xFFFFFFFF), counted("as of", self.as_of, 0xFFFFFFFF))
+
+    @classmethod
+    def decode(cls, payload: bytes) -> Self:
+        return cls(*_COMMAND.unpack(of_size(payload, _COMMAND.size)))
 
 
 class LetGo(_WithToken):
