@@ -5,7 +5,7 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo test reproduction bench-dynamics bench-ik bench-discovery prototype check format lock clean
+.PHONY: help setup demo test reproduction bench-dynamics bench-ik bench-discovery bench-inertial prototype check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -32,6 +32,9 @@ bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/
 
 bench-discovery: setup ## hide effects and see what is found; ARGS="--minutes 60" stops it; overwrites docs/discovery-benchmark.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_discovery $(ARGS)
+
+bench-inertial: setup ## measure joint angles from inertial sensors (3 minutes); overwrites a table of docs/inertial.md
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="continuum/test:$$PYTHONPATH" python3 -m tools.bench_inertial $(ARGS)
 
 prototype: setup ## diagnose the real arm; overwrites docs/prototype.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.prototype $(ARGS)

@@ -10,7 +10,6 @@ from inertial_arm import (
     RELEASE,
     REST,
     Motion,
-    N,
     SensorModel,
     calibrated,
     errors,
@@ -19,25 +18,11 @@ from inertial_arm import (
     rms,
     sensed,
 )
-from vqf import VQF
+from vqf_angles import vqf_angles
 
 from continuum.arrays import Array
-from continuum.inertial.imu_recording import ImuRecording
-from continuum.inertial.inclination import inclination
-from continuum.inertial.joint_angles import of_neighbours, within_half_a_turn
 
 LIVE = 60.0
-
-
-def vqf_angles(recording: ImuRecording) -> Array:
-    """Joint angles (n_times, n) [rad] by the direction of gravity that VQF tells, with the same axes and zero."""
-    known = calibrated(recording)
-    up = np.empty(recording.forces.shape)
-    for i in range(N):
-        rates, forces = (np.ascontiguousarray(block[:, i]) for block in (recording.rates, recording.forces))
-        w, x, y, z = VQF(1 / LIVE).updateBatch(rates, forces)["quat6D"].T
-        up[:, i] = np.stack([2 * (x * z - w * y), 2 * (y * z + w * x), w**2 - x**2 - y**2 + z**2], axis=1)
-    return within_half_a_turn(of_neighbours(inclination(up, known.axis, known.zero)))
 
 
 def both(motion: Motion, seed: int) -> tuple[Array, Array, Array]:
