@@ -5,7 +5,8 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo bench-demo test reproduction bench-dynamics bench-ik bench-discovery fuzz prototype check format lock clean
+.PHONY: help setup demo bench-demo test reproduction bench-dynamics bench-ik bench-discovery bench-inertial fuzz prototype \
+  check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -40,6 +41,9 @@ fuzz: setup ## damaged and made-up bytes through the bench protocol's parsers (2
 	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/fuzz/extra \
 	  -r tools/fuzz_bench/requirements.txt || echo "atheris cannot be installed and is left out"
 	@$(IN_WORKSPACE) python3 -m tools.fuzz_bench $(ARGS)
+
+bench-inertial: setup ## measure joint angles from inertial sensors (3 minutes); overwrites a table of docs/inertial.md
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="continuum/test:$$PYTHONPATH" python3 -m tools.bench_inertial $(ARGS)
 
 prototype: setup ## diagnose the real arm; overwrites docs/prototype.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.prototype $(ARGS)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from inertial_arm import DEG, GRAVITY, REST, N, SensorModel, any_rotation, pull_and_release, rotation, sensed
+from inertial_arm import DEG, GRAVITY, RELEASE, REST, N, SensorModel, any_rotation, pull_and_release, rotation, sensed
 
 from continuum.arrays import Array
 from continuum.errors import FileError, InvalidValueError, MeasurementError
@@ -162,10 +162,13 @@ def test_steps_tell_what_is_missing_and_from_what_each_was_found(recording: ImuR
 
 def test_rests_are_found(recording: ImuRecording) -> None:
     found = rests(recording)
-    assert len(found) == 2
     assert found[0][0] == recording.times[0]
     assert REST - 0.5 < found[0][1] < REST + 0.6
-    assert found[1][1] > recording.times[-1] - 0.5
+    assert found[-1][1] > recording.times[-1] - 0.5
+    for (begin, end), after in zip(found, [*found[1:], (99.0, 99.0)], strict=True):
+        assert unrest(recording.part(begin, end)) == ()
+        assert end <= after[0]
+        assert end < REST + 0.6 or begin > RELEASE
 
 
 def test_a_file_gives_back_what_was_saved(tmp_path: Path, recording: ImuRecording, rest: ImuRecording) -> None:

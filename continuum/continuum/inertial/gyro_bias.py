@@ -7,7 +7,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.errors import MeasurementError
 from continuum.inertial.imu_recording import ImuRecording
-from continuum.inertial.stillness import unrest
+from continuum.inertial.stillness import CREEP, SETTLED, unrest
 
 
 def bias_at_rest(recording: ImuRecording) -> Array:
@@ -16,7 +16,7 @@ def bias_at_rest(recording: ImuRecording) -> Array:
     Raises:
         MeasurementError: the arm moved, a sensor was hardly heard, or it was too short; every sensor at fault is told.
     """
-    return _means_at_rest(recording, recording.rates, "the bias is found at rest only")
+    return _means_at_rest(recording, recording.rates, CREEP, "the bias is found at rest only")
 
 
 def force_at_rest(recording: ImuRecording) -> Array:
@@ -25,11 +25,11 @@ def force_at_rest(recording: ImuRecording) -> Array:
     Raises:
         MeasurementError: as for `bias_at_rest`.
     """
-    return _means_at_rest(recording, recording.forces, "the zero is set at rest only")
+    return _means_at_rest(recording, recording.forces, SETTLED, "the zero is set at rest only")
 
 
-def _means_at_rest(recording: ImuRecording, readings: Array, rule: str) -> Array:
-    moved = unrest(recording)
+def _means_at_rest(recording: ImuRecording, readings: Array, creep: float, rule: str) -> Array:
+    moved = unrest(recording, creep)
     if moved:
         raise MeasurementError(f"{rule}: {'; '.join(moved)}")
     weights = recording.good[:, :, None]
