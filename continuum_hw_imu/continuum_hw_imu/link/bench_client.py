@@ -121,7 +121,6 @@ class BenchClient:
 
     def claim(self, timeout: float) -> Result | None:
         """Become the commander, waiting for slack cables as long as ``timeout`` [s] allows; None without an answer."""
-        self._token = self._rng.randrange(1, 1 << 32)
         result = self._ask(Claim(self._token), timeout, until=lambda result: result is not Result.NOT_SLACK)
         self.commands = result is Result.DONE
         return result
@@ -167,8 +166,9 @@ class BenchClient:
         result: Result | None = None
         with self._news:
             while (left := deadline - time.monotonic()) > 0:
-                number = self._say(request)
+                number = self._writer.sequence
                 self._answers[number] = None
+                self._say(request)
                 self._news.wait_for(partial(self._answered, number), min(left, AGAIN))
                 result = self._answers.pop(number)
                 if result is not None:
@@ -180,15 +180,13 @@ class BenchClient:
     def _answered(self, number: int) -> bool:
         return self._answers[number] is not None
 
-    def _say(self, request: Message) -> int:
-        """Send a request that is answered; its number."""
+    def _say(self, request: Message) -> None:
+        """Send a request that is answered."""
         self.results.asked += 1
-        return self._send(request)
+        self._send(request)
 
-    def _send(self, message: Message) -> int:
-        number = self._writer.sequence
+    def _send(self, message: Message) -> None:
         self.link.send(self._writer.write(message, int(time.monotonic() * MICROSECONDS)))
-        return number
 
     def _begin(self) -> None:
         """The port was opened."""
@@ -206,6 +204,7 @@ class BenchClient:
         self.conversation = Conversation()
         self.conversations += 1
         self.commands = False
+        self._token = self._rng.randrange(1, 1 << 32)
 
     def _take(self, data: bytes, now: float) -> None:
         """Bytes came."""
