@@ -147,3 +147,16 @@ def test_times_of_the_device_become_the_hosts(bench):
         bench.say(bench.controller.status())
     assert bench.heard[-1].time == pytest.approx(bench.now, abs=1e-6)
     assert bench.heard[-1].device_time == bench.device_time
+
+
+def test_an_answer_that_takes_longer_than_the_next_question_counts(bench):
+    kept = []
+
+    def answer_the_first(data: bytes) -> None:
+        kept.append(data)
+        if len(kept) == 3:
+            LoopedBench.hear(bench, kept[0])
+
+    bench.hear = answer_the_first
+    assert bench.client.claim(1.0) is Result.DONE
+    assert len(kept) == 3
