@@ -29,7 +29,7 @@ PLAIN_PYTHON = {  # what a module is called in package.xml (rosdep's keys)
     "yaml": "python3-yaml",
 }
 WITHOUT_KEY = {"casadi", "rosbags"}  # plain Python that rosdep does not know: docs/dependencies.md
-ONLY_IN_TESTS = {"hypothesis", "mujoco", "pytest", "yourdfpy"}
+ONLY_IN_TESTS = {"hypothesis", "mujoco", "pytest", "vqf", "yourdfpy"}
 
 each_package = pytest.mark.parametrize("package", PACKAGES)
 

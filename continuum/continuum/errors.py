@@ -30,3 +30,7 @@ class FileError(ContinuumError, OSError):
         self.path = path
         self.problem = problem
         super().__init__(f"{path}: {problem}")
+
+
+class MeasurementError(ContinuumError):
+    """What was measured cannot give what was asked of it, for example a bias while the arm moves."""

@@ -1,4 +1,4 @@
-"""A simulated motion as a CSV table, in the columns in which recordings of an arm are read."""
+"""A motion, simulated or measured, as a CSV table, in the columns in which recordings of an arm are read."""
 
 from __future__ import annotations
 
@@ -21,14 +21,39 @@ def write_motion_table(motion: Trajectory, tensions: Tensions, path: str | Path)
         FileError: the file cannot be written.
     """
     pull = np.maximum([tensions.at(t) for t in motion.times], 0.0)
-    joints, cables = range(1, motion.n_joints + 1), range(1, pull.shape[1] + 1)
-    names = [TIME, *map(angle_column, joints), *map(rate_column, joints), *map(tension_column, cables)]
-    columns = [motion.times[:, None], np.degrees(motion.theta), np.degrees(motion.theta_rate), pull]
+    cables = [tension_column(cable) for cable in range(1, pull.shape[1] + 1)]
+    names, columns = _of_joints(motion.times, motion.theta, motion.theta_rate)
+    _write(path, [*names, *cables], np.concatenate([columns, pull], axis=1))
+
+
+def write_measured_motion(times: Array, theta: Array, theta_rate: Array, path: str | Path) -> None:
+    """Write joint angles and rates at some times, without tensions.
+
+    Args:
+        times: (n_times,) [s].
+        theta: joint angles, (n_times, n_joints) [rad].
+        theta_rate: joint rates, (n_times, n_joints) [rad/s].
+        path: of the file.
+
+    Raises:
+        FileError: the file cannot be written.
+    """
+    _write(path, *_of_joints(times, theta, theta_rate))
+
+
+def _of_joints(times: Array, theta: Array, theta_rate: Array) -> tuple[list[str], Array]:
+    """Names of the columns, and the columns."""
+    joints = range(1, theta.shape[1] + 1)
+    names = [TIME, *map(angle_column, joints), *map(rate_column, joints)]
+    return names, np.concatenate([times[:, None], np.degrees(theta), np.degrees(theta_rate)], axis=1)
+
+
+def _write(path: str | Path, names: list[str], columns: Array) -> None:
     try:
         with Path(path).open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow(names)
-            writer.writerows(map(_digits, np.concatenate(columns, axis=1)))
+            writer.writerows(map(_digits, columns))
     except OSError as error:
         raise FileError(path, f"cannot be written ({error.strerror or error})") from error
 

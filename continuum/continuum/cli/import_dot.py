@@ -1,0 +1,157 @@
+"""`continuum import-dot`: joint angles from exported recordings of Xsens DOT sensors, as a run that diagnose reads."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from typing import TYPE_CHECKING, Any
+
+from continuum.cli.output_files import check_writable
+from continuum.cli.tables import print_pairs
+from continuum.errors import FileError, InvalidValueError, MeasurementError
+
+if TYPE_CHECKING:
+    from continuum.inertial.calibration import Calibration
+    from continuum.inertial.imu_recording import ImuRecording
+    from continuum.inertial.recorded_angles import RecordedAngles
+
+Span = tuple[float, float]
+
+
+def add_to(commands: Any) -> None:
+    """Add this subcommand to the parser's."""
+    parser = commands.add_parser(
+        "import-dot", help="joint angles from exported recordings of inertial sensors", description=__doc__,
+        epilog="Times are those of the printed rests: seconds since the first sensor began. A run without tensions is "
+        "one of slack cables, so let it --begin after the cable was let go. "
+        "Exit codes: 0 done, 1 written, but diagnose would refuse it, 2 wrong usage, file or value.",
+    )  # fmt: skip
+    parser.add_argument("files", nargs="+", metavar="FILE.csv", help="of one sensor each, in order from the base")
+    parser.add_argument("--out", metavar="RUN.csv", help="write time, joint angles and rates there; else only look")
+    parser.add_argument(
+        "--first-turn", choices=("1", "2"), metavar="CABLE",
+        help="1 or 2: the cable towards which the arm first turns in the recording; finds the sensors' axes",
+    )  # fmt: skip
+    parser.add_argument(
+        "--zero", metavar="S:S", help="from when to when the arm rests straight, or in --posture, for example 0:5"
+    )
+    parser.add_argument("--posture", metavar="DEG", help="joint angles [degrees] at --zero, q1,q2,..; default straight")
+    parser.add_argument(
+        "--calibration", metavar="FILE.yaml",
+        help="axes and zero of an earlier recording with the sensors in the same places; the bias is found anew",
+    )  # fmt: skip
+    parser.add_argument("--save-calibration", metavar="OUT.yaml", help="write bias, axes and zero there")
+    parser.add_argument("--begin", metavar="S", type=float, default=-math.inf, help="leave out what is earlier")
+    parser.add_argument("--end", metavar="S", type=float, default=math.inf, help="leave out what is later")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Import, tell what was found, and write what was asked for."""
+    from continuum.inertial.calibration import save_calibration
+    from continuum.inertial.clock_check import check_common_clock
+    from continuum.inertial.common_clock import on_one_clock
+    from continuum.inertial.dot_export import read_dot_export
+    from continuum.inertial.estimator_settings import EstimatorSettings
+    from continuum.inertial.recorded_angles import recorded_angles
+    from continuum.inertial.rests import rests
+    from continuum.inertial.time_grid import on_one_grid
+
+    for path in (options.out, options.save_calibration):
+        check_writable(path)
+    exports = [read_dot_export(path) for path in options.files]
+    recording = on_one_grid(on_one_clock(exports))
+    check_common_clock(recording)
+    found = rests(recording)
+    for export in exports:
+        for note in export.notes:
+            print(f"continuum: {export.name}: {note}", file=sys.stderr)
+    _show(recording, found, [export.name for export in exports])
+    if options.out is None and options.save_calibration is None:
+        print("nothing written; --out names a file for the joint angles")
+        return 0
+    calibration = _calibration(options, recording, found)
+    if options.save_calibration is not None:
+        save_calibration(calibration, options.save_calibration)
+        print(f"written: {options.save_calibration}")
+    if options.out is None:
+        return 0
+    settings = EstimatorSettings(period=float(recording.times[1] - recording.times[0]))
+    return _write(options, recorded_angles(recording, calibration, settings))
+
+
+def _show(recording: ImuRecording, found: list[Span], names: list[str]) -> None:
+    lasts = recording.times[-1] - recording.times[0]
+    lost, clipped = (100 * (block.mean(axis=0)) for block in (~recording.valid, recording.clipped))
+    spans = ", ".join(f"{begin:.2f} to {end:.2f}" for begin, end in found)
+    pairs = [(f"sensor {number}", name) for number, name in enumerate(names, start=1)]
+    pairs += [
+        ("together", f"{lasts:.2f} s, {recording.times.size / lasts:.0f} readings a second"),
+        ("missing", ", ".join(f"{share:.1f}" for share in lost) + " % of the readings"),
+        ("clipped", ", ".join(f"{share:.1f}" for share in clipped) + " % of the readings"),
+        ("at rest", f"{spans} s" if found else "never for as long as a second"),
+    ]
+    print_pairs(pairs)
+
+
+def _calibration(options: argparse.Namespace, recording: ImuRecording, found: list[Span]) -> Calibration:
+    from continuum.inertial.calibration import load_calibration
+    from continuum.inertial.calibration_steps import CalibrationSteps
+
+    steps = CalibrationSteps()
+    if options.calibration is not None:
+        known = load_calibration(options.calibration)
+        if known.n_sensors != recording.n_sensors:
+            raise FileError(options.calibration, f"is of {known.n_sensors} sensors, not {recording.n_sensors}")
+        steps = CalibrationSteps.of(known)
+    if not found:
+        raise MeasurementError("the sensors never rest for a second, so their bias cannot be found")
+    steps = steps.with_bias(recording.part(*max(found, key=lambda span: span[1] - span[0])))
+    if options.first_turn is not None:
+        steps = steps.with_axis(recording, 1 if options.first_turn == "1" else -1)
+    if options.zero is not None:
+        steps = steps.with_zero(recording.part(*_span(options.zero)), _posture(options.posture))
+    calibration = steps.complete()
+    if calibration is None:
+        option = "--first-turn" if "axis" in steps.missing else "--zero"
+        raise MeasurementError(f"the {steps.missing[0]} of the sensors is not known: give {option}, or a --calibration")
+    return calibration
+
+
+def _span(text: str) -> Span:
+    begin, colon, end = text.partition(":")
+    try:
+        span = float(begin), float(end)
+    except ValueError:
+        span = math.nan, math.nan
+    if not colon or not span[0] < span[1]:
+        raise InvalidValueError("--zero", text, "two times in s with a colon between them, the earlier first")
+    return span
+
+
+def _posture(text: str | None) -> list[float] | None:
+    """Joint angles [rad]."""
+    try:
+        return None if text is None else [math.radians(float(part)) for part in text.split(",")]
+    except ValueError:
+        raise InvalidValueError("--posture", text, "joint angles in degrees with commas between them") from None
+
+
+def _write(options: argparse.Namespace, angles: RecordedAngles) -> int:
+    from continuum.identification.recording_csv import read_recording_csv
+    from continuum.recordings.motion_table import write_measured_motion
+
+    inside = (angles.times >= options.begin) & (angles.times <= options.end)
+    good = inside & angles.good.all(axis=1)
+    if not good.any():
+        raise MeasurementError("no instant between --begin and --end has good angles of all joints")
+    left = int(inside.sum() - good.sum())
+    write_measured_motion(angles.times[good], angles.theta[good], angles.theta_rate[good], options.out)
+    print(f"written: {options.out}, {good.sum()} rows" + (f"; {left} without good angles left out" if left else ""))
+    try:
+        read_recording_csv(options.out)
+    except FileError as error:
+        print(f"continuum: diagnose would refuse it: {error}", file=sys.stderr)
+        return 1
+    return 0

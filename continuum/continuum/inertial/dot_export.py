@@ -1,0 +1,163 @@
+"""Recordings that the vendor's app exports from Xsens DOT (now Movella DOT) sensors, one CSV file for each sensor.
+
+Facts are those of the vendor's BLE Services Specification (XD0506P rev. C, table 17 and section 3.5.1), User Manual
+(XD0502P, section 4.2) and of files that the app wrote; docs/inertial.md says what is assumed beyond them. A file is
+
+    sep=,
+    DeviceTag:,...            and other lines of `name:,value`, by the app's version
+    (empty)
+    PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z,...
+
+with the columns that were chosen at the export, in any order.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from continuum.arrays import Array
+from continuum.errors import FileError
+from continuum.inertial.imu_sample import Truths
+
+COUNTER, TIME, STATUS = "PacketCounter", "SampleTimeFine", "Status"
+CLIP_COUNTS = ("ClipCountAcc", "ClipCountGyr")
+FORCE = ("Acc_X", "Acc_Y", "Acc_Z")  # m/s2, with gravity
+RATE = ("Gyr_X", "Gyr_Y", "Gyr_Z")  # degrees/s
+WRAP = 2**32
+"""Microseconds after which `SampleTimeFine` begins again: 71.6 minutes."""
+
+_CLIPPED = 0x003F  # bits of Status: accelerometer x, y, z, gyroscope x, y, z beyond their range
+_NEEDED = (TIME, *FORCE, *RATE)
+_LONGEST_HEAD = 50  # lines before the columns' names
+_SUDDEN = 60_000_000  # microseconds: a step of time that no pause in a recording makes
+
+
+@dataclass(frozen=True)
+class DotExport:
+    """One sensor's recording.
+
+    Attributes:
+        path: of the file.
+        tag: the sensor's name as set in the app, empty where the file names none.
+        ticks: of its clock, unwrapped from the first row on, (k,) [microseconds].
+        rates: angular rates in the sensor's axes, (k, 3) [rad/s].
+        forces: specific forces, (k, 3) [m/s2].
+        clipped: beyond the range of accelerometer or gyroscope, (k,).
+        notes: what was left out, and why.
+    """
+
+    path: Path
+    tag: str
+    ticks: NDArray[np.int64]
+    rates: Array
+    forces: Array
+    clipped: Truths
+    notes: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """What to call it in messages."""
+        return f"{self.path.name} ({self.tag})" if self.tag else self.path.name
+
+
+def read_dot_export(path: str | Path) -> DotExport:
+    """Read one file.
+
+    Raises:
+        FileError: it cannot be read, lacks a column, holds what is no number, or time runs backward in it.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8-sig", errors="replace")  # old apps wrote a copyright sign in another code
+    except OSError as error:
+        raise FileError(path, f"cannot be read ({error.strerror or error})") from error
+    lines = text.splitlines()
+    separator = lines[0][4:5] if lines and lines[0].startswith("sep=") else ","
+    try:
+        rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO(text), delimiter=separator or ",")]
+    except csv.Error as error:
+        raise FileError(path, f"cannot be read as CSV ({error})") from error
+    at = next((i for i, row in enumerate(rows[:_LONGEST_HEAD]) if TIME in row), None)
+    if at is None:
+        raise FileError(path, f"has no line with the column {TIME}: is it a CSV export of an Xsens DOT?")
+    head = {row[0].rstrip(":"): row[1] for row in rows[:at] if len(row) > 1}
+    columns, numbers = _columns(path, rows, at)
+    return _export(path, head.get("DeviceTag", ""), columns, numbers)
+
+
+def _columns(path: Path, rows: list[list[str]], at: int) -> tuple[dict[str, Array], NDArray[np.int64]]:
+    """The columns that are used, by name, and the number of each row in the file."""
+    header = rows[at]
+    missing = [name for name in _NEEDED if name not in header]
+    if missing:
+        raise FileError(
+            path, f"has no column {', '.join(missing)}: choose them at the export; it has {', '.join(header)}"
+        )
+    wanted = [name for name in (COUNTER, *_NEEDED, STATUS, *CLIP_COUNTS) if name in header]
+    for name in wanted:
+        if header.count(name) > 1:
+            raise FileError(path, f"has the column {name} twice")
+    places = [header.index(name) for name in wanted]
+    lines = [(number, row) for number, row in enumerate(rows[at + 1 :], start=at + 2) if any(row)]
+    table = np.empty((len(lines), len(wanted)))
+    for values, (number, row) in zip(table, lines, strict=True):
+        if len(row) <= max(places):
+            raise FileError(path, f"row {number} has {len(row)} cells, its columns' names {len(header)}")
+        values[:] = [_number(path, number, header[place], row[place]) for place in places]
+    return dict(zip(wanted, table.T, strict=True)), np.array([number for number, _ in lines], dtype=np.int64)
+
+
+def _number(path: Path, row: int, column: str, cell: str) -> float:
+    try:
+        value = float(cell)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise FileError(path, f"row {row}, column {column}: {cell!r} is no number")
+    return value
+
+
+def _export(path: Path, tag: str, columns: dict[str, Array], numbers: NDArray[np.int64]) -> DotExport:
+    if not numbers.size:
+        raise FileError(path, "has no rows")
+    wrapped = columns[TIME]
+    if np.any((wrapped < 0) | (wrapped >= WRAP) | (wrapped != np.floor(wrapped))):
+        at = int(np.argmax((wrapped < 0) | (wrapped >= WRAP) | (wrapped != np.floor(wrapped))))
+        raise FileError(
+            path, f"row {numbers[at]}: {TIME} is {wrapped[at]:g}; allowed: whole numbers from 0 to 2^32 - 1"
+        )
+    ticks = _unwrapped(path, wrapped.astype(np.int64), numbers)
+    readings = np.stack([columns[name] for name in (*FORCE, *RATE)], axis=1)
+    clipped = (columns.get(STATUS, np.zeros(ticks.size)).astype(np.int64) & _CLIPPED) != 0
+    for name in CLIP_COUNTS:
+        clipped |= columns.get(name, np.zeros(ticks.size)) > 0
+    empty, again = ~readings.any(axis=1), np.diff(ticks, prepend=-1) == 0
+    notes = [
+        f"{np.count_nonzero(rows)} rows {why}, left out (first: row {numbers[rows][0]})"
+        for rows, why in ((empty, "of nothing but zeros"), (again & ~empty, "with the time of the row before"))
+        if rows.any()
+    ]
+    keep = ~(empty | again)
+    return DotExport(
+        path, tag, ticks[keep], np.radians(readings[keep, 3:]), readings[keep, :3], clipped[keep], tuple(notes)
+    )
+
+
+def _unwrapped(path: Path, wrapped: NDArray[np.int64], numbers: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Ticks that go on beyond 2^32."""
+    steps = np.diff(wrapped)
+    steps = np.where(steps < -WRAP // 2, steps + WRAP, steps)
+    wrong = (steps < 0) | (steps > _SUDDEN)
+    if wrong.any():
+        at = int(np.argmax(wrong))
+        raise FileError(
+            path, f"row {numbers[at + 1]}: time jumps by {steps[at] / 1e6:g} s; are these two recordings in one file?"
+        )
+    return np.asarray(wrapped[0] + np.concatenate([[0], np.cumsum(steps)]), dtype=np.int64)

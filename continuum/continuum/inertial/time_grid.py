@@ -1,0 +1,101 @@
+"""Streams of sensors that were started at different instants, brought to one grid of times.
+
+A sensor that sums up inside gives means over its period, so that the sum of its readings is the exact turn (and gain of
+speed) at its own instants. That sum is smooth: it is interpolated by a cubic spline, and differences of it over the
+grid's periods are means again. A stream whose instants are the grid's comes through unchanged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from continuum.arrays import Array
+from continuum.errors import MeasurementError
+from continuum.inertial.imu_recording import ImuRecording
+from continuum.inertial.imu_sample import Truths
+
+_BREAK = 1.5  # periods between readings: something is missing
+_SAME_PERIOD = 0.01
+_FEWEST = 4  # readings of a piece, for its spline
+_SLACK = 0.02  # periods by which the grid may reach beyond a stream
+
+
+@dataclass(frozen=True)
+class Stream:
+    """One sensor's readings, in its own axes.
+
+    Attributes:
+        name: what it is called in messages.
+        times: increasing, by a clock common to all streams, (k,) [s].
+        rates: means over the period before, (k, 3) [rad/s].
+        forces: specific forces likewise, (k, 3) [m/s2].
+        clipped: (k,).
+    """
+
+    name: str
+    times: Array
+    rates: Array
+    forces: Array
+    clipped: Truths
+
+    @property
+    def period(self) -> float:
+        """Between readings, as exact as the whole stream tells it [s]."""
+        lasts = self.times[-1] - self.times[0]
+        return float(lasts / round(lasts / np.median(np.diff(self.times))))
+
+
+def on_one_grid(streams: Sequence[Stream]) -> ImuRecording:
+    """All streams while all of them ran; what one has missed is not valid.
+
+    Raises:
+        MeasurementError: different rates, too few readings, or no time in common.
+    """
+    for stream in streams:
+        if stream.times.size < _FEWEST:
+            raise MeasurementError(f"{stream.name} has only {stream.times.size} readings")
+    period = streams[0].period
+    for stream in streams:
+        if abs(stream.period - period) > _SAME_PERIOD * period:
+            raise MeasurementError(
+                f"{stream.name} has {1 / stream.period:.1f} readings a second, {streams[0].name} {1 / period:.1f}"
+            )
+    begin, end = max(stream.times[0] for stream in streams), min(stream.times[-1] for stream in streams)
+    if end - begin < _FEWEST * period:
+        told = ", ".join(f"{s.name} {s.times[0]:.1f} to {s.times[-1]:.1f} s" for s in streams)
+        raise MeasurementError(f"no time is common to all sensors ({told}): were they synchronised?")
+    times = begin + period * np.arange(int((end - begin) / period + _SLACK) + 1)
+    columns = [_on_grid(stream, times, period) for stream in streams]
+    rates, forces, clipped, valid = (np.stack(block, axis=1) for block in zip(*columns, strict=True))
+    return ImuRecording(times, rates, forces, clipped, valid)
+
+
+def _on_grid(stream: Stream, times: Array, period: float) -> tuple[Array, Array, Truths, Truths]:
+    """Rates (n_times, 3), forces (n_times, 3), clipped and valid (n_times,)."""
+    readings = np.concatenate([stream.rates, stream.forces], axis=1)
+    found, valid = np.zeros((times.size, 6)), np.zeros(times.size, dtype=bool)
+    slack = _SLACK * period
+    for piece in _pieces(stream.times, period):
+        if piece.size < _FEWEST:
+            continue
+        own = stream.times[piece]
+        nodes = np.concatenate([[own[0] - period], own])
+        total = CubicSpline(nodes, np.concatenate([np.zeros((1, 6)), np.cumsum(readings[piece], axis=0) * period]))
+        inside = (times - period >= nodes[0] - slack) & (times <= nodes[-1] + slack)
+        found[inside] = (total(times[inside]) - total(times[inside] - period)) / period
+        valid |= inside
+    after = np.clip(np.searchsorted(stream.times, times - slack), 0, stream.times.size - 1)
+    before = np.maximum(after - 1, 0)
+    apart = stream.times[after] - times > slack  # a grid's period that two readings share
+    clipped = stream.clipped[after] | (apart & stream.clipped[before])
+    return found[:, :3], found[:, 3:], clipped & valid, valid
+
+
+def _pieces(times: Array, period: float) -> list[NDArray[np.intp]]:
+    """Rows between breaks."""
+    return np.split(np.arange(times.size), np.flatnonzero(np.diff(times) > _BREAK * period) + 1)

@@ -1,0 +1,156 @@
+"""The vendor's files of one sensor each: what is read of them, and how they come to one clock."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from inertial_arm import TAGS, SensorModel, pull_and_release, sensed, with_losses, write_exports
+
+from continuum.errors import FileError, MeasurementError
+from continuum.inertial.common_clock import on_one_clock
+from continuum.inertial.dot_export import WRAP, DotExport, read_dot_export
+from continuum.inertial.imu_recording import ImuRecording
+
+STORED = 120.0
+
+
+@pytest.fixture(scope="module")
+def recording() -> ImuRecording:
+    return sensed(pull_and_release(), STORED, SensorModel(), seed=3)[0]
+
+
+@pytest.fixture
+def short(recording: ImuRecording) -> ImuRecording:
+    return recording.part(0.0, 1.0)
+
+
+def test_a_file_gives_what_the_sensor_read(tmp_path: Path, short: ImuRecording) -> None:
+    clipped = short.clipped.copy()
+    clipped[7, 0] = True
+    found = [read_dot_export(path) for path in write_exports(tmp_path, replace(short, clipped=clipped))]
+    assert [export.tag for export in found] == list(TAGS)
+    for i, export in enumerate(found):
+        np.testing.assert_allclose(export.rates, short.rates[:, i], atol=1e-12)
+        np.testing.assert_allclose(export.forces, short.forces[:, i], atol=1e-12)
+        np.testing.assert_allclose(np.diff(export.ticks), 1e6 / STORED, atol=1)
+        assert np.flatnonzero(export.clipped).tolist() == ([7] if i == 0 else [])
+        assert export.notes == ()
+
+
+def test_time_goes_on_where_the_clock_begins_again(tmp_path: Path, short: ImuRecording) -> None:
+    plain = on_one_clock([read_dot_export(path) for path in write_exports(tmp_path, short)])
+    lost = np.zeros(short.valid.shape, dtype=bool)
+    lost[:80, 2] = True  # it starts after the others, when its clock has begun again
+    wrapped = [read_dot_export(path) for path in write_exports(tmp_path, with_losses(short, lost), WRAP - 500_000)]
+    found = on_one_clock(wrapped)
+    for i, (before, after) in enumerate(zip(plain, found, strict=True)):
+        np.testing.assert_allclose(after.times, before.times[80 if i == 2 else 0 :], atol=2e-6)
+
+
+def test_starts_far_apart_are_refused(tmp_path: Path, short: ImuRecording) -> None:
+    found = [read_dot_export(path) for path in write_exports(tmp_path, short)]
+    found[3] = replace(found[3], ticks=found[3].ticks + 3_000_000_000)
+    with pytest.raises(MeasurementError, match="not synchronised, or another test"):
+        on_one_clock(found)
+
+
+HEAD = "sep=,\nDeviceTag:,joint 1\nStartTime: ,x\n\n"
+COLUMNS = "PacketCounter,SampleTimeFine,Gyr_X,Gyr_Y,Gyr_Z,Acc_X,Acc_Y,Acc_Z"
+
+
+def parsed(folder: Path, text: str, encoding: str = "utf-8") -> DotExport:
+    path = folder / "one.csv"
+    path.write_bytes(text.encode(encoding))
+    return read_dot_export(path)
+
+
+def test_columns_in_any_order_other_columns_and_other_separators(tmp_path: Path) -> None:
+    row = "4,100,1,2,3,4,5,6"
+    for text in (
+        f"{HEAD}{COLUMNS}\n{row}\n",
+        f"{HEAD}Euler_X,{COLUMNS}\n7,{row}\n",
+        f"{COLUMNS}\n{row}",
+        f"{HEAD}{COLUMNS}\r\n\r\n{row}\r\n,,,\r\n".replace("\n", "\r\n").replace("\r\r", "\r"),
+        f"{HEAD}{COLUMNS}\n{row}\n".replace(",", ";"),
+    ):
+        found = parsed(tmp_path, text)
+        np.testing.assert_allclose(np.degrees(found.rates), [[1, 2, 3]])
+        np.testing.assert_allclose(found.forces, [[4, 5, 6]])
+    assert parsed(tmp_path, f"{HEAD}\xa9 the vendor\n{COLUMNS}\n{row}\n", "latin-1").tag == "joint 1"
+
+
+@pytest.mark.parametrize(
+    ("extra", "clips"),
+    [("Status", {0: False, 1: True, 8: True, 0x20: True, 0x40: False, 0x100: False, 0x200: False, 0x210: True}),
+     ("ClipCountAcc", {0: False, 1: True, 255: True}), ("ClipCountGyr", {0: False, 3: True})],
+)  # fmt: skip
+def test_clips_by_the_vendors_flags(tmp_path: Path, extra: str, clips: dict[int, bool]) -> None:
+    rows = [f"{k},{100 * k},1,2,3,4,5,6,{value}" for k, value in enumerate(clips)]
+    found = parsed(tmp_path, "\n".join([COLUMNS + "," + extra, *rows]))
+    assert found.clipped.tolist() == list(clips.values())
+
+
+def test_empty_and_repeated_rows_are_left_out_and_told(tmp_path: Path) -> None:
+    rows = ["0,100,0,0,0,0,0,0", "1,200,1,1,1,1,1,1", "2,200,2,2,2,2,2,2", "3,300,3,3,3,3,3,3"]
+    found = parsed(tmp_path, "\n".join([COLUMNS, *rows]))
+    assert found.ticks.tolist() == [200, 300]
+    assert found.notes == (
+        "1 rows of nothing but zeros, left out (first: row 2)",
+        "1 rows with the time of the row before, left out (first: row 4)",
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("", "no line with the column SampleTimeFine"),
+        ("t,x\n1,2\n", "no line with the column SampleTimeFine"),
+        (HEAD + COLUMNS.replace("Gyr_Y", "Mag_Y"), "has no column Gyr_Y: choose them at the export"),
+        (HEAD + COLUMNS, "has no rows"),
+        (f"{COLUMNS},Gyr_X\n1,2,3,4,5,6,7,8,9", "has the column Gyr_X twice"),
+        (f"{COLUMNS}\n1,2,3,4,5,6,7", "row 2 has 7 cells"),
+        (f"{COLUMNS}\n1,2,3,x,5,6,7,8", "row 2, column Gyr_Y: 'x' is no number"),
+        (f"{COLUMNS}\n1,2,3,,5,6,7,8", "row 2, column Gyr_Y: '' is no number"),
+        (f"{COLUMNS}\n1,2,3,nan,5,6,7,8", "'nan' is no number"),
+        (f"{COLUMNS}\n1,-2,3,4,5,6,7,8", "SampleTimeFine is -2"),
+        (f"{COLUMNS}\n1,2.5,3,4,5,6,7,8", "SampleTimeFine is 2.5"),
+        (f"{COLUMNS}\n1,4294967296,3,4,5,6,7,8", "SampleTimeFine is 4.29497e\\+09"),
+        (f"{COLUMNS}\n1,900,3,4,5,6,7,8\n2,100,3,4,5,6,7,8", "row 3: time jumps by -0.0008 s; are these two"),
+        (f"{COLUMNS}\n1,900,3,4,5,6,7,8\n2,900000000,3,4,5,6,7,8", "row 3: time jumps by 899.999 s"),
+        (f"{COLUMNS}\n1,9,3,4,5,6,7,8\n\n3,\"", "no number|cells|cannot be read"),
+    ],
+)  # fmt: skip
+def test_damaged_files_are_refused_by_row(tmp_path: Path, text: str, told: str) -> None:
+    with pytest.raises(FileError, match=told):
+        parsed(tmp_path, text)
+
+
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match="cannot be read"):
+        read_dot_export(tmp_path / "no.csv")
+
+
+GOOD = "\n".join([HEAD + COLUMNS, *(f"{k},{8333 * k},1.5,2,3,4,5,9.81" for k in range(5))])
+
+
+@settings(max_examples=300)
+@given(st.data())
+def test_whatever_is_in_a_file_it_is_read_or_refused(
+    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
+) -> None:
+    at = data.draw(st.integers(0, len(GOOD)))
+    length = data.draw(st.integers(0, 40))
+    text = GOOD[:at] + data.draw(st.text(max_size=30)) + GOOD[at + length :]
+    path = tmp_path_factory.getbasetemp() / "damaged.csv"
+    path.write_bytes(text.encode("utf-8", errors="surrogatepass"))
+    try:
+        found = read_dot_export(path)
+    except FileError as error:
+        assert str(path) in str(error)  # noqa: PT017  (either outcome is right)
+    else:
+        assert np.isfinite(found.rates).all()
+        assert np.isfinite(found.forces).all()
+        assert (np.diff(found.ticks) > 0).all()
