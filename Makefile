@@ -5,7 +5,8 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo test reproduction bench-dynamics bench-ik bench-discovery bench-inertial prototype check format lock clean
+.PHONY: help setup demo bench-demo test reproduction bench-dynamics bench-ik bench-discovery bench-inertial fuzz prototype \
+  check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -15,6 +16,9 @@ setup: ## make .venv, install pinned versions, build the workspace; does nothing
 
 demo: setup ## follow the thesis's helix with real nodes, results in out/demo
 	@$(IN_WORKSPACE) python3 -m tools.demo $(ARGS)
+
+bench-demo: setup ## emulated bench, bridge and simulated arm: pulled, released, recorded, diagnosed; results in out/bench_demo
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.bench_demo $(ARGS)
 
 test: check ## run the checks and every test (ARGS="-k name" are given to pytest)
 	@$(IN_WORKSPACE) pytest $(ARGS)
@@ -32,6 +36,11 @@ bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/
 
 bench-discovery: setup ## hide effects and see what is found; ARGS="--minutes 60" stops it; overwrites docs/discovery-benchmark.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_discovery $(ARGS)
+
+fuzz: setup ## damaged and made-up bytes through the bench protocol's parsers (2 minutes); overwrites docs/bench-fuzzing.md
+	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/fuzz/extra \
+	  -r tools/fuzz_bench/requirements.txt || echo "atheris cannot be installed and is left out"
+	@$(IN_WORKSPACE) python3 -m tools.fuzz_bench $(ARGS)
 
 bench-inertial: setup ## measure joint angles from inertial sensors (3 minutes); overwrites a table of docs/inertial.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="continuum/test:$$PYTHONPATH" python3 -m tools.bench_inertial $(ARGS)

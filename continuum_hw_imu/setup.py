@@ -1,3 +1,5 @@
+from glob import glob
+
 from setuptools import find_packages, setup
 
 package_name = "continuum_hw_imu"
@@ -9,7 +11,14 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),
+        (f"share/{package_name}/launch", glob("launch/*.*")),
     ],
     install_requires=["setuptools"],
     zip_safe=True,
+    entry_points={
+        "console_scripts": [
+            "bench_bridge = continuum_hw_imu.bench_bridge_node:main",
+            "bench_emulator = continuum_hw_imu.emulator.command:main",
+        ],
+    },
 )

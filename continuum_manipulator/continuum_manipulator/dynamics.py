@@ -12,16 +12,17 @@ from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from continuum import joint_names
 from continuum.dynamics.live.live_arm import INTEGRATORS, LiveArm
-from continuum.dynamics.live.tension_follower import TensionFollower, TensionLimits
+from continuum.dynamics.live.tension_follower import TensionFollower
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
 from continuum.parameter_spec import ParameterSpec
 from continuum_manipulator.load_meter import LoadMeter, Mark
+from continuum_manipulator.nodekit import tension_limits
 from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.planar_arm import PlanarArm
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 from continuum_manipulator.nodekit.tension_commands import read_tensions
 from continuum_manipulator.pace import Pace
@@ -37,9 +38,6 @@ CATCH_UP_PERIOD = 0.001
 
 LONGEST_GO = 0.01
 """Seconds, by the machine's clock, after which a go ends: one other event is served between two goes, no more."""
-
-LIMITS = ("max_tension", "max_tension_rate", "command_timeout", "slack_time")
-"""Parameters that make the `TensionLimits`, in its order."""
 
 
 class DynamicsNode(CheckedNode):
@@ -64,31 +62,18 @@ class DynamicsNode(CheckedNode):
                       default=0.0),
         ParameterSpec("initial_angles", float, "joint angles at the start from base to tip, in the place of a bend",
                       "rad", -np.pi, np.pi, is_list=True, default=[]),
-        ParameterSpec("max_tension", float, "largest tension of a cable", "N", 0.0, 1e4, default=30.0),
-        ParameterSpec("max_tension_rate", float, "fastest change of tension that commands make", "N/s", 0.0, 1e6,
-                      lower_open=True, default=100.0),
-        ParameterSpec("command_timeout", float, "age up to which a tension command holds", "s", 0.02, 3600.0,
-                      default=0.5),
-        ParameterSpec("slack_time", float, "time from there until the cables are slack", "s", 1e-3, 3600.0,
-                      default=0.5),
+        *tension_limits.PARAMETERS,
     )  # fmt: skip
 
     def __init__(self) -> None:
         super().__init__()
-        section = str(self.values["section"])
-        joint_names.check_section(section)
         model = load_model(self.values["model"])
+        self._planar = PlanarArm(str(self.values["section"]), model)
         self._n_joints = model.n_joints
         self._posture = initial_posture(model.n_joints, self.values)
         self._arm = LiveArm(model, self._posture, self.values["integrator"])
-        self._joints = [
-            joint_names.phi_joint(section),
-            *joint_names.theta_joints(section, model.n_joints),
-            joint_names.phi_back_joint(section),
-        ]
-        self._cables = list(joint_names.cable_names(section, len(SIDES)))
-        limits = TensionLimits(*(self.values[name] for name in LIMITS))
-        self._tensions = TensionFollower(limits, len(SIDES))
+        self._limits = tension_limits.limits_from(self.values)
+        self._tensions = TensionFollower(self._limits, len(SIDES))
         self._pace: Pace | None = None  # until there is a time
         self._by_clock = bool(self.get_parameter("use_sim_time").value)
         self._failure: SimulationStatus | None = None
@@ -167,10 +152,7 @@ class DynamicsNode(CheckedNode):
         duration = (self._pace.reach(number) - begin) / NANOSECONDS
         interval = self._tensions.move_on(self._pace.seconds(begin), duration)
         if self._tensions.abandoned and not before:
-            timeout, slack = self.values["command_timeout"], self.values["slack_time"]
-            self.diagnostics.warnings.note(
-                "tension commands stopped", f"none for {timeout:g} s; the cables are slack in {slack:g} s"
-            )
+            tension_limits.tell_abandoned(self.diagnostics, self._limits)
         status = self._arm.advance(interval)
         if status is SimulationStatus.COMPLETE:
             self._publish()
@@ -178,31 +160,18 @@ class DynamicsNode(CheckedNode):
             self._failure = status
 
     def _publish(self) -> None:
-        """Publish the state at the last instant simulated. Joints have no motors, so only cables have an effort."""
+        """Publish the state at the last instant simulated."""
         stamp = Time(nanoseconds=self._pace.last).to_msg()
-        joints = JointState(name=self._joints)
-        joints.header.stamp = stamp
-        joints.position = [0.0, *self._arm.angles, 0.0]  # positive bends are towards phi = 0
-        joints.velocity = [0.0, *self._arm.rates, 0.0]
-        cables = CableStates(section=CableStates.WHOLE_ARM, name=self._cables)
-        cables.header.stamp = stamp
-        cables.position = self._arm.cable_lengths
-        cables.velocity = self._arm.cable_rates
-        cables.effort = self._tensions.tension
-        self._publish_joints(joints)
-        self._publish_cables(cables)
+        angles, rates = self._arm.angles, self._arm.rates
+        self._publish_joints(self._planar.joint_state(stamp, angles, rates))
+        self._publish_cables(self._planar.cable_states(stamp, angles, rates, self._tensions.tension))
 
     def _on_command(self, message: CableStates) -> None:
         now = self._now()
-        wanted = read_tensions(message, self._cables, now, self.values["command_timeout"])
+        wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
         if self._pace is None:
             return  # within the first period
-        most = self.values["max_tension"]
-        for name, tension in zip(self._cables, wanted, strict=True):
-            if tension > most:
-                self.diagnostics.warnings.note(
-                    "tension limited", f"{name}: {tension:g} N commanded, max_tension is {most:g} N"
-                )
+        tension_limits.tell_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
         self._tensions.command(wanted, self._pace.seconds(min(now, nanoseconds(message.header.stamp))))
 
     def _release(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:

@@ -17,6 +17,8 @@ from rclpy.qos import QoSProfile
 from continuum_manipulator.nodekit.qos import REPORT, STREAM
 from harness.waiting import LONG
 
+LEVELS = {getattr(DiagnosticStatus, name): name for name in ("OK", "WARN", "ERROR", "STALE")}
+
 
 class Probe:
     """Speaks on topics and keeps all that it hears. Use as a context.
@@ -94,7 +96,10 @@ class Probe:
                 last, before = time.monotonic(), sum(map(len, self._heard))
 
     def report(self, node: str) -> dict[str, str]:
-        """The latest diagnostics of a node: its values by key, and ``level`` as OK or WARN; empty before the first."""
+        """The latest diagnostics of a node: its values by key, and ``level`` as OK, WARN, ERROR or STALE; empty before.
+
+        A further status of the node is asked for by its whole name, ``node: subject``; its words are in ``message``.
+        """
         return self._reports.get(node, {})
 
     def count(self, node: str, key: str) -> int:
@@ -109,5 +114,5 @@ class Probe:
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         for status in message.status:
             values = {entry.key: entry.value for entry in status.values}
-            values["level"] = {DiagnosticStatus.OK: "OK", DiagnosticStatus.WARN: "WARN"}[status.level]
+            values |= {"level": LEVELS[status.level], "message": status.message}
             self._reports[status.name.removesuffix(": messages")] = values

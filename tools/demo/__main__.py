@@ -3,13 +3,7 @@
 import signal
 import sys
 
-
-def interrupt_on(*numbers: signal.Signals) -> None:
-    """Let these signals end the demo as Ctrl-C does, with everything it started."""
-    for number in numbers:
-        if signal.getsignal(number) is not signal.SIG_IGN:
-            signal.signal(number, signal.default_int_handler)
-
+from tools.demo.signals import interrupt_on
 
 if __name__ == "__main__":
     try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import fcntl
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -15,8 +15,8 @@ RESULTS = ("recording", "nodes.log", "cable_states.csv", "cables.png")
 
 
 @contextmanager
-def claimed(folder: Path) -> Iterator[None]:
-    """Make ``folder`` and remove the results of an earlier demo from it; no other demo writes there meanwhile.
+def claimed(folder: Path, results: Sequence[str] = RESULTS) -> Iterator[None]:
+    """Make ``folder`` and remove the ``results`` of an earlier demo from it; no other demo writes there meanwhile.
 
     Raises:
         DemoError: another demo does, or the folder cannot be made.
@@ -31,7 +31,7 @@ def claimed(folder: Path) -> Iterator[None]:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise DemoError(f"another demo is writing to {folder}; wait for its end, or give --out") from None
-        for name in RESULTS:
+        for name in results:
             path = folder / name
             if path.is_dir():
                 shutil.rmtree(path)

@@ -6,7 +6,7 @@ import os
 import re
 import signal
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -30,16 +30,21 @@ def run_nodes(trajectory_file: Path, arm_file: Path, out: Path, domain: int, n_p
     command += [f"{name}:={path}" for name, path in files.items()]
     log_file = out / "nodes.log"
     with log_file.open("w", encoding="utf-8") as log, launched(command, domain, log.fileno()) as launch:
+        return follow(domain, n_poses, checker(launch, log_file))
 
-        def check() -> None:
-            text = log_file.read_text(encoding="utf-8", errors="replace")
-            death = _DEATH.search(text)
-            if death:
-                raise DemoError(f"{death['label']} died: {_last_words(text, death)}; see {log_file}")
-            if launch.poll() is not None:
-                raise DemoError(f"the launch ended: {(text.strip() or 'silently').splitlines()[-1]}; see {log_file}")
 
-        return follow(domain, n_poses, check)
+def checker(launch: subprocess.Popen[bytes], log_file: Path) -> Callable[[], None]:
+    """A look at a launch that writes to ``log_file``: it raises `DemoError` when a node has died, or all has ended."""
+
+    def check() -> None:
+        text = log_file.read_text(encoding="utf-8", errors="replace")
+        death = _DEATH.search(text)
+        if death:
+            raise DemoError(f"{death['label']} died: {_last_words(text, death)}; see {log_file}")
+        if launch.poll() is not None:
+            raise DemoError(f"the launch ended: {(text.strip() or 'silently').splitlines()[-1]}; see {log_file}")
+
+    return check
 
 
 def _last_words(text: str, death: re.Match[str]) -> str:

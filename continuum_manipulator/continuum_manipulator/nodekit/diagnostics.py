@@ -32,6 +32,7 @@ class Diagnostics:
         faults: refused messages by cause.
         warnings: other things that deserve a look, by cause.
         values: further entries of the report, asked for when it is made.
+        subjects: give a status each of something else that the node watches, asked for when the report is made.
     """
 
     def __init__(self, node: Node) -> None:
@@ -42,6 +43,7 @@ class Diagnostics:
         self.faults = BurstLog(lambda line: node.get_logger().warning(line), time.monotonic, "dropped, ")
         self.warnings = BurstLog(lambda line: node.get_logger().warning(line), time.monotonic)
         self.values: dict[str, Callable[[], object]] = {}
+        self.subjects: list[Callable[[], DiagnosticStatus]] = []
         self._seen = 0
         self._warn_until = -float("inf")
         self._publisher = node.create_publisher(DiagnosticArray, "/diagnostics", REPORT)
@@ -51,7 +53,7 @@ class Diagnostics:
         """Publish the counts; say what the logs still have to say."""
         self.faults.tick()
         self.warnings.tick()
-        message = DiagnosticArray(status=[self._status()])
+        message = DiagnosticArray(status=[self._status(), *(subject() for subject in self.subjects)])
         message.header.stamp = self._node.get_clock().now().to_msg()
         self._publisher.publish(message)
 

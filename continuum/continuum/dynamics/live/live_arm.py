@@ -10,7 +10,7 @@ from continuum.dynamics.live.bdf_stepper import BdfStepper
 from continuum.dynamics.live.esdirk_stepper import EsdirkStepper
 from continuum.dynamics.live.stepper import Interval, Stepper
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cables import SIDES, chord_lengths, chord_slopes
+from continuum.dynamics.planar.cables import SIDES, cable_lengths, cable_rates
 from continuum.dynamics.simulation_input import initial_state
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
@@ -78,9 +78,9 @@ class LiveArm:
     @property
     def cable_lengths(self) -> Array:
         """Of each cable from the base plate to the last disc, (n_cables,) [m]."""
-        return np.asarray(chord_lengths(self.angles, self._model.parameters).sum(axis=0))
+        return cable_lengths(self.angles, self._model.parameters)
 
     @property
     def cable_rates(self) -> Array:
         """Their rates, positive when a cable gets longer, (n_cables,) [m/s]."""
-        return np.asarray(self.rates @ chord_slopes(self.angles, self._model.parameters))
+        return cable_rates(self.angles, self.rates, self._model.parameters)

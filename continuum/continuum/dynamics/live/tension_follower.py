@@ -36,7 +36,7 @@ class TensionFollower:
 
     Attributes:
         tension: of each cable now, (n_cables,) [N].
-        abandoned: commands stopped coming while a cable was tight; False again with the next one.
+        abandoned: a tight cable was let go, as commands stopped coming; False again with the next one.
     """
 
     def __init__(self, limits: TensionLimits, n_cables: int) -> None:
@@ -59,19 +59,26 @@ class TensionFollower:
         self._heard = now
         self.abandoned = False
 
+    def abandon(self) -> None:
+        """Let go of the cables: slack within the slack time, unless a command comes."""
+        if self.tight and not self.abandoned:
+            self.abandoned = True
+            self._goal = self._slack
+            self._rate = self.tension / self._limits.slack_time
+
     def forget_time(self) -> None:
         """The clock went back: who commanded has to do so again, or the cables are let go."""
         self._heard = -np.inf
 
     def move_on(self, now: float, duration: float) -> Interval:
         """The tensions from ``now`` on for a ``duration`` [s], which then are those of the follower."""
-        if not self.abandoned and now - self._heard > self._limits.patience and self._is_tight():
-            self.abandoned = True
-            self._goal = self._slack
-            self._rate = self.tension / self._limits.slack_time
+        if now - self._heard > self._limits.patience:
+            self.abandon()
         before, most = self.tension, self._rate * duration
         self.tension = np.maximum(before + np.clip(self._goal - before, -most, most), 0.0)
         return Interval(duration, before, self.tension)
 
-    def _is_tight(self) -> bool:
+    @property
+    def tight(self) -> bool:
+        """Whether a cable pulls, or is to pull."""
         return bool(np.any(self.tension > 0) or np.any(self._goal > 0))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameters
 
@@ -25,3 +26,13 @@ def chord_slopes(theta: Numbers, p: Parameters) -> Numbers:
     """d l / d theta of the same, (n, n_cables) [m/rad]."""
     half = theta[:, None] / 2
     return -(p.half_spacing[:, None] * np.sin(half) + SIDES * p.hole_radius[:, None] * np.cos(half))
+
+
+def cable_lengths(theta: Array, p: Parameters) -> Array:
+    """Length of each cable from the base plate to the last disc, (n_cables,) [m]."""
+    return np.asarray(chord_lengths(theta, p).sum(axis=0))
+
+
+def cable_rates(theta: Array, rate: Array, p: Parameters) -> Array:
+    """Their rates, positive when a cable gets longer, (n_cables,) [m/s]."""
+    return np.asarray(rate @ chord_slopes(theta, p))

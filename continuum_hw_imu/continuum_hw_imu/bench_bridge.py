@@ -1,0 +1,290 @@
+"""Lifecycle node between the workspace and a bench: sensors in, joint and cable states out; tension commands in."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from lifecycle_msgs.msg import State
+from lifecycle_msgs.srv import ChangeState
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
+from rclpy.lifecycle.node import LifecycleNodeMixin
+from sensor_msgs.msg import Imu, JointState
+from std_srvs.srv import Trigger
+
+from continuum.dynamics.model_file import load_model
+from continuum.errors import ContinuumError, InvalidValueError
+from continuum.inertial.calibration import save_calibration
+from continuum_hw_imu.bench_commander import ANSWER_TIME, BenchCommander
+from continuum_hw_imu.bench_diagnostics import BenchDiagnostics
+from continuum_hw_imu.bench_parameters import AUTOSTARTS, PARAMETERS, steps_from
+from continuum_hw_imu.bench_streams import BenchStreams
+from continuum_hw_imu.emulator.sensor_model import SensorQuality
+from continuum_hw_imu.imu_messages import ImuMessages
+from continuum_hw_imu.link.bench_client import BenchClient
+from continuum_hw_imu.sensor_watch import SensorWatch
+from continuum_manipulator.nodekit import tension_limits
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.faults import MessageFault
+from continuum_manipulator.nodekit.planar_arm import PlanarArm
+from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
+from continuum_manipulator.nodekit.tension_commands import read_tensions
+from continuum_msgs.msg import CableStates
+
+COMMANDS = "cable_tension_cmd"
+
+RCLError = rclpy_implementation.RCLError
+
+OPEN_TIME = 0.3
+"""Within which a port that is there opens [s]."""
+
+AUTOSTART_PERIOD = 1.0
+"""Between two attempts to begin [s]."""
+
+DONE, FAILED = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
+
+Answer = Trigger.Response
+
+
+class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
+    """A bench's sensors to ``imu_N/data_raw``, ``joint_states``, ``cable_states``; ``cable_tension_cmd`` to its cables.
+
+    A lifecycle node: configured, it has the port and publishes; only while active it lets tension through. It becomes
+    inactive by itself, cables slack, when the link is lost, the bench begins anew, another one commands it, or
+    ``~/stop`` was called, which ``~/reset_stop`` ends. ``~/release`` drops all tension at once; later commands pull
+    again. Joint states are published while every joint is known: first ``~/calibrate_bias`` (at rest), ``~/find_axes``
+    (after bending towards cable 1 and back) and ``~/zero`` (at rest, straight), or a calibration file.
+    """
+
+    NAME = "bench_bridge"
+    PARAMETERS = PARAMETERS
+
+    def __init__(self) -> None:
+        CheckedNode.__init__(self)
+        if self.get_parameter("use_sim_time").value:
+            raise InvalidValueError("use_sim_time", True, "false; a bench lives in real time")
+        model = load_model(self.values["model"])
+        section = str(self.values["section"])
+        self._planar = PlanarArm(section, model)
+        self._n_joints = model.n_joints
+        self._steps = steps_from(self.values["calibration"], model.n_joints)
+        LifecycleNodeMixin.__init__(self)
+        self._refuse_what_is_none()
+        self._limits = tension_limits.limits_from(self.values)
+        self._commander = BenchCommander(self._limits, len(self._planar.cables))
+        self._streams = self._offered_streams(section)
+        self._to_come = self.values["autostart"] != AUTOSTARTS[0]
+        self._autostart_at = 0.0
+        self.listen(CableStates, COMMANDS, self._on_command)
+        rest_time = self.values["rest_time"]
+        services: dict[str, Callable[[], str]] = {
+            "zero": partial(self._calibrate, lambda watch: watch.find_zero(rest_time)),
+            "calibrate_bias": partial(self._calibrate, lambda watch: watch.find_bias(rest_time)),
+            "find_axes": partial(self._calibrate, SensorWatch.find_axes),
+            "release": self._release,
+            "stop": self._stop,
+            "reset_stop": self._reset_stop,
+        }
+        for name, carry_out in services.items():
+            self.create_service(Trigger, f"~/{name}", partial(self._serve, carry_out))
+        name = self.get_fully_qualified_name().lstrip("/")
+        told = BenchDiagnostics(name, self._streams, self._commander, str(self.values["port"]), self._n_joints)
+        self.diagnostics.subjects += told.subjects()
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._timer = self.create_timer(1.0 / self.values["command_rate"], self._tick, clock=steady)
+
+    def in_words(self) -> str:
+        return f"{Path(self.values['model']).name}, {self._n_joints} joints, bench at {self.values['port']}"
+
+    def _offered_streams(self, section: str) -> BenchStreams:
+        quality = SensorQuality(rate_noise=self.values["rate_noise"], force_noise=self.values["force_noise"])
+        links = range(1, self._n_joints + 1)
+        return BenchStreams(
+            self._planar,
+            [ImuMessages(f"{section}_imu_{k}", quality) for k in links],
+            self.get_clock(),
+            self._steps,
+            self.offer(JointState, "joint_states"),
+            self.offer(CableStates, "cable_states"),
+            [self.offer(Imu, f"imu_{k}/data_raw") for k in links],
+        )
+
+    # --- life cycle
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """Open the port and wait for a bench that fits."""
+        client = BenchClient(str(self.values["port"]), int(self.values["baud_rate"]), self._streams.take)
+        self._commander.client = client
+        client.start()
+        client.wait_for(lambda: client.link.is_open, OPEN_TIME)
+        if client.link.is_open:
+            client.wait_for(lambda: client.hello is not None, ANSWER_TIME)
+        self._commander.misfit = self._streams.problem
+        problem = self._commander.line_problem()
+        if problem:
+            self._hang_up()
+            self._refuse("configure", problem)
+            return FAILED
+        hello, own = client.hello, self._limits
+        most = min(hello.limits.max_tension, own.max_tension)
+        self.get_logger().info(
+            f"{hello.firmware} at {self.values['port']}: {len(hello.sensors)} sensors at {hello.sample_rate:g} Hz, "
+            f"{hello.n_cables} cables, up to {most:g} N"
+        )
+        return self._reached("configure")
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """Become the bench's commander, with slack cables."""
+        problem = self._commander.begin()
+        if problem:
+            self._refuse("activate", problem)
+            return FAILED
+        return self._reached("activate")
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """Let the cables go."""
+        self._commander.end()
+        return DONE
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
+        """Close the port."""
+        self._hang_up()
+        return DONE
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """As on deactivation and clean-up."""
+        self.on_deactivate(state)
+        return self.on_cleanup(state)
+
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """A transition broke off; rclpy does not tell why."""
+        self.get_logger().error(f"a transition from {state.label} broke off; the port is closed")
+        return self.on_shutdown(state)
+
+    @property
+    def _state(self) -> int:
+        """Of the life cycle, one of `lifecycle_msgs/State`."""
+        return int(self._state_machine.current_state[0])
+
+    def _refuse_what_is_none(self) -> None:
+        """Let a transition that the state does not have be answered with no; rclpy would end the node."""
+        change = self._service_change_state.callback
+
+        def change_if_possible(request: ChangeState.Request, response: ChangeState.Response) -> ChangeState.Response:
+            try:
+                return change(request, response)
+            except RCLError:
+                response.success = False
+                self._refuse("change its state", f"no transition {request.transition.id} in state {self._state}")
+                return response
+
+        self._service_change_state.callback = change_if_possible
+
+    def _refuse(self, transition: str, problem: str) -> None:
+        self.diagnostics.warnings.note(f"cannot {transition}", problem)
+
+    def _hang_up(self) -> None:
+        client, self._commander.client = self._commander.client, None
+        if client is not None:
+            client.close()
+        self._streams.forget()
+
+    def _autostart(self, now: float) -> None:
+        """Go on towards where the node is to be by itself, until it was there once: it never pulls again by itself."""
+        if not self._to_come or now < self._autostart_at:
+            return
+        self._autostart_at = now + AUTOSTART_PERIOD
+        if self._state == State.PRIMARY_STATE_UNCONFIGURED:
+            self.trigger_configure()
+        elif self._state == State.PRIMARY_STATE_INACTIVE:
+            self.trigger_activate()
+
+    def _reached(self, where: str) -> TransitionCallbackReturn:
+        """The node is where a transition leads."""
+        if AUTOSTARTS.index(where) >= AUTOSTARTS.index(self.values["autostart"]):
+            self._to_come = False
+        return DONE
+
+    # --- tension
+
+    def _tick(self) -> None:
+        """Keep the line up, look after safety, and send what is let through."""
+        now = time.monotonic()
+        self._autostart(now)
+        commander = self._commander
+        commander.misfit = self._streams.problem
+        if commander.keep_up(now):
+            self.diagnostics.warnings.note("stopped", "by the bench; until ~/reset_stop")
+        if self._state != State.PRIMARY_STATE_ACTIVE:
+            return
+        problem = commander.problem()
+        if problem:
+            self.diagnostics.warnings.note("fell back to inactive, cables slack", problem)
+            self.trigger_deactivate()
+            return
+        before = commander.gate.abandoned
+        commander.send(now)
+        if commander.gate.abandoned and not before:
+            tension_limits.tell_abandoned(self.diagnostics, self._limits)
+
+    def _on_command(self, message: CableStates) -> None:
+        speakers = self.count_publishers(COMMANDS)
+        if speakers > 1:
+            raise MessageFault("several commanders", f"{speakers} publishers; one at a time may command")
+        now = self.get_clock().now().nanoseconds
+        wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
+        age = max(0, now - nanoseconds(message.header.stamp)) / NANOSECONDS
+        if not self._commander.gate.command(wanted, time.monotonic() - age):
+            raise MessageFault("not active", "a tension command; the node has to be activated first")
+        tension_limits.tell_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
+
+    # --- services
+
+    def _serve(self, carry_out: Callable[[], str], _request: Trigger.Request, response: Answer) -> Answer:
+        """What was done in words, or why nothing was."""
+        try:
+            response.message, response.success = carry_out(), True
+        except ContinuumError as error:
+            response.message = str(error)
+        return response
+
+    def _calibrate(self, step: Callable[[SensorWatch], None]) -> str:
+        watch = self._streams.watch
+        if watch is None:
+            raise InvalidValueError("bench", self._commander.line_problem() or "unknown", "one that fits, configured")
+        step(watch)
+        self._streams.steps = watch.steps
+        calibration, file = watch.steps.complete(), self.values["calibration"]
+        if calibration is None:
+            return f"found; still to find: {', '.join(watch.steps.missing)}"
+        if not file:
+            return "found; the calibration is complete, and not kept: the parameter calibration is empty"
+        save_calibration(calibration, file)
+        return f"found; the calibration is complete, and written to {file}"
+
+    def _release(self) -> str:
+        _refuse_unless_done("release", self._commander.let_go())
+        return "all cables are slack"
+
+    def _stop(self) -> str:
+        self._commander.stop()
+        return "stopped, until ~/reset_stop; then the node has to be activated again"
+
+    def _reset_stop(self) -> str:
+        _refuse_unless_done("reset of the stop", self._commander.reset_stop())
+        return "the stop is over; tension goes through after the node is activated"
+
+    def close(self) -> None:
+        """Let the cables go and close the port before the node ends."""
+        self.on_shutdown(LifecycleState(*reversed(self._state_machine.current_state)))
+        super().close()
+
+
+def _refuse_unless_done(what: str, problem: str) -> None:
+    if problem:
+        raise InvalidValueError(what, problem, "only with a bench that carries it out")

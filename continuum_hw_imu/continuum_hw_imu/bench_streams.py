@@ -1,0 +1,135 @@
+"""What a bench says, published as it comes: by the thread that reads the port, so that nothing else delays it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from builtin_interfaces.msg import Time as TimeMessage
+from rclpy.clock import Clock
+from rclpy.time import Time
+
+from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.imu_sample import ImuSample
+from continuum_hw_imu.bench_fit import misfit
+from continuum_hw_imu.imu_messages import ImuMessages
+from continuum_hw_imu.latency_meter import LatencyMeter
+from continuum_hw_imu.link.heard import Heard
+from continuum_hw_imu.protocol.messages import Hello, ImuFrame, TensionFrame
+from continuum_hw_imu.sensor_watch import SensorWatch
+from continuum_manipulator.nodekit.planar_arm import PlanarArm
+from continuum_manipulator.nodekit.stamps import NANOSECONDS
+
+Publish = Callable[[object], None]
+
+FRESH = 0.1
+"""Joint angles older than this are not those of a measured tension [s]."""
+
+
+class BenchStreams:
+    """Publishes joint and cable states and the sensors' raw data.
+
+    Joint states are those of which every joint is good; otherwise none is published. Stamps are ROS time, without the
+    jitter of the way.
+
+    Args:
+        planar: the arm's names and messages.
+        sensors: messages of the sensors, from base to tip.
+        clock: of the node.
+        steps: what is known of the sensors.
+        joints, cables: publish joint and cable states.
+        imus: publish the sensors' data, from base to tip.
+
+    Attributes:
+        steps: what is known of the sensors; taken over with the next bench that says who it is.
+        watch: of the sensors of the bench at the other end; None before it said who it is, and where it does not fit.
+        problem: why it does not fit, in words.
+        latency: from the last byte of a frame to its published joint states.
+        withheld: samples whose joint states were not published.
+        age: of the newest sample when its bytes were there [s].
+        tension: the latest tension frame.
+    """
+
+    def __init__(
+        self,
+        planar: PlanarArm,
+        sensors: Sequence[ImuMessages],
+        clock: Clock,
+        steps: CalibrationSteps,
+        joints: Publish,
+        cables: Publish,
+        imus: Sequence[Publish],
+    ) -> None:
+        self._planar, self._sensors, self._clock = planar, sensors, clock
+        self._joints, self._cables, self._imus = joints, cables, imus
+        self._conversation = 0
+        self.steps = steps
+        self.watch: SensorWatch | None = None
+        self.problem = ""
+        self.latency = LatencyMeter()
+        self.withheld = 0
+        self.age = 0.0
+        self.tension: TensionFrame | None = None
+
+    def take(self, heard: Heard) -> None:
+        """A message came."""
+        if isinstance(heard.message, Hello) and heard.conversation != self._conversation:
+            self._greet(heard.message)
+            self._conversation = heard.conversation
+        watch = self.watch
+        if watch is None or heard.conversation != self._conversation:
+            return
+        match heard.message:
+            case ImuFrame() as frame if len(frame.readings) == len(self._sensors):
+                sample = watch.take(heard, frame)
+                self._publish_joints(watch, heard)
+                self._publish_imus(sample, self._stamp(heard))
+            case TensionFrame() as frame if len(frame.set_points) == len(self._planar.cables):
+                self.tension = frame
+                self._publish_cables(watch, heard, frame)
+
+    def forget(self) -> None:
+        """The line is closed."""
+        self._conversation, self.watch, self.problem, self.tension = 0, None, "", None
+
+    def _greet(self, hello: Hello) -> None:
+        """Another bench is there, or the same one has begun anew: nothing of what was before goes on."""
+        self.problem = misfit(hello, len(self._sensors), len(self._planar.cables))
+        self.watch = None if self.problem else SensorWatch(hello, self.steps)
+        self.tension = None
+
+    def _stamp(self, heard: Heard) -> TimeMessage:
+        """ROS time of what was heard."""
+        ago = time.monotonic() - heard.time
+        return Time(nanoseconds=max(0, self._clock.now().nanoseconds - round(ago * NANOSECONDS))).to_msg()
+
+    def _publish_joints(self, watch: SensorWatch, heard: Heard) -> None:
+        self.age = heard.read - heard.time
+        estimate = watch.estimate
+        if estimate is None or not estimate.good.all():
+            self.withheld += 1
+            return
+        self._joints(self._planar.joint_state(self._stamp(heard), estimate.angles, estimate.rates))
+        self.latency.note(time.monotonic() - heard.read)
+
+    def _publish_imus(self, sample: ImuSample, stamp: TimeMessage) -> None:
+        for k, publish in enumerate(self._imus):
+            if sample.valid[k]:
+                rate, force = sample.rates[k], sample.forces[k]
+                publish(self._sensors[k].message(stamp, rate, force, bool(sample.clipped[k])))
+
+    def _publish_cables(self, watch: SensorWatch, heard: Heard, frame: TensionFrame) -> None:
+        """Lengths are those of the latest joint states; a cable pulls, so what is measured below zero is zero."""
+        if any(tension is None for tension in frame.measured):
+            tensions = np.array([])  # not known
+        else:
+            tensions = np.maximum(np.array(frame.measured, dtype=float), 0.0)
+        estimate = watch.estimate
+        known = (
+            estimate is not None
+            and bool(estimate.good.all())
+            and abs(heard.device_time * 1e-6 - estimate.time) <= FRESH
+        )
+        angles, rates = (estimate.angles, estimate.rates) if known else (None, None)
+        self._cables(self._planar.cable_states(self._stamp(heard), angles, rates, tensions))

@@ -1,0 +1,164 @@
+"""The emulated bench without port and clock: arm, actuators, sensors and controller, moved on tick by tick."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from continuum.dynamics.live.live_arm import LiveArm
+from continuum.dynamics.live.stepper import Interval
+from continuum.dynamics.model import Model
+from continuum.dynamics.planar.cables import SIDES
+from continuum.dynamics.trajectory import SimulationStatus
+from continuum.errors import InvalidValueError
+from continuum_hw_imu.emulator.actuators import Actuators
+from continuum_hw_imu.emulator.hand import Hand
+from continuum_hw_imu.emulator.link_motion import LinkMotion, felt, gravity, half_spacing, link_motion
+from continuum_hw_imu.emulator.sensor_model import SensorModel, SensorQuality
+from continuum_hw_imu.protocol.messages import FaultCode, Hello, ImuFrame, Message, ReceiverLimits, SensorPlace
+from continuum_hw_imu.protocol.messages.imu import MOST_SENSORS
+from continuum_hw_imu.receiver.bench_controller import BenchController
+
+FIRMWARE = "bench_emulator 0.1.0"
+LOW_BATTERY = 15
+"""[%]"""
+
+_TICKS = 240.0
+"""The arm is moved on so often a second at least [Hz]."""
+
+
+@dataclass(frozen=True)
+class BenchSettings:
+    """What may be chosen of a bench.
+
+    Attributes:
+        sample_rate: of the sensors [Hz].
+        bend: of the whole arm at the start, the same at every joint [rad].
+        limits: of the receiver.
+        quality: of the sensors.
+        actuator_lag: time constant of the tensions [s].
+        tension_noise: of the load cells, standard deviation [N].
+        seed: of all that is drawn at random.
+    """
+
+    sample_rate: float = 60.0
+    bend: float = 0.0
+    limits: ReceiverLimits = field(default_factory=ReceiverLimits)
+    quality: SensorQuality = field(default_factory=SensorQuality)
+    actuator_lag: float = 0.03
+    tension_noise: float = 0.05
+    seed: int = 0
+
+
+class Bench:
+    """Compiles the model's equations, which may take seconds.
+
+    Args:
+        model: of the arm.
+        settings: all else.
+
+    Attributes:
+        controller: its side of the protocol.
+        sensors, actuators, arm: its parts.
+        hand: that holds the arm, if one does.
+        deaf: nothing from the host is heard.
+        failed: why the arm cannot be simulated on; None while it can.
+
+    Raises:
+        InvalidValueError: more joints than the protocol has sensors for, or a posture from which there is no motion.
+        CompilerError: the equations cannot be compiled.
+    """
+
+    def __init__(self, model: Model, settings: BenchSettings) -> None:
+        n = model.n_joints
+        if n > MOST_SENSORS:
+            raise InvalidValueError("n_joints", n, f"at most {MOST_SENSORS}, each with a sensor")
+        self._settings = settings
+        self._random = np.random.default_rng(settings.seed)
+        self._fall, self._half_spacing = gravity(model), half_spacing(model)
+        self.arm = LiveArm(model, np.full(n, settings.bend / n), "esdirk")
+        self.sensors = SensorModel(n, settings.quality, self._random)
+        self.ticks_per_sample = max(1, round(_TICKS / settings.sample_rate))
+        self.tick_rate = settings.sample_rate * self.ticks_per_sample
+        self.hand: Hand | None = None
+        self.deaf = False
+        self.failed: SimulationStatus | None = None
+        self._sample = 0
+        self._ticks = 0
+        self._forces = np.zeros((n, 3))
+        self._angles = np.cumsum(self.arm.angles)
+        self.boot()
+
+    @property
+    def n_joints(self) -> int:
+        return self.sensors.n
+
+    def check_sensor(self, number: int) -> None:
+        """Refuse a number, from 1, that no sensor has.
+
+        Raises:
+            InvalidValueError: none has it.
+        """
+        if not 1 <= number <= self.n_joints:
+            raise InvalidValueError("sensor", number, f"1 to {self.n_joints}")
+
+    def boot(self) -> None:
+        """Start the controller anew: all slack, nobody commands. The arm goes on."""
+        n, settings = self.n_joints, self._settings
+        places = tuple(SensorPlace(i + 1, f"DOT-{i + 1}") for i in range(n))
+        boot = int(np.random.default_rng().integers(1 << 32))  # not of the seed: two starts must differ
+        hello = Hello(boot, FIRMWARE, settings.sample_rate, places, len(SIDES), settings.limits)
+        self.controller = BenchController(hello)
+        self.controller.batteries = [90] * n
+        self.actuators = Actuators(len(SIDES), settings.actuator_lag, settings.tension_noise, self._random)
+
+    def hear(self, data: bytes, now: int) -> list[Message]:
+        """Bytes from the host at a device time [us]; the answers."""
+        return [] if self.deaf else self.controller.hear(data, now)
+
+    def tick(self, begin: int, duration: float, real: float) -> list[Message]:
+        """Move on from device time ``begin`` [us] by a ``duration`` [s]; what is to be sent of the end of it.
+
+        ``real`` is the time of the end [s], of the clock that hands have.
+        """
+        pull = self.actuators.follow(self.controller.move_on(begin, duration))
+        before = self._motion()
+        self._move_arm(pull, real)
+        after = self._motion()
+        self._forces += felt(before, after, duration, self._fall)
+        self._ticks += 1
+        self._watch()
+        return self._sampled(duration) if self._ticks == self.ticks_per_sample else []
+
+    def _motion(self) -> LinkMotion:
+        return link_motion(self.arm.angles, self.arm.rates, self._half_spacing)
+
+    def _move_arm(self, pull: Interval, real: float) -> None:
+        if self.hand is not None:
+            theta, rate = self.hand.motion(real)
+            self.arm.place(np.concatenate([theta, rate, self.arm.state[2 * self.n_joints :]]))
+            if real >= self.hand.end:
+                self.hand = None
+            return
+        status = self.arm.advance(pull)
+        if status is not SimulationStatus.COMPLETE:
+            self.failed = status
+            self.arm.place(self.arm.angles)
+
+    def _watch(self) -> None:
+        """Tell the controller what is wrong with the sensors."""
+        faults = self.controller.faults
+        for i, charge in enumerate(self.controller.batteries):
+            faults.put(i in self.sensors.lost, FaultCode.SENSOR_LOST, i + 1)
+            faults.put(charge is not None and charge < LOW_BATTERY, FaultCode.BATTERY_LOW, i + 1)
+
+    def _sampled(self, duration: float) -> list[Message]:
+        period = duration * self.ticks_per_sample
+        angles = np.cumsum(self.arm.angles)
+        frame: ImuFrame = self.sensors.frame(
+            self._sample, (angles - self._angles) / period, self._forces / self.ticks_per_sample, period
+        )
+        self._sample += 1
+        self._ticks, self._forces, self._angles = 0, np.zeros((self.n_joints, 3)), angles
+        return [frame, self.controller.tension_frame(self.actuators.measured().tolist())]

@@ -1,0 +1,79 @@
+"""A second way into the emulator, beside the port: a UNIX socket that takes orders line by line and answers each."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Callable
+from pathlib import Path
+
+from continuum.errors import FileError
+
+_LONGEST_LINE = 1000
+_LONGEST_PATH = 100
+"""The system's limit is 107 bytes."""
+
+
+class ControlSocket:
+    """Listens. Each line gets the answer of ``handle``, in one line.
+
+    Raises:
+        FileError: the socket cannot be made.
+    """
+
+    def __init__(self, path: Path, handle: Callable[[str], str]) -> None:
+        if len(str(path).encode()) > _LONGEST_PATH:
+            raise FileError(path, f"is too long for a socket; allowed: {_LONGEST_PATH} bytes")
+        self._path, self._handle = path, handle
+        self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        try:
+            if path.is_socket():
+                path.unlink()
+            self._listener.bind(str(path))
+        except OSError as error:
+            self._listener.close()
+            raise FileError(path, f"cannot be made: {error.strerror}") from None
+        self._listener.listen()
+        self._listener.setblocking(False)
+        self._kept: dict[socket.socket, bytes] = {}
+
+    @property
+    def files(self) -> list[int]:
+        """To wait for."""
+        return [self._listener.fileno(), *(client.fileno() for client in self._kept)]
+
+    def serve(self) -> None:
+        """Answer what has come."""
+        try:
+            client, _ = self._listener.accept()
+            client.setblocking(False)
+            self._kept[client] = b""
+        except BlockingIOError:
+            pass
+        for client in list(self._kept):
+            if not self._serve(client):
+                client.close()
+                del self._kept[client]
+
+    def close(self) -> None:
+        """Remove the socket."""
+        for client in self._kept:
+            client.close()
+        self._listener.close()
+        self._path.unlink(missing_ok=True)
+
+    def _serve(self, client: socket.socket) -> bool:
+        """Answer one client; whether it is still there."""
+        try:
+            data = client.recv(1 << 16)
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+        *lines, rest = (self._kept[client] + data).split(b"\n")
+        self._kept[client] = rest
+        try:
+            for line in lines:
+                client.sendall((self._handle(line.decode("utf-8", "replace").strip()) + "\n").encode())
+        except OSError:  # it does not read its answers
+            return False
+        return bool(data) and len(rest) < _LONGEST_LINE

@@ -1,0 +1,173 @@
+"""The emulated bench in real time, on its port: what comes in and goes out, orders, and the record of the truth.
+
+Whoever runs it calls `step` with a clock's time, again and again, `wake_at` at the latest or when bytes have come.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from continuum.dynamics.planar.cables import SIDES
+from continuum_hw_imu.emulator.bench import Bench
+from continuum_hw_imu.emulator.device_clock import DeviceClock
+from continuum_hw_imu.emulator.line_faults import FaultyLine, pieces_of
+from continuum_hw_imu.emulator.line_queue import LineQueue
+from continuum_hw_imu.emulator.pseudo_port import PseudoPort
+from continuum_hw_imu.emulator.truth_file import TruthFile
+from continuum_hw_imu.protocol.frame import FrameWriter
+from continuum_hw_imu.protocol.messages import FaultCode, Message
+
+_LATE = 0.05
+"""Behind the clock by more than this the controller tells of an overrun [s]."""
+
+_GIVEN_UP = 2.0
+"""Behind by more than this, as after a machine's sleep, time is skipped [s]."""
+
+_LONGEST_STEP = 0.25
+"""Of simulated time at once [s]."""
+
+
+@dataclass(frozen=True)
+class EmulatorSettings:
+    """What may be chosen beside the bench itself.
+
+    Attributes:
+        link: where a symbolic link to the port is kept.
+        truth: file of what really happened.
+        baud: bits a second of the line; 0 for one that takes no time.
+        clock_start: what the controller's clock shows at the start [us].
+        sees_hang_up: the controller notices when the host closes the port, as by DTR; else it has only its time-outs.
+        seed: of the faults of the line.
+    """
+
+    link: Path | None = None
+    truth: Path | None = None
+    baud: float = 0.0
+    clock_start: int = 0
+    sees_hang_up: bool = True
+    seed: int = 0
+
+
+class Emulator:
+    """Runs from now on.
+
+    Args:
+        bench: the bench, at its start.
+        settings: all else.
+        now: real time [s] of a clock that is never set; so are all times here.
+
+    Attributes:
+        bench, port, clock, up, down: its parts; ``up`` is the line's direction to the host.
+        skipped: time that was not simulated, as the machine was too busy [s].
+
+    Raises:
+        FileError: a file or link cannot be made.
+    """
+
+    def __init__(self, bench: Bench, settings: EmulatorSettings, now: float) -> None:
+        self.bench, self._settings = bench, settings
+        random = np.random.default_rng(settings.seed)
+        self.up, self.down = FaultyLine(random), FaultyLine(random)
+        self._outgoing, self._incoming = LineQueue(settings.baud), LineQueue(settings.baud)
+        self.port = PseudoPort(settings.link)
+        self._truth = TruthFile(settings.truth, bench.n_joints, len(SIDES)) if settings.truth else None
+        self.began = now
+        self.skipped = 0.0
+        self.largest_set_point = 0.0
+        self._open = False
+        self.clock = DeviceClock(now, settings.clock_start)
+        self._begin(settings.clock_start)
+
+    def close(self) -> None:
+        """Remove port and link, end the record."""
+        self.port.unplug()
+        if self._truth is not None:
+            self._truth.close()
+
+    @property
+    def wake_at(self) -> float:
+        """When something is due next."""
+        tick = self.clock.real(self._tick_time(self._ticks + 1))
+        return min(tick, *(when for when in (self._outgoing.next, self._incoming.next, np.inf) if when is not None))
+
+    def step(self, now: float) -> None:
+        """Do what is due."""
+        self._watch_port(now)
+        for piece in pieces_of(self.port.read()):
+            for delay, part in self.down.passed(piece, now):
+                self._incoming.put(now, part, delay)
+        for data in self._incoming.due(now):
+            self._send(self.bench.hear(data, self.clock.at(now)), self.clock.at(now), now)
+        self._catch_up(now)
+        for data in self._outgoing.due(now):
+            if self.port.open:
+                self.port.write(data)
+        self.port.flush()
+
+    def unplug(self) -> None:
+        """Pull the plug; the controller goes on."""
+        self.port.unplug()
+        self._outgoing.clear()
+        self._incoming.clear()
+
+    def reboot(self, now: float) -> None:
+        """Start the controller anew, as after a power cut."""
+        self.bench.boot()
+        self._outgoing.clear()
+        self._incoming.clear()
+        self.clock = DeviceClock(now, 0, self.clock.drift)
+        self._begin(0)
+        if self._open:
+            self._send(self.bench.controller.connect(), 0, now)
+
+    def _begin(self, shows: int) -> None:
+        """Count frames and ticks from here, where the clock shows this [us]."""
+        self._writer = FrameWriter()
+        self._first, self._ticks = shows, 0
+
+    def _tick_time(self, tick: int) -> int:
+        """What the device's clock shows then [us]."""
+        return self._first + round(tick * 1e6 / self.bench.tick_rate)
+
+    def _watch_port(self, now: float) -> None:
+        opened = self.port.open
+        if opened == self._open:
+            return
+        self._open = opened
+        if opened:
+            self._send(self.bench.controller.connect(), self.clock.at(now), now)
+        else:
+            self.port.forget()
+            if self._settings.sees_hang_up or not self.port.plugged:
+                self.bench.controller.disconnect()
+
+    def _catch_up(self, now: float) -> None:
+        """Simulate the ticks that are due."""
+        behind = now - self.clock.real(self._tick_time(self._ticks + 1))
+        self.bench.controller.faults.put(behind > _LATE, FaultCode.OVERRUN)
+        if behind > _GIVEN_UP:
+            self.skipped += behind
+            self._ticks += int(behind * self.bench.tick_rate)
+        end = min(now, self.clock.real(self._tick_time(self._ticks)) + _LONGEST_STEP)
+        while (reached := self.clock.real(self._tick_time(self._ticks + 1))) <= end:
+            self._tick(reached, now)
+
+    def _tick(self, reached: float, now: float) -> None:
+        begin, end = self._tick_time(self._ticks), self._tick_time(self._ticks + 1)
+        messages = self.bench.tick(begin, reached - self.clock.real(begin), reached)
+        self._ticks += 1
+        self.largest_set_point = max(self.largest_set_point, float(self.bench.controller.guard.set_points.max()))
+        if messages and self._truth is not None:
+            self._truth.write(end, reached, self.bench)
+        self._send([*messages, *self.bench.controller.news(end)], end, now)
+
+    def _send(self, messages: list[Message], time: int, now: float) -> None:
+        """Hand frames of a device time to the line, if a host is there."""
+        if not self._open:
+            return
+        for message in messages:
+            for delay, piece in self.up.passed(self._writer.write(message, time), now):
+                self._outgoing.put(now, piece, delay)

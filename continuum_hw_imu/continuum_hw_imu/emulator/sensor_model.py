@@ -1,0 +1,103 @@
+"""Inertial sensors as they are: askew on their discs, biased, noisy, of a limited range.
+
+The defaults are of the Xsens DOT's data sheet: +-2000 deg/s and +-16 g, noise of 0.007 deg/s/sqrt(Hz) and
+120 ug/sqrt(Hz), over the half of 60 Hz that a mean over 1/60 s lets through.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from continuum.arrays import Array
+from continuum_hw_imu.protocol.messages import ImuFrame
+from continuum_hw_imu.protocol.messages.imu import CLIPPED_FORCE, CLIPPED_RATE, PRESENT
+
+_G = 9.80665
+
+
+@dataclass(frozen=True)
+class SensorQuality:
+    """How good the sensors are. Standard deviations but for the ranges; the constant ones are drawn at the start.
+
+    Attributes:
+        rate_noise: of each angular rate [rad/s].
+        force_noise: of each specific force [m/s^2].
+        rate_bias: constant, of each axis [rad/s].
+        bias_walk: by which the bias wanders [rad/s/sqrt(s)].
+        force_bias: constant, of each axis [m/s^2].
+        mounting: by which a sensor is turned on its disc about each axis [rad].
+        rate_range: beyond which it clips [rad/s].
+        force_range: the same [m/s^2].
+    """
+
+    rate_noise: float = np.radians(0.007 * np.sqrt(30.0))
+    force_noise: float = 120e-6 * np.sqrt(30.0) * _G
+    rate_bias: float = np.radians(0.3)
+    bias_walk: float = np.radians(2e-4)
+    force_bias: float = 3e-3 * _G
+    mounting: float = np.radians(3.0)
+    rate_range: float = np.radians(2000.0)
+    force_range: float = 16.0 * _G
+
+    def perfect(self) -> SensorQuality:
+        """The same ranges, without any error."""
+        return SensorQuality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, rate_range=self.rate_range, force_range=self.force_range)
+
+
+@dataclass
+class SensorModel:
+    """The sensors of an arm.
+
+    Attributes:
+        n: number of sensors.
+        quality: of all.
+        random: where their errors come from.
+        lost: numbers from 0 of sensors that give nothing.
+        narrowed: for some sensors, by number from 0, another range of rates [rad/s].
+        mountings: rotation of each, from its link's axes to its own.
+    """
+
+    n: int
+    quality: SensorQuality
+    random: np.random.Generator
+    lost: set[int] = field(default_factory=set)
+    narrowed: dict[int, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        draw, quality = self.random.normal, self.quality
+        self.mountings = Rotation.from_rotvec(draw(0.0, quality.mounting, (self.n, 3)))
+        self._rate_bias = draw(0.0, quality.rate_bias, (self.n, 3))
+        self._force_bias = draw(0.0, quality.force_bias, (self.n, 3))
+
+    def widen(self, number: int) -> None:
+        """Give a sensor its whole range again."""
+        self.narrowed.pop(number, None)
+
+    def frame(self, sample: int, turn_rates: Array, forces: Array, period: float) -> ImuFrame:
+        """What the sensors give for a sample that took a ``period`` [s].
+
+        Args:
+            sample: its number.
+            turn_rates: of the links, (n,) [rad/s].
+            forces: specific forces in axes of the links, (n, 3) [m/s^2].
+            period: since the sample before [s].
+        """
+        draw, quality = self.random.normal, self.quality
+        self._rate_bias += draw(0.0, quality.bias_walk * np.sqrt(period), (self.n, 3))
+        rates = self.mountings.apply(turn_rates[:, None] * np.array([0.0, 1.0, 0.0]))
+        rates = rates + self._rate_bias + draw(0.0, quality.rate_noise, (self.n, 3))
+        seen = self.mountings.apply(forces) + self._force_bias + draw(0.0, quality.force_noise, (self.n, 3))
+        limits = np.full((self.n, 1), quality.rate_range)
+        for number, narrow in self.narrowed.items():
+            limits[number] = narrow
+        flags = (np.abs(rates) > limits) @ np.array(CLIPPED_RATE)
+        flags += (np.abs(seen) > quality.force_range) @ np.array(CLIPPED_FORCE)
+        flags += PRESENT
+        rates = np.clip(rates, -limits, limits)
+        seen = np.clip(seen, -quality.force_range, quality.force_range)
+        for number in self.lost:
+            rates[number], seen[number], flags[number] = 0.0, 0.0, 0
+        return ImuFrame.of(sample % (1 << 16), rates, seen, flags)

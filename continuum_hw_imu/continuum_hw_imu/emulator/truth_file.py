@@ -1,0 +1,43 @@
+"""What really happened, beside what the sensors say: one row for every sample, with the same device time.
+
+Columns: device_time_us (unwrapped), monotonic_s (of this machine), theta_1.. [rad], theta_rate_1.. [rad/s],
+set_point_1.. and tension_1.. [N], state (of the receiver, a number as in the protocol), hand (1 while one holds the
+arm).
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+from continuum.errors import FileError
+from continuum_hw_imu.emulator.bench import Bench
+
+
+class TruthFile:
+    """Written row by row, so that it can be read while it grows.
+
+    Raises:
+        FileError: it cannot be written.
+    """
+
+    def __init__(self, path: Path, n_joints: int, n_cables: int) -> None:
+        try:
+            self._file = path.open("w", newline="", buffering=1, encoding="utf-8")
+        except OSError as error:
+            raise FileError(path, f"cannot be written: {error.strerror}") from None
+        self._writer = csv.writer(self._file)
+        names = ["device_time_us", "monotonic_s"]
+        names += [f"{name}_{i + 1}" for name in ("theta", "theta_rate") for i in range(n_joints)]
+        names += [f"{name}_{j + 1}" for name in ("set_point", "tension") for j in range(n_cables)]
+        self._writer.writerow([*names, "state", "hand"])
+
+    def write(self, device: int, real: float, bench: Bench) -> None:
+        """The instant of a sample."""
+        guard = bench.controller.guard
+        numbers = [*bench.arm.angles, *bench.arm.rates, *guard.set_points, *bench.actuators.tension]
+        row = [device, f"{real:.6f}", *(f"{number:.9g}" for number in numbers), int(guard.state)]
+        self._writer.writerow([*row, int(bench.hand is not None)])
+
+    def close(self) -> None:
+        self._file.close()

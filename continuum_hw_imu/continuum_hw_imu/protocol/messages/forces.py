@@ -1,0 +1,54 @@
+"""Tensions on the line: steps of 0.01 N in 16 bits, so that what is commanded is finite whatever the bytes."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Sequence
+
+from continuum_hw_imu.protocol.messages.base import PayloadFault, in_steps
+
+STEP = 0.01
+"""[N]"""
+
+LARGEST = 0x7FFF
+"""Steps: 327.67 N."""
+
+MOST_CABLES = 8
+
+NONE_MEASURED = -0x8000
+"""In the place of a measured tension that there is none of."""
+
+
+def command_bytes(tensions: Sequence[float]) -> bytes:
+    """Set points [N], none negative, u16 each.
+
+    Raises:
+        InvalidValueError: one that cannot be written so: negative, too large or not finite.
+    """
+    steps = [in_steps("tension", value, STEP, LARGEST, unit="N") for value in tensions]
+    return struct.pack(f"<{len(steps)}H", *steps)
+
+
+def commands(data: bytes) -> tuple[float, ...]:
+    """Set points [N] of their bytes.
+
+    Raises:
+        PayloadFault: one is larger than any that is written.
+    """
+    steps = struct.unpack(f"<{len(data) // 2}H", data)
+    if max(steps) > LARGEST:
+        raise PayloadFault(f"a set point of {max(steps)} steps; allowed: {LARGEST}")
+    return tuple(step / 100 for step in steps)
+
+
+def measured_bytes(tensions: Sequence[float | None]) -> bytes:
+    """Measured tensions [N], i16 each, None where none was measured; beyond the range, its end."""
+    steps = [NONE_MEASURED if value is None else round(min(max(value / STEP, -LARGEST), LARGEST)) for value in tensions]
+    return struct.pack(f"<{len(steps)}h", *steps)
+
+
+def measured(data: bytes) -> tuple[float | None, ...]:
+    """Measured tensions [N] of their bytes, None where none was measured."""
+    return tuple(
+        None if steps == NONE_MEASURED else steps / 100 for steps in struct.unpack(f"<{len(data) // 2}h", data)
+    )

@@ -1,0 +1,91 @@
+"""What of the commanded tensions a node lets through to a bench, and when it lets nothing through."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.live.tension_follower import TensionFollower, TensionLimits
+
+
+class TensionGate:
+    """Shut at the start. Open, it lets commands through within limits; it shuts to zero at once.
+
+    Zero at once is what the node asks for: how fast tension then falls is the bench controller's to keep.
+    Times [s] are of any one clock that does not go back.
+
+    Args:
+        limits: of tension.
+        n_cables: number of cables.
+
+    Attributes:
+        is_open: commands pass.
+        stopped: latched; it does not open before :meth:`reset`.
+    """
+
+    def __init__(self, limits: TensionLimits, n_cables: int) -> None:
+        self._follower = TensionFollower(limits, n_cables)
+        self._last: float | None = None
+        self._commanded: float | None = None
+        self.is_open = False
+        self.stopped = False
+
+    @property
+    def set_point(self) -> Array:
+        """Tension asked of each cable now, (n_cables,) [N]."""
+        return self._follower.tension
+
+    @property
+    def abandoned(self) -> bool:
+        """Commands stopped coming while a cable was tight."""
+        return self._follower.abandoned
+
+    @property
+    def decided(self) -> float | None:
+        """When the command that is followed was decided; None where the gate itself asks for less, just now."""
+        return None if self.abandoned else self._commanded
+
+    @property
+    def is_tight(self) -> bool:
+        return bool(np.any(self.set_point > 0))
+
+    def open(self) -> bool:
+        """Let commands through from now on, from zero; False while a stop is latched."""
+        if not self.stopped:
+            self.let_go()
+            self.is_open = True
+        return self.is_open
+
+    def shut(self) -> None:
+        """Zero, and nothing through."""
+        self.is_open = False
+        self.let_go()
+
+    def let_go(self) -> None:
+        """Zero; later commands go through as before."""
+        self._follower.release()
+        self._commanded = None
+
+    def stop(self) -> None:
+        """Shut and latch."""
+        self.stopped = True
+        self.shut()
+
+    def reset(self) -> None:
+        """Forget the stop; the gate stays shut."""
+        self.stopped = False
+
+    def command(self, wanted: Array, at: float) -> bool:
+        """Go for tensions (n_cables,) [N], finite and none negative, said at ``at``; False where nothing passes."""
+        if self.is_open:
+            self._follower.command(wanted, at)
+            self._commanded = at
+        return self.is_open
+
+    def move_on(self, now: float) -> Array:
+        """Follow the commands up to ``now``: the set point, (n_cables,) [N]."""
+        passed = 0.0 if self._last is None else now - self._last
+        self._last = now
+        if self.is_open:
+            self._follower.move_on(now, passed)
+        return self.set_point

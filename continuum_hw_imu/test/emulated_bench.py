@@ -1,0 +1,185 @@
+"""An emulated bench as a process, told over its second channel what to do, and the node at its port."""
+
+import csv
+import json
+import socket
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from harness import NodeProcess, Probe, ended_in_any_case, wait_until
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState, GetState
+from sensor_msgs.msg import Imu, JointState
+from std_srvs.srv import Trigger
+
+from continuum_manipulator.nodekit.qos import STREAM
+from continuum_manipulator.nodekit.stamps import NANOSECONDS
+from continuum_msgs.msg import CableStates
+
+CABLES = ["section_1_cable_1", "section_1_cable_2"]
+N_SENSORS = 5
+
+
+class EmulatedBench:
+    """The emulator. Its files are in ``folder``: port, control, truth.csv."""
+
+    def __init__(self, domain: int, folder: Path, *options: str) -> None:
+        self.port, self.truth_file = folder / "port", folder / "truth.csv"
+        self._control = folder / "control"
+        words = ["--link", self.port, "--control", self._control, "--truth", self.truth_file, *options]
+        self.process = NodeProcess("continuum_hw_imu", "bench_emulator", domain, arguments=tuple(map(str, words)))
+        wait_until(lambda: self.port.exists() and self._control.exists(), lambda: f"port; {self.process.stderr}")
+        self._socket = socket.socket(socket.AF_UNIX)
+        self._socket.settimeout(30.0)
+        self._socket.connect(str(self._control))
+        self._answers = self._socket.makefile("r")
+
+    def tell(self, order: str) -> dict:
+        self._socket.sendall(f"{order}\n".encode())
+        answer = json.loads(self._answers.readline())
+        assert answer["ok"], answer
+        return answer
+
+    @property
+    def status(self) -> dict:
+        return self.tell("status")
+
+    def truth(self) -> dict[str, np.ndarray]:
+        """What really happened so far: angles (rows, n), set_points (rows, n_cables), time (rows,) by this machine."""
+        with self.truth_file.open(newline="") as file:
+            header, *rows = list(csv.reader(file))
+        table = np.array([row for row in rows if len(row) == len(header)], dtype=float)
+
+        def block(name: str) -> np.ndarray:
+            return table[:, [i for i, column in enumerate(header) if column.rpartition("_")[0] == name]]
+
+        blocks = {name: block(name) for name in ("theta", "theta_rate", "set_point", "tension")}
+        return {"time": table[:, header.index("monotonic_s")], **blocks}
+
+    def close(self) -> None:
+        self._socket.close()
+        self.process.close()
+
+
+class Ears:
+    """A probe on the topics of bridges that come one after the other, and the one that commands them."""
+
+    def __init__(self, probe: Probe) -> None:
+        self.probe = probe
+        self.joints = probe.hear(JointState, "joint_states")
+        self.cables = probe.hear(CableStates, "cable_states")
+        self.imus = [probe.hear(Imu, f"imu_{k}/data_raw") for k in range(1, N_SENSORS + 1)]
+        self.say = probe.node.create_publisher(CableStates, "cable_tension_cmd", STREAM).publish
+        self.bridges = 0
+
+    def clear(self) -> None:
+        for heard in (self.joints, self.cables, *self.imus):
+            heard.clear()
+
+
+class Bridge:
+    """The node at an emulated bench. Each has a name of its own, lest one that was killed be asked in its place."""
+
+    def __init__(self, ears: Ears, bench: EmulatedBench, domain: int, **parameters) -> None:
+        ears.bridges += 1
+        ears.clear()
+        self.probe, self.bench, self.name = ears.probe, bench, f"bench_bridge_{ears.bridges}"
+        self.joints, self.cables, self.imus, self._say = ears.joints, ears.cables, ears.imus, ears.say
+        parameters = {"port": bench.port, "rest_time": 1.5, **parameters}
+        self.node = NodeProcess("continuum_hw_imu", "bench_bridge", domain, name=self.name, parameters=parameters)
+        self._clients = {
+            name: ears.probe.node.create_client(kind, f"{self.name}/{name}")
+            for kind, names in {
+                Trigger: ("zero", "calibrate_bias", "find_axes", "stop", "reset_stop"),
+                ChangeState: ("change_state",),
+                GetState: ("get_state",),
+            }.items()
+            for name in names
+        }
+
+    def call(self, name: str, request=None):
+        client = self._clients[name]
+        self.probe.wait_until(client.service_is_ready, lambda: f"service {name}; {self.node.stderr}")
+        future = client.call_async(request or client.srv_type.Request())
+        self.probe.wait_until(future.done, lambda: f"answer of {name}; {self.node.stderr}")
+        return future.result()
+
+    @property
+    def state(self) -> str:
+        return self.call("get_state").current_state.label
+
+    def change(self, transition: str) -> bool:
+        number = getattr(Transition, f"TRANSITION_{transition.upper()}")
+        return self.call("change_state", ChangeState.Request(transition=Transition(id=number))).success
+
+    def wait_for_state(self, label: str) -> None:
+        self.probe.wait_until(lambda: self.state == label, lambda: f"{label}; {self.node.stderr}")
+
+    def told(self, subject: str) -> dict[str, str]:
+        return self.probe.report(f"{self.name}: {subject}")
+
+    def wait_for_level(self, subject: str, level: str, words: str = "") -> None:
+        self.probe.wait_until(
+            lambda: self.told(subject).get("level") == level and words in self.told(subject)["message"],
+            lambda: f"{level} {words!r} of {subject}, which tells {self.told(subject)}",
+        )
+
+    def command(self, effort, age: float = 0.0) -> None:
+        now = self.probe.node.get_clock().now().nanoseconds - round(age * NANOSECONDS)
+        message = CableStates(name=CABLES, effort=effort)
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(now, NANOSECONDS)
+        self._say(message)
+
+    def pull(self, effort, until) -> None:
+        """Command tensions, with every cable state that comes, until ``until()``."""
+
+        def done() -> bool:
+            if len(self.cables) >= self._due:
+                self.command(effort)
+                self._due = len(self.cables) + 2
+            return until()
+
+        self._due = len(self.cables)
+        self.probe.wait_until(done, lambda: f"what was pulled for; {self.bench.status}; {self.node.stderr}")
+
+    def calibrate(self) -> list[str]:
+        """At rest, straight, and after a bend towards cable 1; what the services answered."""
+        said = [self.wait_for_success("calibrate_bias"), self.wait_for_success("zero")]
+        self.let_hand_move("hand bend=60 over=1 hold=0.3", 3.0)
+        return [*said, self.wait_for_success("find_axes")]
+
+    def let_hand_move(self, order: str, lasts: float) -> None:
+        """Give the order, and listen until it is over by the emulator's own clock."""
+        self.bench.tell(order)
+        end = self.bench.status["time"] + lasts
+        self.probe.wait_until(lambda: self.bench.status["time"] >= end, order)
+
+    def wait_for_success(self, name: str) -> str:
+        """Call a service until it does what it is for, as after enough rest."""
+        answers = [self.call(name)]
+
+        def succeeded() -> bool:
+            if not answers[-1].success:
+                answers.append(self.call(name))
+            return answers[-1].success
+
+        self.probe.wait_until(succeeded, lambda: f"{name}: {answers[-1].message}")
+        return answers[-1].message
+
+
+@contextmanager
+def emulated_bench(domain: int, folder: Path, *options: str):
+    bench = EmulatedBench(domain, folder, *options)
+    try:
+        yield bench
+        assert bench.process.running, bench.process.stderr
+    finally:
+        bench.close()
+
+
+@contextmanager
+def bridge_at(ears: Ears, bench: EmulatedBench, domain: int, **parameters):
+    bridge = Bridge(ears, bench, domain, **parameters)
+    with ended_in_any_case(bridge.node):
+        yield bridge

@@ -1,0 +1,201 @@
+"""The node at an emulated bench while things go wrong: it says so, tells no wrong angle, and lets the cables go."""
+
+import signal
+
+import numpy as np
+import pytest
+from emulated_bench import Bridge, Ears, bridge_at, emulated_bench
+from harness import Probe
+from test_bench_bridge_node import angles_beside_truth
+
+pytestmark = pytest.mark.ros
+
+FARTHEST = np.radians(3.0)
+"""A single angle that is further off the truth is wrong: ten times what the sensors err at rest."""
+
+RESUMED = 1.0
+"""Time after the link's return within which data come again [s]."""
+
+SLACK_AFTER = 1.0
+"""Time that the emulated bench needs at most to slack from the commander's last word [s], as its greeting says."""
+
+
+@pytest.fixture(scope="module")
+def probe(domain):
+    with Probe(domain) as probe:
+        yield probe
+
+
+@pytest.fixture(scope="module")
+def ears(probe):
+    return Ears(probe)
+
+
+@pytest.fixture(scope="module")
+def bench(domain, tmp_path_factory):
+    with emulated_bench(domain, tmp_path_factory.mktemp("bench")) as bench:
+        yield bench
+
+
+@pytest.fixture(scope="module")
+def calibration(domain, ears, bench):
+    """File of the emulated sensors' calibration."""
+    file = bench.port.with_name("calibration.yaml")
+    with bridge_at(ears, bench, domain, calibration=file) as bridge:
+        bridge.wait_for_state("inactive")
+        bridge.calibrate()
+        assert bridge.node.stop() == 0
+    return file
+
+
+@pytest.fixture
+def pulling(domain, ears, probe, bench, calibration):
+    """A calibrated bridge, active, that pulls one cable by 8 N."""
+    probe.wait_until(lambda: not bench.status["open"], "the port is free")
+    with bridge_at(ears, bench, domain, calibration=calibration, autostart="activate") as bridge:
+        bridge.wait_for_state("active")
+        probe.wait_until(lambda: len(bridge.joints) > 5, lambda: f"joint states; {bridge.told('angles')}")
+        pull(bridge)
+        yield bridge
+    bench.tell("clear")
+
+
+def pull(bridge: Bridge) -> None:
+    bridge.pull([8.0, 0.0], lambda: bridge.bench.status["set_points"][0] == pytest.approx(8.0, abs=0.01))
+
+
+def go_on(bridge: Bridge, lasts: float) -> None:
+    """Command on for so long by the emulator's clock."""
+    end = bridge.bench.status["time"] + lasts
+    bridge.pull([8.0, 0.0], lambda: bridge.bench.status["time"] > end)
+
+
+def slack_time_after(bench, instant: float) -> float:
+    """How long after an instant of this machine's clock all set points are zero for good [s]."""
+    truth = bench.truth()
+    tight = truth["time"][truth["set_point"].any(axis=1)]
+    return max(0.0, tight[-1] - instant)
+
+
+def assert_no_wrong_angle(bridge: Bridge, joints) -> None:
+    measured, real = angles_beside_truth(bridge, joints)
+    off = np.abs(measured - real).max(axis=1)
+    assert np.all(off < FARTHEST), np.degrees(off.max())
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP], ids=["killed", "hangs"])
+def test_cables_are_let_go_when_the_bridge_dies(pulling, number):
+    bench = pulling.bench
+    pulling.node.send(number)
+    instant = bench.status["monotonic"]
+    pulling.probe.wait_until(lambda: not np.any(bench.truth()["set_point"][-1]), "slack")
+    assert slack_time_after(bench, instant) <= SLACK_AFTER + 0.1
+    assert not bench.status["claimed"]
+
+
+def test_unplugging_ends_tension_and_streaming_resumes(pulling):
+    bench, probe = pulling.bench, pulling.probe
+    instant = bench.status["monotonic"]
+    bench.tell("unplug for=1.5")
+    pulling.wait_for_state("inactive")
+    pulling.wait_for_level("link", "ERROR", "is not there")
+    assert slack_time_after(bench, instant) <= SLACK_AFTER + 0.1
+    probe.wait_until(lambda: bench.status["port"], "the port's return")
+    back, before = bench.status["monotonic"], len(pulling.imus[0])
+    probe.wait_until(lambda: len(pulling.imus[0]) > before, "data of the sensors")
+    assert bench.status["monotonic"] - back < RESUMED + 0.5
+    pulling.command([8.0, 0.0])
+    probe.wait_until(lambda: probe.count(pulling.name, "dropped: not active") > 0, "a refused command")
+    assert not any(bench.status["set_points"])
+    assert pulling.change("activate"), pulling.node.stderr
+    pull(pulling)
+    probe.wait_until(lambda: len(pulling.joints) > 0, "joint states")
+    assert_no_wrong_angle(pulling, pulling.joints)
+
+
+def test_a_bench_that_begins_anew_is_greeted_anew(pulling):
+    bench, probe = pulling.bench, pulling.probe
+    bench.tell("reboot")
+    pulling.node.wait_for_line("fell back to inactive, cables slack")
+    pulling.joints.clear()
+    probe.wait_until(lambda: len(pulling.joints) > 5, lambda: f"joint states; {pulling.told('angles')}")
+    assert_no_wrong_angle(pulling, pulling.joints)
+    assert not any(bench.status["set_points"])
+    assert pulling.change("activate"), pulling.node.stderr
+    pull(pulling)
+
+
+LINE_FAULTS = {
+    "lose share=0.1 for=1.5": "frames lost",
+    "damage share=0.1 for=1.5": "frames damaged",
+    "repeat share=0.2 for=1.5": "frames repeated",
+    "noise share=0.3 for=1.5": "frames damaged",
+    "damage share=0.2 for=1.5 way=down": "frames that the bench found damaged",
+}
+
+
+@pytest.mark.parametrize("order", LINE_FAULTS)
+def test_a_bad_line_is_told_and_survived(pulling, order):
+    pulling.joints.clear()
+    pulling.bench.tell(order)
+    go_on(pulling, 1.5)
+    key = LINE_FAULTS[order]
+    pulling.probe.wait_until(lambda: int(pulling.told("link").get(key, 0)) > 0, lambda: pulling.told("link"))
+    assert pulling.told("link")["level"] in ("WARN", "ERROR")
+    pulling.wait_for_state("active") if pulling.state == "active" else pulling.change("activate")
+    pull(pulling)
+    before = len(pulling.joints)
+    pulling.probe.wait_until(lambda: len(pulling.joints) > before + 5, lambda: pulling.told("angles"))
+    assert_no_wrong_angle(pulling, pulling.joints)
+    assert pulling.bench.status["largest_set_point"] <= 40.0
+
+
+def test_late_frames_have_the_stamps_of_their_measurement(pulling):
+    pulling.joints.clear()
+    pulling.bench.tell("late by=0.2 for=1")
+    go_on(pulling, 1.0)
+    pulling.wait_for_level("clock", "WARN", "ms late")
+    pulling.probe.wait_until(lambda: len(pulling.joints) > 60, "joint states")
+    assert_no_wrong_angle(pulling, pulling.joints)
+
+
+def test_joint_states_are_withheld_without_a_sensor(pulling):
+    pulling.bench.tell("drop sensor=3 for=4")
+    pulling.wait_for_level("angles", "ERROR", "sensor 3 is missing")
+    pulling.joints.clear()
+    pulling.imus[2].clear()
+    before = len(pulling.imus[0])
+    pulling.probe.wait_until(lambda: len(pulling.imus[0]) > before + 20, "the others' data")
+    assert not pulling.imus[2]
+    assert not pulling.joints
+    pulling.wait_for_level("imu 3", "ERROR", "no data")
+    pulling.probe.wait_until(lambda: len(pulling.joints) > 20, lambda: pulling.told("angles"))
+    assert_no_wrong_angle(pulling, pulling.joints)
+
+
+def test_clipped_rates_make_no_wrong_angles(pulling):
+    pulling.joints.clear()
+    pulling.bench.tell("clip sensor=5 range=40 for=4")
+    pulling.let_hand_move("hand bend=90 over=0.6 hold=0.2", 4.0)
+    pulling.wait_for_level("imu 5", "WARN", "samples clipped")
+    variances = [message.angular_velocity_covariance[0] for message in pulling.imus[4]]
+    assert max(variances) > 100 * min(variances)
+    assert_no_wrong_angle(pulling, pulling.joints)
+
+
+def test_a_stop_at_the_bench_stops_the_node(pulling, domain, ears):
+    """Seen as the node's own: it is latched, and reset by its service."""
+    assert pulling.call("stop").success
+    pulling.wait_for_state("inactive")
+    pulling.node.close()
+    with bridge_at(ears, pulling.bench, domain) as after:
+        after.node.wait_for_line("stopped: by the bench")
+        assert not after.change("activate")
+        assert after.call("reset_stop").success
+        assert after.change("activate"), after.node.stderr
+
+
+def test_an_empty_battery_is_told(pulling):
+    pulling.bench.tell("battery sensor=2 percent=3")
+    pulling.wait_for_level("imu 2", "ERROR", "battery at 3 %")
+    pulling.bench.tell("battery sensor=2 percent=90")
