@@ -40,7 +40,7 @@ bench-identification: setup ## compare the fit with the thesis's swarm (10 minut
 bench-discovery: setup ## hide effects and see what is found; ARGS="--minutes 60" stops it; overwrites docs/discovery-benchmark.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_discovery $(ARGS)
 
-fuzz: setup ## damaged and made-up bytes through the bench protocol's parsers (2 minutes); overwrites docs/bench-fuzzing.md
+fuzz: setup ## damaged and made-up bytes through the bench protocol's parsers (6 minutes); overwrites docs/bench-fuzzing.md
 	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/fuzz/extra \
 	  -r tools/fuzz_bench/requirements.txt || echo "atheris cannot be installed and is left out"
 	@$(IN_WORKSPACE) python3 -m tools.fuzz_bench $(ARGS)
