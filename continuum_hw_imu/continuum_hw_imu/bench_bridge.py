@@ -24,9 +24,9 @@ from continuum_hw_imu.bench_commander import ANSWER_TIME, BenchCommander
 from continuum_hw_imu.bench_diagnostics import BenchDiagnostics
 from continuum_hw_imu.bench_parameters import AUTOSTARTS, PARAMETERS, steps_from
 from continuum_hw_imu.bench_streams import BenchStreams
-from continuum_hw_imu.emulator.sensor_model import SensorQuality
 from continuum_hw_imu.imu_messages import ImuMessages
 from continuum_hw_imu.link.bench_client import BenchClient
+from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_hw_imu.sensor_watch import SensorWatch
 from continuum_manipulator.nodekit import tension_limits
 from continuum_manipulator.nodekit.checked_node import CheckedNode

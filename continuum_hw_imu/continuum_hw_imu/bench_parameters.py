@@ -8,7 +8,7 @@ from continuum.errors import InvalidValueError
 from continuum.inertial.calibration import load_calibration
 from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum.parameter_spec import ParameterSpec
-from continuum_hw_imu.emulator.sensor_model import SensorQuality
+from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_manipulator.nodekit import tension_limits
 
 AUTOSTARTS = ("none", "configure", "activate")

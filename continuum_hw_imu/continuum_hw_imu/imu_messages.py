@@ -8,7 +8,7 @@ from geometry_msgs.msg import Vector3
 from sensor_msgs.msg import Imu
 
 from continuum.arrays import Array
-from continuum_hw_imu.emulator.sensor_model import SensorQuality
+from continuum_hw_imu.sensor_quality import SensorQuality
 
 NO_ORIENTATION = np.array([-1.0, *[0.0] * 8])
 """Of REP-145: the sensor says nothing of it."""

@@ -10,11 +10,11 @@ from continuum.dynamics.model_file import load_model
 from continuum_hw_imu.emulator.bench import Bench, BenchSettings
 from continuum_hw_imu.emulator.emulator import Emulator, EmulatorSettings
 from continuum_hw_imu.emulator.order_book import OrderBook
-from continuum_hw_imu.emulator.sensor_model import SensorQuality
 from continuum_hw_imu.protocol import messages as m
 from continuum_hw_imu.protocol.decoder import Decoder
 from continuum_hw_imu.protocol.frame import Frame, FrameWriter
 from continuum_hw_imu.protocol.sequence import SequenceTracker
+from continuum_hw_imu.sensor_quality import SensorQuality
 
 TOKEN = 99
 STEP = 1 / 480

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from continuum_hw_imu.emulator.sensor_model import SensorModel, SensorQuality
+from continuum_hw_imu.emulator.sensor_model import SensorModel
 from continuum_hw_imu.protocol.messages.imu import PRESENT, RATE_STEP
+from continuum_hw_imu.sensor_quality import SensorQuality
 
 T = 1 / 60
 STILL = np.zeros(5)

@@ -11,10 +11,10 @@ from continuum.dynamics.model_file import load_model
 from continuum.inertial.calibration import Calibration
 from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum_hw_imu.bench_streams import BenchStreams
-from continuum_hw_imu.emulator.sensor_model import SensorQuality
 from continuum_hw_imu.imu_messages import ImuMessages
 from continuum_hw_imu.protocol.messages import ImuFrame, SensorPlace, TensionFrame
 from continuum_hw_imu.protocol.messages.imu import CLIPPED_RATE, PRESENT
+from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_manipulator.nodekit.planar_arm import PlanarArm
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 

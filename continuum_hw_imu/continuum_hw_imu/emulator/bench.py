@@ -15,10 +15,11 @@ from continuum.errors import InvalidValueError
 from continuum_hw_imu.emulator.actuators import Actuators
 from continuum_hw_imu.emulator.hand import Hand
 from continuum_hw_imu.emulator.link_motion import LinkMotion, felt, gravity, half_spacing, link_motion
-from continuum_hw_imu.emulator.sensor_model import SensorModel, SensorQuality
+from continuum_hw_imu.emulator.sensor_model import SensorModel
 from continuum_hw_imu.protocol.messages import FaultCode, Hello, ImuFrame, Message, ReceiverLimits, SensorPlace
 from continuum_hw_imu.protocol.messages.imu import MOST_SENSORS
 from continuum_hw_imu.receiver.bench_controller import BenchController
+from continuum_hw_imu.sensor_quality import SensorQuality
 
 FIRMWARE = "bench_emulator 0.1.0"
 LOW_BATTERY = 15

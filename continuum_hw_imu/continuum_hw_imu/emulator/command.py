@@ -17,8 +17,8 @@ from continuum_hw_imu.emulator.control import ControlSocket
 from continuum_hw_imu.emulator.emulator import Emulator, EmulatorSettings
 from continuum_hw_imu.emulator.order_book import OrderBook
 from continuum_hw_imu.emulator.orders import Order, in_words, read_orders
-from continuum_hw_imu.emulator.sensor_model import SensorQuality
 from continuum_hw_imu.protocol.messages import ReceiverLimits
+from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_manipulator.nodekit.run import BAD_START, StopRequest
 
 _EPILOG = f"""\
