@@ -26,6 +26,7 @@ from continuum_hw_imu.bench_parameters import AUTOSTARTS, PARAMETERS, steps_from
 from continuum_hw_imu.bench_streams import BenchStreams
 from continuum_hw_imu.imu_messages import ImuMessages
 from continuum_hw_imu.link.bench_client import BenchClient
+from continuum_hw_imu.protocol.messages.forces import LARGEST, STEP
 from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_hw_imu.sensor_watch import SensorWatch
 from continuum_manipulator.nodekit import tension_limits
@@ -76,6 +77,9 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         LifecycleNodeMixin.__init__(self)
         self._refuse_what_is_none()
         self._limits = tension_limits.limits_from(self.values)
+        most = LARGEST * STEP
+        if self._limits.max_tension > most:
+            raise InvalidValueError("max_tension", self._limits.max_tension, f"up to {most:g} N, what the line carries")
         self._commander = BenchCommander(self._limits, len(self._planar.cables))
         self._streams = self._offered_streams(section)
         self._to_come = self.values["autostart"] != AUTOSTARTS[0]
@@ -219,6 +223,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         commander = self._commander
         commander.misfit = self._streams.problem
         if commander.keep_up(now):
+            self._to_come = False
             self.diagnostics.warnings.note("stopped", "by the bench; until ~/reset_stop")
         if self._state != State.PRIMARY_STATE_ACTIVE:
             return
@@ -233,7 +238,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             tension_limits.tell_abandoned(self.diagnostics, self._limits)
 
     def _on_command(self, message: CableStates) -> None:
-        speakers = self.count_publishers(COMMANDS)
+        speakers = self.count_publishers(self.resolve_topic_name(COMMANDS))
         if speakers > 1:
             raise MessageFault("several commanders", f"{speakers} publishers; one at a time may command")
         now = self.get_clock().now().nanoseconds
@@ -254,9 +259,9 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return response
 
     def _calibrate(self, step: Callable[[SensorWatch], None]) -> str:
-        watch = self._streams.watch
-        if watch is None:
-            raise InvalidValueError("bench", self._commander.line_problem() or "unknown", "one that fits, configured")
+        watch, problem = self._streams.watch, self._commander.line_problem()
+        if watch is None or problem:
+            raise InvalidValueError("bench", problem or "unknown", "one that fits, configured, and heard now")
         step(watch)
         self._streams.steps = watch.steps
         calibration, file = watch.steps.complete(), self.values["calibration"]
@@ -272,6 +277,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return "all cables are slack"
 
     def _stop(self) -> str:
+        self._to_come = False  # what was stopped becomes active by a person's word alone
         self._commander.stop()
         return "stopped, until ~/reset_stop; then the node has to be activated again"
 

@@ -126,7 +126,10 @@ class BenchCommander:
         self.client.set_tension(set_point.tolist(), self.gate.decided)
 
     def _claim(self) -> str:
-        result = self.client.claim(self.client.hello.limits.slack_time + ANSWER_TIME)
+        hello = self.client.hello
+        if hello is None:
+            return NO_HELLO
+        result = self.client.claim(hello.limits.slack_time + ANSWER_TIME)
         return "" if result is Result.DONE else _refusal(result)
 
     def _state_there(self) -> GuardState | None:

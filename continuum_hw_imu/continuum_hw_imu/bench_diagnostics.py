@@ -66,7 +66,8 @@ class BenchDiagnostics:
         if client is None:
             return self._status("link", [(STALE, NOT_CONFIGURED)], {"port": self._port})
         latency, now = self._streams.latency, time.monotonic()
-        damage = {f"damaged: {kind}": count for kind, count in client.decoder.errors.items()}
+        talk = client.conversation  # the reading thread may begin another at any time
+        damage = {f"damaged: {kind}": count for kind, count in client.decoder.errors.copy().items()}
         counts = {
             "frames lost": client.arrivals.lost,
             "frames repeated": client.arrivals.repeated,
@@ -74,8 +75,8 @@ class BenchDiagnostics:
             "frames damaged": client.decoder.refused,
             "sendings refused by the port": client.link.refused,
         }
-        if client.conversation.status is not None:
-            counts["frames that the bench found damaged"] = client.conversation.status.refused
+        if talk.status is not None:
+            counts["frames that the bench found damaged"] = talk.status.refused
         slow = latency.quantile(0.99)
         problem = self._commander.line_problem()
         complaints = [*([(ERROR, problem)] if problem else []), *self._grown("link", counts)]
@@ -83,7 +84,7 @@ class BenchDiagnostics:
             complaints.append((WARN, f"frames take {1e3 * slow:.1f} ms through this process"))
         values = {
             "port": self._port,
-            "firmware": "" if client.hello is None else client.hello.firmware,
+            "firmware": "" if talk.hello is None else talk.hello.firmware,
             "frames": client.decoder.good,
             "frame rate [Hz]": f"{self._frames.rate(client.decoder.good, now):.1f}",
             **counts,
@@ -116,15 +117,16 @@ class BenchDiagnostics:
 
     def _sensor(self, k: int) -> DiagnosticStatus:
         subject, client, watch = f"imu {k + 1}", self._commander.client, self._streams.watch
-        if client is None or watch is None or client.hello is None:
+        hello = None if client is None else client.conversation.hello
+        if client is None or watch is None or hello is None:
             return self._status(subject, [(STALE, NOT_CONFIGURED if client is None else "no bench")], {})
         missing, clipped = int(watch.missing[k]), int(watch.clipped[k])
-        at = next(i for i, sensor in enumerate(client.hello.sensors) if sensor.link == k + 1)
+        at = next(i for i, sensor in enumerate(hello.sensors) if sensor.link == k + 1)
         status = client.conversation.status
         battery = status.batteries[at] if status is not None and at < len(status.batteries) else None
         rate = self._samples[k].rate(watch.samples - missing, time.monotonic())
         complaints = list(self._grown(subject, {"samples missing": missing, "samples clipped": clipped}))
-        expected = client.hello.sample_rate
+        expected = hello.sample_rate
         if not watch.heard[k] or self._commander.line_problem():
             complaints.append((ERROR, "no data"))
         elif rate < 0.95 * expected:
@@ -132,7 +134,7 @@ class BenchDiagnostics:
         if battery is not None and battery <= LOW:
             complaints.append((ERROR if battery <= EMPTY else WARN, f"battery at {battery} %"))
         values = {
-            "name": client.hello.sensors[at].name,
+            "name": hello.sensors[at].name,
             "rate [Hz]": f"{rate:.1f}",
             "samples missing": missing,
             "samples clipped": clipped,
@@ -162,15 +164,17 @@ class BenchDiagnostics:
 
     def _tension(self) -> DiagnosticStatus:
         client = self._commander.client
-        if client is None or client.conversation.status is None:
+        status = None if client is None else client.conversation.status
+        if client is None or status is None:
             why = NOT_CONFIGURED if client is None else "no status of the bench"
             stop = [(ERROR, STOPPED)] if self._commander.gate.stopped else []
             return self._status("tension", [*stop, (STALE, why)], {})
-        status = client.conversation.status
         complaints = list(_faults(status))
         if self._commander.gate.stopped or status.state is GuardState.STOPPED:
             complaints.insert(0, (ERROR, STOPPED))
-        refused = {f"answers: {result.name.lower()}": n for result, n in client.results.counts.items() if result.value}
+        refused = {
+            f"answers: {result.name.lower()}": n for result, n in client.results.counts.copy().items() if result.value
+        }
         complaints += self._grown("tension", refused)
         values: dict[str, object] = {
             "node": "lets commands through" if self._commander.gate.is_open else "lets nothing through",

@@ -23,6 +23,9 @@ from continuum_manipulator.nodekit.stamps import NANOSECONDS
 
 Publish = Callable[[object], None]
 
+SAME = 1e-5
+"""Times this near [s] are one; an estimator that passes a sample over keeps the estimate before."""
+
 FRESH = 0.1
 """Joint angles older than this are not those of a measured tension [s]."""
 
@@ -107,7 +110,8 @@ class BenchStreams:
     def _publish_joints(self, watch: SensorWatch, heard: Heard) -> None:
         self.age = heard.read - heard.time
         estimate = watch.estimate
-        if estimate is None or not estimate.good.all():
+        is_of_now = estimate is not None and abs(heard.device_time * 1e-6 - estimate.time) < SAME
+        if estimate is None or not is_of_now or not estimate.good.all():
             self.withheld += 1
             return
         self._joints(self._planar.joint_state(self._stamp(heard), estimate.angles, estimate.rates))

@@ -7,6 +7,9 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.live.tension_follower import TensionFollower, TensionLimits
 
+LONGEST = 0.05
+"""Time [s] for which tension changes in one go: after a stall it goes on from where it was, no faster than before."""
+
 
 class TensionGate:
     """Shut at the start. Open, it lets commands through within limits; it shuts to zero at once.
@@ -25,6 +28,7 @@ class TensionGate:
 
     def __init__(self, limits: TensionLimits, n_cables: int) -> None:
         self._follower = TensionFollower(limits, n_cables)
+        self._patience = limits.patience
         self._last: float | None = None
         self._commanded: float | None = None
         self.is_open = False
@@ -42,8 +46,13 @@ class TensionGate:
 
     @property
     def decided(self) -> float | None:
-        """When the command that is followed was decided; None where the gate itself asks for less, just now."""
-        return None if self.abandoned else self._commanded
+        """When what is asked for was decided; None for just now.
+
+        Of tension that falls since commands stopped: when they did, so that the bench, too, ends it in its own time.
+        """
+        if self._commanded is None or not self.abandoned:
+            return self._commanded
+        return self._commanded + self._patience if self.is_tight else None
 
     @property
     def is_tight(self) -> bool:
@@ -53,7 +62,7 @@ class TensionGate:
         """Let commands through from now on, from zero; False while a stop is latched."""
         if not self.stopped:
             self.let_go()
-            self.is_open = True
+            self._last, self.is_open = None, True
         return self.is_open
 
     def shut(self) -> None:
@@ -84,7 +93,7 @@ class TensionGate:
 
     def move_on(self, now: float) -> Array:
         """Follow the commands up to ``now``: the set point, (n_cables,) [N]."""
-        passed = 0.0 if self._last is None else now - self._last
+        passed = 0.0 if self._last is None else min(now - self._last, LONGEST)
         self._last = now
         if self.is_open:
             self._follower.move_on(now, passed)

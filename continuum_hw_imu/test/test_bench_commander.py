@@ -136,6 +136,7 @@ def test_a_gate_that_is_shut_asks_for_nothing():
     gate = TensionGate(LIMITS, 2)
     assert gate.move_on(0.0).tolist() == [0.0, 0.0]
     gate.open()
+    gate.move_on(0.0)
     assert gate.command([6.0, 0.0], 0.0)
     assert gate.decided == 0.0
     assert gate.move_on(0.03).tolist() == pytest.approx([3.0, 0.0])

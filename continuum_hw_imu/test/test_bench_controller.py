@@ -99,6 +99,16 @@ def test_what_was_overtaken_is_refused_but_a_stop_is_obeyed(talk):
     assert talk.device.guard.state is m.GuardState.STOPPED
 
 
+def test_a_stop_is_obeyed_that_a_greeting_has_overtaken(talk):
+    """The greeting begins the count anew; the stop, sent before it, has a number that seems to have come."""
+    number = talk.host.sequence
+    talk.host.sequence += 1
+    talk.say(m.HelloRequest())
+    (answer,) = talk.device.hear(Frame(number, 0, m.Stop()).encode(), talk.now)
+    assert answer.result is m.Result.DONE
+    assert talk.device.guard.state is m.GuardState.STOPPED
+
+
 @pytest.mark.parametrize("again", [0, 3, 40_000])
 def test_a_host_that_begins_anew_may_count_anew(talk, again):
     talk.say(m.Claim(TOKEN), m.Release(TOKEN))

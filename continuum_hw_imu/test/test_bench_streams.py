@@ -143,6 +143,34 @@ def test_a_bench_that_begins_anew_has_to_rest_anew():
     assert published.joints
 
 
+def test_a_bench_that_begins_anew_unheard_is_asked_who_it_is_and_no_old_angle_is_told():
+    """Its greeting was lost: the clock that went back tells. Raw data wait for the greeting, too."""
+    published = Published()
+    published.measure(60)
+    bench, first = published.bench, published.bench.client.conversations
+    for seen in (published.joints, *published.imus):
+        seen.clear()
+    bench.now -= 8.0
+    published.measure(5, link_rates=[0.5] * N)
+    assert bench.client.hello is None
+    assert bench.client.conversations == first + 1
+    assert not any((published.joints, *published.imus))
+    bench.client.ask_who(1e9)
+    assert bench.client.hello == HELLO
+    published.measure(5)
+    assert not published.joints
+    assert all(published.imus)
+
+
+def test_what_the_estimator_passes_over_is_withheld():
+    published = Published()
+    published.measure(60)
+    published.joints.clear()
+    published.bench.now -= 1.0
+    published.measure(3, link_rates=[0.5] * N)
+    assert not published.joints
+
+
 def test_stamps_are_those_of_the_samples():
     published = Published()
     published.measure(120)

@@ -37,6 +37,9 @@ from continuum_hw_imu.protocol.sequence import Arrival, SequenceTracker
 AGAIN = 0.1
 """An unanswered request is sent again after this time [s]."""
 
+BEGAN_ANEW = 2_000_000
+"""A frame this much [us] before the newest is not late: the device's clock began anew."""
+
 HELLO_AGAIN = 0.2
 """A device that did not say who it is is asked again after this time [s]."""
 
@@ -222,6 +225,10 @@ class BenchClient:
             if arrival is Arrival.REPEATED:
                 return None
             device_time = self._device_time.unwrapped(frame.time)
+            if device_time < self.conversation.newest - BEGAN_ANEW:  # it began anew, and its greeting was lost
+                self._forget()
+                self._news.notify_all()
+                return None
             self.clock.heard(device_time, now)
             talk = self.conversation
             talk.last, talk.newest = now, max(talk.newest, device_time)

@@ -137,9 +137,11 @@ class BenchController:
             self.arrivals.take(frame.sequence)
             return self._hello
         arrival = self.arrivals.take(frame.sequence)
+        if isinstance(request, Stop):
+            arrival = Arrival.NEW  # whenever it comes, and however often
         if arrival is Arrival.REPEATED:
             return None
-        if arrival is Arrival.LATE and not isinstance(request, Stop):
+        if arrival is Arrival.LATE:
             return Ack(frame.sequence, request.TYPE, Result.OUT_OF_ORDER)
         result = self._carried_out(request, frame.sequence, now)
         if isinstance(request, Heartbeat) and result is Result.DONE:
