@@ -72,7 +72,7 @@ class BenchStreams:
         self.problem = ""
         self.latency = LatencyMeter()
         self.withheld = 0
-        self.age = 0.0
+        self.age = self.oldest = 0.0
         self.tension: TensionFrame | None = None
 
     def take(self, heard: Heard) -> None:
@@ -109,6 +109,7 @@ class BenchStreams:
 
     def _publish_joints(self, watch: SensorWatch, heard: Heard) -> None:
         self.age = heard.read - heard.time
+        self.oldest = max(self.oldest, self.age)
         estimate = watch.estimate
         is_of_now = estimate is not None and abs(heard.device_time * 1e-6 - estimate.time) < SAME
         if estimate is None or not is_of_now or not estimate.good.all():
