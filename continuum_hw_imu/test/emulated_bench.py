@@ -91,7 +91,7 @@ class Bridge:
         self._clients = {
             name: ears.probe.node.create_client(kind, f"{self.name}/{name}")
             for kind, names in {
-                Trigger: ("zero", "calibrate_bias", "find_axes", "stop", "reset_stop"),
+                Trigger: ("zero", "calibrate_bias", "find_axes", "release", "stop", "reset_stop"),
                 ChangeState: ("change_state",),
                 GetState: ("get_state",),
             }.items()

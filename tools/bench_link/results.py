@@ -1,0 +1,49 @@
+"""Results of the parts as files, so that the page can be made of several runs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from tools.bench_link.campaign import Case
+from tools.bench_link.closed_loop import ClosedLoop, Minute
+from tools.bench_link.deaths import Death
+from tools.bench_link.soak import Memory, Soak
+
+
+@dataclass(frozen=True)
+class Results:
+    """What there is; None where a part was not run yet."""
+
+    closed: ClosedLoop | None
+    campaign: list[Case] | None
+    deaths: list[Death] | None
+    soak: Soak | None
+
+
+def keep(folder: Path, part: str, result: Any) -> None:
+    """Write what a part measured."""
+    plain = [asdict(one) for one in result] if isinstance(result, Sequence) else asdict(result)
+    (folder / f"{part}.json").write_text(json.dumps(plain, indent=1) + "\n", encoding="utf-8")
+
+
+def load(folder: Path) -> Results:
+    """All that was kept."""
+    closed, campaign, deaths, soak = (_plain(folder / f"{part}.json") for part in Results.__dataclass_fields__)
+    if closed:
+        closed["by_minute"] = [Minute(**minute) for minute in closed["by_minute"]]
+    if soak:
+        soak |= {name: Memory(**soak[name]) for name in ("bridge", "emulator")}
+    return Results(
+        closed and ClosedLoop(**closed),
+        campaign and [Case(**case) for case in campaign],
+        deaths and [Death(**death) for death in deaths],
+        soak and Soak(**soak),
+    )
+
+
+def _plain(file: Path) -> Any:
+    return json.loads(file.read_text(encoding="utf-8")) if file.exists() else None
