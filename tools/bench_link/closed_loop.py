@@ -15,7 +15,7 @@ from continuum.arrays import Array
 from tools.bench_link.ears import State
 from tools.bench_link.latency import Delays, delays, load_sent
 from tools.bench_link.processes import core_share, usage
-from tools.bench_link.rig import RATE, Rig, rig
+from tools.bench_link.rig import Rig, rig
 from tools.bench_link.truth import Truth, errors_of, load_truth, rms_of_worst
 
 SWING = 2.0

@@ -1,4 +1,4 @@
-"""Who listens to a bridge and notes when each message came; little is kept of each, so that it can go on for an hour."""
+"""Who listens to a bridge and notes when each message came; little is kept of each, so that it can go on for long."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """When sound frames of the sensors were written to the port: one row for every one, to reckon delays with.
 
-Columns: written_s (of this machine's monotonic clock, just after the bytes were handed to it), device_time_us (32 bit, as
-in the frame), sequence.
+Columns: written_s (of this machine's monotonic clock, just after the bytes were handed to the port), device_time_us
+(32 bit, as in the frame), sequence.
 """
 
 from __future__ import annotations
