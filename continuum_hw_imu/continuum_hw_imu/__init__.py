@@ -1,1 +1,1 @@
-"""Bridge between the workspace and a bench with five inertial sensors and cable actuators: a skeleton so far."""
+"""Bridge between the workspace and a bench with inertial sensors and cable actuators, its protocol and its emulator."""

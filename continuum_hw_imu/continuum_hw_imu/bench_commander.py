@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 
 from continuum.dynamics.live.tension_follower import TensionLimits
 from continuum_hw_imu.link.bench_client import BenchClient
@@ -29,6 +30,7 @@ class BenchCommander:
     Args:
         limits: of tension; the bench keeps its own besides.
         n_cables: number of cables.
+        clock: shows what `time.monotonic` does, but to tests [s].
 
     Attributes:
         gate: what goes through.
@@ -36,7 +38,8 @@ class BenchCommander:
         misfit: why the bench at the other end is not the right one; empty where it is.
     """
 
-    def __init__(self, limits: TensionLimits, n_cables: int) -> None:
+    def __init__(self, limits: TensionLimits, n_cables: int, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
         self.gate = TensionGate(limits, n_cables)
         self.client: BenchClient | None = None
         self.misfit = ""
@@ -51,7 +54,7 @@ class BenchCommander:
         if client.hello is None:
             version = client.decoder.other_version
             return NO_HELLO if version is None else f"the bench speaks version {version} of the protocol"
-        silence = client.silent_for(time.monotonic())
+        silence = client.silent_for(self._clock())
         return self.misfit or (f"the bench is silent for {silence:.1f} s" if silence > SILENT else "")
 
     def problem(self) -> str:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import termios
 import tty
 from pathlib import Path
 
@@ -37,7 +38,7 @@ class Lab:
 
     def open(self) -> None:
         self.port = os.open(self.link, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
-        tty.setraw(self.port)
+        tty.setraw(self.port, termios.TCSANOW)  # without dropping what waits
         self.decoder, self.arrivals = Decoder.of_host(), SequenceTracker()
 
     def shut(self) -> None:

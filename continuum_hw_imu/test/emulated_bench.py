@@ -3,6 +3,7 @@
 import csv
 import json
 import socket
+import time
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -107,7 +108,19 @@ class Bridge:
 
     @property
     def state(self) -> str:
-        return self.call("get_state").current_state.label
+        """Asked again where the answer is lost, as while nodes still find each other."""
+        client = self._clients["get_state"]
+        self.probe.wait_until(client.service_is_ready, lambda: f"get_state; {self.node.stderr}")
+        asked = []
+
+        def answered() -> bool:
+            if not asked or (not asked[-1].done() and time.monotonic() > self._ask_again):
+                asked.append(client.call_async(GetState.Request()))
+                self._ask_again = time.monotonic() + 2.0
+            return any(future.done() for future in asked)
+
+        self.probe.wait_until(answered, lambda: f"answer of get_state; {self.node.stderr}")
+        return next(future.result() for future in asked if future.done()).current_state.label
 
     def change(self, transition: str) -> bool:
         number = getattr(Transition, f"TRANSITION_{transition.upper()}")

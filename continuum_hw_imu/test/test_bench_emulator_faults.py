@@ -30,10 +30,11 @@ def test_it_is_slack_in_time_however_the_host_goes(lab, end, longest):
             lab.shut()
         case "unplugged":
             lab.order("unplug for=5")
-        case "frozen":
-            lab.order("freeze for=5")
-        case "lost":
-            lab.order("lose for=5 way=down")
+        case "frozen" | "lost":  # the host does not know, and commands on
+            lab.order("freeze for=5" if end == "frozen" else "lose for=5 way=down")
+            while lab.bench.controller.guard.set_points.any():
+                lab.run(8 * STEP, pull=(20.0, 0.0))
+                assert lab.now < begin + 5
         case "deaf host":
             newest = lab.newest
             while lab.bench.controller.guard.set_points.any():

@@ -6,7 +6,9 @@ from bench_frames import FRAMES
 from hypothesis import given
 from hypothesis import strategies as st
 
+from continuum.dynamics.live.stepper import Interval
 from continuum.errors import InvalidValueError
+from continuum_hw_imu.emulator.actuators import Actuators
 from continuum_hw_imu.emulator.device_clock import DeviceClock
 from continuum_hw_imu.emulator.hand import Hand
 from continuum_hw_imu.emulator.line_faults import FaultyLine, LineFault, LineFaultKind, pieces_of
@@ -77,7 +79,8 @@ def test_a_slow_line_takes_its_time_and_keeps_order():
     queue.put(0.05, b"z" * 10)
     assert queue.next == pytest.approx(0.1)
     assert queue.due(0.099) == []
-    assert queue.due(0.31) == [b"x" * 10, b"z" * 10]
+    assert queue.due(0.29) == [b"x" * 10]
+    assert queue.due(0.31) == [b"z" * 10]
     assert queue.due(1.3) == [b"y" * 10]
     assert queue.next is None
 
@@ -142,6 +145,21 @@ def test_a_hand_moves_smoothly_from_here_to_there():
     np.testing.assert_allclose(np.gradient(angles, times, axis=0)[1:-1], rates[1:-1], atol=1e-3)
     assert hand.motion(12.9)[0].tolist() == hand.goal.tolist()
     assert hand.end == 13.0
+
+
+def test_actuators_follow_with_their_lag():
+    actuators = Actuators(1, 0.05, 0.0, np.random.default_rng(0))
+    step = Interval(0.001, np.zeros(1), np.array([10.0]))
+    reached = [actuators.follow(step) for _ in range(100)]
+    expected = 10.0 * (1 - np.exp(-np.arange(1, 101) / 50))
+    np.testing.assert_allclose([now.after[0] for now in reached], expected)
+    assert reached[50].before == reached[49].after
+    np.testing.assert_array_equal(actuators.measured(), actuators.tension)
+
+
+def test_load_cells_are_noisy():
+    actuators = Actuators(2, 0.0, 0.05, np.random.default_rng(0))
+    assert np.std([actuators.measured() for _ in range(2000)]) == pytest.approx(0.05, rel=0.1)
 
 
 def test_a_clock_that_drifts_does_not_leap():

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import select
-import termios
 import tty
 from pathlib import Path
 
@@ -80,10 +79,8 @@ class PseudoPort:
         return self._master
 
     def forget(self) -> None:
-        """Drop what an earlier host left unread."""
+        """Drop what waits for a host that has gone; what it had not read, went with its end of the port."""
         self._waiting.clear()
-        if self._master is not None:
-            termios.tcflush(self._master, termios.TCIOFLUSH)
 
     def read(self) -> bytes:
         """What has come, b"" for nothing."""

@@ -10,7 +10,6 @@ import random
 import threading
 import time
 from collections.abc import Callable, Sequence
-from functools import partial
 
 from continuum_hw_imu.link.heard import Conversation, Heard, Results
 from continuum_hw_imu.link.serial_link import SerialLink
@@ -71,7 +70,7 @@ class BenchClient:
         self._hand_on = heard
         self._rng = rng or random.SystemRandom()
         self._news = threading.Condition()
-        self._answers: dict[int, Result | None] = {}
+        self._answers: dict[int, Result | None] = {}  # to the sendings of the request under way, by number
         self._writer = FrameWriter()
         self._device_time = DeviceTime()
         self._asked_hello = -HELLO_AGAIN
@@ -121,7 +120,6 @@ class BenchClient:
 
     def claim(self, timeout: float) -> Result | None:
         """Become the commander, waiting for slack cables as long as ``timeout`` [s] allows; None without an answer."""
-        self._token = self._rng.randrange(1, 1 << 32)
         result = self._ask(Claim(self._token), timeout, until=lambda result: result is not Result.NOT_SLACK)
         self.commands = result is Result.DONE
         return result
@@ -166,29 +164,29 @@ class BenchClient:
         deadline = time.monotonic() + timeout
         result: Result | None = None
         with self._news:
+            self._answers.clear()
             while (left := deadline - time.monotonic()) > 0:
-                number = self._say(request)
-                self._answers[number] = None
-                self._news.wait_for(partial(self._answered, number), min(left, AGAIN))
-                result = self._answers.pop(number)
-                if result is not None:
-                    if until(result):
-                        return result
-                    self._news.wait(min(max(0.0, deadline - time.monotonic()), AGAIN / 2))
+                self._answers[self._writer.sequence] = None
+                self._say(request)
+                if not self._news.wait_for(self._answered, min(left, AGAIN)):
+                    continue  # an answer to any of the sendings may still come
+                result = next(answer for answer in self._answers.values() if answer is not None)
+                if until(result):
+                    break
+                self._answers.clear()
+                self._news.wait(min(max(0.0, deadline - time.monotonic()), AGAIN / 2))
         return result
 
-    def _answered(self, number: int) -> bool:
-        return self._answers[number] is not None
+    def _answered(self) -> bool:
+        return any(answer is not None for answer in self._answers.values())
 
-    def _say(self, request: Message) -> int:
-        """Send a request that is answered; its number."""
+    def _say(self, request: Message) -> None:
+        """Send a request that is answered."""
         self.results.asked += 1
-        return self._send(request)
+        self._send(request)
 
-    def _send(self, message: Message) -> int:
-        number = self._writer.sequence
+    def _send(self, message: Message) -> None:
         self.link.send(self._writer.write(message, int(time.monotonic() * MICROSECONDS)))
-        return number
 
     def _begin(self) -> None:
         """The port was opened."""
@@ -206,6 +204,7 @@ class BenchClient:
         self.conversation = Conversation()
         self.conversations += 1
         self.commands = False
+        self._token = self._rng.randrange(1, 1 << 32)
 
     def _take(self, data: bytes, now: float) -> None:
         """Bytes came."""

@@ -40,7 +40,7 @@ class ClockMap:
 
     def __init__(self, window: float = 20.0, most_drift: float = 1e-3) -> None:
         self._most_drift = most_drift
-        self._points: deque[Point] = deque(maxlen=round(window / _BUCKET))
+        self._points: deque[Point] = deque()
         self._window = window
         self.leaps = 0
         self.forget()

@@ -1,0 +1,162 @@
+"""The client beside the controller itself: greeting, claims, set points and their answers, a spoilt line."""
+
+import pytest
+from looped_bench import HELLO, LoopedBench
+
+from continuum_hw_imu.protocol.messages import GuardState, Hello, Result
+
+SOON = 0.2
+
+
+@pytest.fixture
+def bench():
+    return LoopedBench()
+
+
+def test_it_knows_who_is_there_and_forgets_it_with_the_line(bench):
+    assert bench.client.hello == HELLO
+    first = bench.client.conversations
+    bench.client._begin()
+    assert bench.client.hello is None
+    assert not bench.client.commands
+    bench.connect()
+    assert bench.client.hello == HELLO
+    assert bench.client.conversations == first + 2
+
+
+def test_it_asks_who_is_there_until_it_is_told(bench):
+    bench.client._begin()
+    bench.link.deaf = True
+    assert not bench.client.wait_for(lambda: bench.client.hello is not None, 0.0)
+    bench.link.deaf = False
+    bench.client.ask_who(1e9)
+    assert bench.client.hello == HELLO
+
+
+def test_it_commands_what_it_claimed(bench):
+    client = bench.client
+    assert client.claim(SOON) is Result.DONE
+    assert client.commands
+    client.set_tension([5.0, 1.0], None)
+    bench.pass_time(0.1)
+    assert bench.set_points == [5.0, 1.0]
+    assert client.release(SOON) is Result.DONE
+    assert not client.commands
+    bench.pass_time(1.0)
+    assert bench.set_points == [0.0, 0.0]
+    assert client.results.unanswered == 0
+
+
+def test_a_claim_waits_for_slack_cables(bench):
+    bench.client.claim(SOON)
+    bench.client.set_tension([5.0, 0.0], None)
+    bench.pass_time(0.1)
+    assert bench.client.claim(SOON) is Result.NOT_SLACK
+    bench.pass_time(1.0)
+    assert bench.client.claim(SOON) is Result.DONE
+
+
+def test_it_learns_that_it_no_longer_commands(bench):
+    bench.client.claim(SOON)
+    bench.pass_time(1.0)  # without a heartbeat
+    assert not bench.client.commands
+
+
+def test_another_commander_is_told(bench):
+    other = LoopedBench()
+    other.controller = bench.controller
+    assert bench.client.claim(SOON) is Result.DONE
+    other.now = bench.now
+    assert other.client.claim(SOON) is Result.BUSY
+    assert not other.client.commands
+
+
+def test_no_answer_is_none(bench):
+    bench.link.deaf = True
+    assert bench.client.claim(SOON) is None
+    assert bench.client.results.unanswered >= 1
+
+
+def test_old_commands_are_told_as_old(bench):
+    bench.client.claim(SOON)
+    bench.pass_time(0.2)
+    bench.client.beat()
+    bench.client.set_tension([5.0, 0.0], bench.now - 0.1)
+    assert bench.client.results.counts[Result.STALE] == 0
+    bench.client.set_tension([5.0, 0.0], bench.now - 1.0)
+    assert bench.client.results.counts[Result.STALE] == 1
+
+
+def test_let_go_drops_tension_at_once_and_set_points_pull_again(bench):
+    bench.client.claim(SOON)
+    bench.client.set_tension([5.0, 0.0], None)
+    bench.pass_time(0.1)
+    bench.client.let_go(SOON)
+    assert bench.set_points == [0.0, 0.0]
+    bench.pass_time(0.01)
+    bench.client.set_tension([3.0, 0.0], None)
+    bench.pass_time(0.1)
+    assert bench.set_points == [3.0, 0.0]
+
+
+def test_a_stop_is_ended_by_its_commander(bench):
+    bench.client.stop()
+    assert bench.client.conversation.status.state is GuardState.STOPPED
+    assert bench.client.reset_stop(SOON) is Result.NOT_COMMANDER
+    bench.client.claim(SOON)
+    bench.pass_time(0.01)
+    assert bench.client.reset_stop(SOON) is Result.DONE
+    assert bench.client.conversation.status.state is GuardState.SLACK
+
+
+def test_repeated_and_overtaken_frames_are_counted_and_not_handed_on(bench):
+    status = bench.controller.status()
+    before = len(bench.heard)
+    first, second = bench.frame(status), bench.frame(status)
+    bench.deliver(second + first + second)
+    assert len(bench.heard) == before + 1
+    assert (bench.client.arrivals.late, bench.client.arrivals.repeated) == (1, 1)
+
+
+def test_damage_costs_the_frames_that_it_touches(bench):
+    status = bench.controller.status()
+    hurt = bytearray(bench.frame(status))
+    hurt[5] ^= 0x10
+    before = len(bench.heard)
+    bench.deliver(bytes(hurt) + bench.frame(status))
+    assert len(bench.heard) == before + 1
+    assert bench.client.decoder.refused == 1
+    assert bench.client.arrivals.lost == 1
+
+
+def test_a_device_that_begins_anew_is_another_conversation(bench):
+    bench.client.claim(SOON)
+    number = bench.client.conversations
+    bench.say(
+        Hello(8, *(getattr(HELLO, name) for name in ("firmware", "sample_rate", "sensors", "n_cables", "limits")))
+    )
+    assert bench.client.conversations == number + 1
+    assert not bench.client.commands
+    assert bench.client.hello.boot == 8
+    assert bench.heard[-1].conversation == number + 1
+
+
+def test_times_of_the_device_become_the_hosts(bench):
+    for _ in range(10):
+        bench.now += 0.1
+        bench.say(bench.controller.status())
+    assert bench.heard[-1].time == pytest.approx(bench.now, abs=1e-6)
+    assert bench.heard[-1].device_time == bench.device_time
+
+
+def test_an_answer_that_takes_longer_than_the_next_question_counts(bench):
+    kept = []
+
+    def answer_the_first(data: bytes) -> None:
+        kept.append(data)
+        if len(kept) == 3:
+            LoopedBench.hear(bench, kept[0])
+
+    bench.hear = answer_the_first
+    assert bench.client.claim(1.0) is Result.DONE
+    assert len(kept) == 3

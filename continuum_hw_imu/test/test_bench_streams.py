@@ -1,0 +1,151 @@
+"""What is published of frames, and what is not: nothing wrong, nothing of another bench, nothing not measured."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from looped_bench import HELLO, LoopedBench
+from rclpy.clock import Clock
+
+from continuum.dynamics.model_file import load_model
+from continuum.inertial.calibration import Calibration
+from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum_hw_imu.bench_streams import BenchStreams
+from continuum_hw_imu.emulator.sensor_model import SensorQuality
+from continuum_hw_imu.imu_messages import ImuMessages
+from continuum_hw_imu.protocol.messages import ImuFrame, SensorPlace, TensionFrame
+from continuum_hw_imu.protocol.messages.imu import CLIPPED_RATE, PRESENT
+from continuum_manipulator.nodekit.planar_arm import PlanarArm
+from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
+
+N = 5
+UP = np.tile([0.0, 0.0, 9.81], (N, 1))
+KNOWN = CalibrationSteps.of(Calibration(np.zeros((N, 3)), np.tile([0.0, 1.0, 0.0], (N, 1)), UP, ("by hand",) * N))
+
+
+class Published:
+    """A bench in a loop, and all that is published of it. Links count from 1 here, as everywhere."""
+
+    def __init__(self, steps=KNOWN, hello=HELLO) -> None:
+        self.joints, self.cables, self.imus = [], [], [[] for _ in range(N)]
+        self.streams = BenchStreams(
+            PlanarArm("section_1", load_model("lamecc_prototype.yaml")),
+            [ImuMessages(f"section_1_imu_{k}", SensorQuality()) for k in range(1, N + 1)],
+            Clock(),
+            steps,
+            self.joints.append,
+            self.cables.append,
+            [imu.append for imu in self.imus],
+        )
+        self.bench = LoopedBench(hello)
+        self.bench.client._hand_on = self.streams.take
+        self.bench.connect()
+        self._sample = 0
+
+    def measure(self, frames: int = 1, rates=None, flags=None, link_rates=None) -> None:
+        """Samples at 60 Hz; rates (n, 3) [rad/s] in the order of the frame, or about y of each link (n,)."""
+        rates = np.zeros((N, 3)) if rates is None else rates
+        if link_rates is not None:
+            links = [sensor.link - 1 for sensor in HELLO.sensors]
+            rates = np.outer(np.asarray(link_rates)[links], [0.0, 1.0, 0.0])
+        flags = np.full(N, PRESENT) if flags is None else flags
+        for _ in range(frames):
+            self.bench.now += 1 / 60
+            self._sample += 1
+            self.bench.say(ImuFrame.of(self._sample, rates, UP, flags))
+
+
+def test_nothing_is_known_before_a_rest_and_then_everything_is():
+    published = Published()
+    published.measure(5)
+    assert not published.joints
+    assert published.streams.withheld == 5
+    published.measure(60)
+    assert published.joints
+    np.testing.assert_allclose(published.joints[-1].position, np.zeros(N + 2), atol=1e-6)
+    assert [len(imu) for imu in published.imus] == [65] * N
+
+
+def test_sensors_are_told_apart_by_their_links():
+    """Frames have them in the bench's order, here 3, 1, 5, 2, 4; the arm turns at joint 4 alone."""
+    published = Published()
+    published.measure(60)
+    published.measure(3, link_rates=[0.0, 0.0, 0.0, 0.5, 0.5])
+    np.testing.assert_allclose(published.joints[-1].velocity, [0, 0, 0, 0, 0.5, 0, 0], atol=1e-2)
+    assert published.joints[-1].position[4] == pytest.approx(0.5 * 3 / 60, abs=2e-3)
+    assert [imu[-1].angular_velocity.y for imu in published.imus] == pytest.approx([0, 0, 0, 0.5, 0.5], abs=1e-3)
+
+
+def test_a_missing_sensor_withholds_joint_states_and_its_own_data_alone():
+    published = Published()
+    published.measure(60)
+    before = len(published.joints), [len(imu) for imu in published.imus]
+    flags = np.full(N, PRESENT)
+    flags[2] = 0  # the third in the frame is on link 5
+    published.measure(1, flags=flags)
+    assert len(published.joints) == before[0]
+    assert [len(imu) - n for imu, n in zip(published.imus, before[1], strict=True)] == [1, 1, 1, 1, 0]
+
+
+def test_what_is_clipped_has_the_covariance_of_anything_in_range():
+    published = Published()
+    flags = np.full(N, PRESENT)
+    flags[1] |= CLIPPED_RATE[0]  # on link 1
+    published.measure(1, flags=flags)
+    clipped, sure = (imu[-1].angular_velocity_covariance[0] for imu in published.imus[:2])
+    assert clipped == pytest.approx(SensorQuality().rate_range ** 2)
+    assert sure == pytest.approx(SensorQuality().rate_noise ** 2)
+
+
+def test_without_calibration_there_are_raw_data_and_no_joint_states():
+    published = Published(CalibrationSteps())
+    published.measure(90)
+    assert not published.joints
+    assert len(published.imus[0]) == 90
+    with pytest.raises(Exception, match="without the bias"):
+        published.streams.watch.find_axes()
+    published.streams.watch.find_bias(1.2)
+    assert published.streams.watch.steps.missing == ("axis", "zero")
+
+
+def test_measured_tensions_are_told_with_lengths_that_are_known():
+    published = Published()
+    published.bench.say(TensionFrame((1.0, 0.0), (1.02, -0.03)))
+    assert published.cables[-1].effort.tolist() == [1.02, 0.0]  # a cable never pushes
+    assert not published.cables[-1].position
+    published.measure(60)
+    published.bench.say(TensionFrame((1.0, 0.0), (1.02, None)))
+    assert not published.cables[-1].effort
+    assert len(published.cables[-1].position) == 2
+
+
+def test_another_bench_is_not_taken_for_the_arm():
+    other = replace(HELLO, sensors=tuple(SensorPlace(k, "S") for k in (1, 2, 3)))
+    published = Published(hello=other)
+    published.bench.say(ImuFrame.of(1, np.zeros((3, 3)), UP[:3], np.full(3, PRESENT)))
+    assert published.streams.problem == (
+        "looped has sensors on the links 1, 2, 3; the model has 5 joints, a sensor on each"
+    )
+    assert published.streams.watch is None
+    cables = Published(hello=replace(HELLO, n_cables=4))
+    assert "has 4 cables" in cables.streams.problem
+
+
+def test_a_bench_that_begins_anew_has_to_rest_anew():
+    published = Published()
+    published.measure(60)
+    assert published.joints
+    published.bench.say(replace(HELLO, boot=HELLO.boot + 1))
+    published.joints.clear()
+    published.measure(5)
+    assert not published.joints
+    published.measure(60)
+    assert published.joints
+
+
+def test_stamps_are_those_of_the_samples():
+    published = Published()
+    published.measure(120)
+    stamps = np.array([nanoseconds(message.header.stamp) for message in published.imus[0]])
+    assert abs((stamps[-1] - stamps[0]) / NANOSECONDS - 119 / 60) < 0.01
+    assert abs(np.median(np.diff(stamps)) / NANOSECONDS - 1 / 60) < 1e-3
