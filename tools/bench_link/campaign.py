@@ -33,6 +33,9 @@ CALM = 2.5
 RIGHT = 1.5
 """A joint angle published as good that is further off the truth is wrong [degrees]: three times the RMS allowed."""
 
+_FALLEN = "fell back to inactive, cables slack:"
+"""The bridge's words before it says why."""
+
 ROUNDING = 0.01
 """Of set points on the line [N]."""
 
@@ -51,7 +54,7 @@ class Case:
         wrong: joint states with an angle further off than `RIGHT`.
         largest_tension: at the receiver, set point [N].
         fastest_rise: of a set point [N/s].
-        fell_back: the bridge let the cables go and became inactive.
+        fell_back: why the bridge let the cables go and became inactive, in its words; empty where it did not.
     """
 
     faults: list[str]
@@ -63,7 +66,7 @@ class Case:
     wrong: int
     largest_tension: float
     fastest_rise: float
-    fell_back: bool
+    fell_back: str
 
 
 @dataclass(frozen=True)
@@ -77,17 +80,17 @@ class _Course:
     load: float
     joints: list[State]
     imus: list[list[Sample]]
-    fell_back: bool
+    fell_back: str
 
 
-def measure(folder: Path) -> list[Case]:
-    """Run all cases on one emulated bench, with one bridge."""
+def measure(folder: Path, cases: Sequence[tuple[str, ...]] = CASES) -> list[Case]:
+    """Run cases on one emulated bench, with one bridge."""
     limits = "--max-tension", str(MOST), "--max-rate", str(FASTEST)
     courses = []
     with rig(folder, *limits) as bench, bench.bridge(max_tension=30.0, max_tension_rate=1000.0) as bridge:
-        for case in CASES:
+        for case in cases:
             courses.append(_course(bench, bridge, case))
-            print(f"  {' and '.join(case)}{': inactive after it' if courses[-1].fell_back else ''}", flush=True)
+            print(f"  {' and '.join(case)}; {courses[-1].fell_back}", flush=True)
     truth = load_truth(bench.truth_file)
     return [evaluated(course, truth) for course in courses]
 
@@ -111,8 +114,9 @@ def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
     bench.drive(bridge, lambda _: np.zeros(2), 4 * HALF)
     bench.drive(bridge, None, CALM)
     end, joints, imus = time.monotonic(), list(bench.ears.joints), [list(imu) for imu in bench.ears.imus]
-    fell_back = bridge.state != "active"
-    if fell_back:
+    fell_back = ""
+    if bridge.state != "active":
+        fell_back = bridge.node.stderr.rpartition(_FALLEN)[2].partition("\n")[0].strip()
         bridge.change("activate")
         bridge.wait_for_state("active")
     return _Course(case, begin, back, end, os.getloadavg()[0], joints, imus, fell_back)

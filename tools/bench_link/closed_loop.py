@@ -52,7 +52,7 @@ class ClosedLoop:
         skipped: time for which the emulator could not keep up [s].
         released, resting: RMS of the worst joint [degrees].
         released_largest: largest error of any joint in release tests [degrees].
-        shift: median of stamp less true instant [ms].
+        shift: stamp less true instant: smallest, median, largest [ms].
         until: delay from the last byte written, by the stage that it is counted to: median, 99 %, largest [ms].
         by_minute: of each minute.
         bridge_share, emulator_share: of one core.
@@ -70,7 +70,7 @@ class ClosedLoop:
     released: float
     resting: float
     released_largest: float
-    shift: float
+    shift: list[float]
     until: dict[str, list[float]]
     by_minute: list[Minute]
     bridge_share: float
@@ -117,7 +117,7 @@ def measure(minutes: float, folder: Path, niceness: int) -> ClosedLoop:
         missing=found.missing,
         skipped=skipped,
         **off,
-        shift=1e3 * float(np.median(found.shift)),
+        shift=[1e3 * float(np.quantile(found.shift, part)) for part in (0.0, 0.5, 1.0)],
         until={name: _spread(getattr(found, name)) for name in ("published", "received", "called")},
         by_minute=by_minute(found, begin, loads),
         bridge_share=shares[0],

@@ -10,6 +10,7 @@ from typing import Any
 
 import tools.bench_link
 from tools.bench_link import campaign, closed_loop, deaths, soak
+from tools.bench_link.faults import CASES
 from tools.bench_link.page import page
 from tools.bench_link.results import keep, load
 
@@ -22,6 +23,7 @@ def main(arguments: list[str] | None = None) -> int:
     add = parser.add_argument
     add("--minutes", type=float, default=10.0, help="of the closed loop; default %(default)g")
     add("--repetitions", type=int, default=5, help="of each death; default %(default)s")
+    add("--faults", nargs="*", default=[], metavar="NAME", help="of the campaign: cases of these only; default all")
     add("--soak-minutes", type=float, default=60.0, help="default %(default)g")
     add("--soak-rate", type=float, default=60.0, metavar="HZ", help="of the sensors then; default %(default)g")
     add("--niceness", type=int, default=0, help="of bridge and emulator in the closed loop; below 0 takes a privilege")
@@ -31,7 +33,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     runs: dict[str, Callable[[Path], Any]] = {
         "closed": lambda folder: closed_loop.measure(options.minutes, folder, options.niceness),
-        "campaign": campaign.measure,
+        "campaign": lambda folder: campaign.measure(folder, _cases(options.faults)),
         "deaths": lambda folder: deaths.measure(folder, options.repetitions),
         "soak": lambda folder: soak.measure(options.soak_minutes, options.soak_rate, folder),
     }
@@ -51,3 +53,8 @@ def main(arguments: list[str] | None = None) -> int:
     options.page.write_text(page(load(options.out)), encoding="utf-8")
     print(f"written: {options.page}")
     return 0
+
+
+def _cases(names: list[str]) -> list[tuple[str, ...]]:
+    """Those made of these faults alone; all without a name."""
+    return [case for case in CASES if not names or set(case) <= set(names)]

@@ -14,6 +14,7 @@ from sensor_msgs.msg import Imu, JointState
 from continuum.arrays import Array
 from continuum_manipulator.nodekit.qos import STREAM
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
+from continuum_manipulator.nodekit.two_clocks import read_together
 from continuum_msgs.msg import CableStates
 
 
@@ -79,7 +80,8 @@ class TimedEars:
 
 def since_boot() -> float:
     """What has to be added to this machine's time of day to have its monotonic clock [s]."""
-    return time.monotonic() - time.time_ns() / NANOSECONDS
+    instant, now = read_together(time.monotonic, time.time_ns)
+    return instant - now / NANOSECONDS
 
 
 def _sample_taker(samples: list[Sample]) -> Any:

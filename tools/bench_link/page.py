@@ -59,7 +59,8 @@ def _closed(run: ClosedLoop) -> list[str]:
             f"hand to 90 degrees and let go. Errors are those at the stamps, as published, in the {SWING:g} s after",
             "a release",
             f"and wherever the arm has not moved for {REST:g} s. Largest of any joint in release tests:",
-            f"{run.released_largest:.2f} degrees. Stamps are {run.shift:.2f} ms after the true instant (median).",
+            f"{run.released_largest:.2f} degrees. Stamps are {run.shift[1]:.2f} ms after the true instant",
+            f"(median; {run.shift[0]:.2f} to {run.shift[2]:.2f} ms).",
         ),
         paragraph(
             "Delays count from the instant at which the last byte of a frame was written to the port by the emulator.",
@@ -114,7 +115,7 @@ def _campaign(cases: Sequence[Case]) -> list[str]:
                 "largest error [degrees]",
                 "wrong",
                 "largest tension [N]",
-                "inactive after",
+                "inactive, since",
                 "load",
             ),
             [
@@ -126,7 +127,7 @@ def _campaign(cases: Sequence[Case]) -> list[str]:
                     f"{case.largest_error:.2f}",
                     case.wrong,
                     f"{case.largest_tension:.2f}",
-                    "yes" if case.fell_back else "",
+                    case.fell_back,
                     f"{case.load:.1f}",
                 )
                 for case in cases
