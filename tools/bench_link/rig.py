@@ -100,7 +100,7 @@ class Rig:
 def rig(folder: Path, *options: str) -> Iterator[Rig]:
     """An emulated bench in a ROS domain of its own, sensors calibrated; ``options`` are of the emulator."""
     folder.mkdir(parents=True, exist_ok=True)
-    for left in ("sensors.yaml", "truth.csv", "sent.csv"):
+    for left in ("port", "control", "sensors.yaml", "truth.csv", "sent.csv"):
         (folder / left).unlink(missing_ok=True)
     with domain_id() as domain, Probe(domain, "bench_link") as probe:
         given = ("--sent", str(folder / "sent.csv"), *options)
