@@ -42,8 +42,6 @@ class ClosedLoop:
 
     Attributes:
         minutes: its length.
-        cores: of the machine.
-        niceness: of emulator and bridge.
         releases: how often the arm was let go.
         frames: of the sensors that the emulator wrote, from the first to the last with a joint state.
         rate: joint states a second, by their stamps.
@@ -59,8 +57,6 @@ class ClosedLoop:
     """
 
     minutes: float
-    cores: int
-    niceness: int
     releases: int
     frames: int
     rate: float
@@ -77,15 +73,11 @@ class ClosedLoop:
     emulator_share: float
 
 
-def measure(minutes: float, folder: Path, niceness: int) -> ClosedLoop:
+def measure(minutes: float, folder: Path) -> ClosedLoop:
     """Run it."""
     releases, loads, states = [], [], []
     with rig(folder) as bench, bench.bridge(max_tension=20.0) as bridge:
         pids = bridge.node.process.pid, bench.bench.process.process.pid
-        for pid in pids:
-            os.setpriority(os.PRIO_PROCESS, pid, niceness)
-            for thread in Path(f"/proc/{pid}/task").iterdir():
-                os.setpriority(os.PRIO_PROCESS, int(thread.name), niceness)
         before = [usage(pid) for pid in pids]
         begin = told = time.monotonic()
         for let_go in _courses(bench, bridge):
@@ -108,8 +100,6 @@ def measure(minutes: float, folder: Path, niceness: int) -> ClosedLoop:
     off = _errors(states, truth, releases)
     return ClosedLoop(
         minutes=lasted / MINUTE,
-        cores=os.cpu_count() or 0,
-        niceness=niceness,
         releases=len(releases),
         frames=len(found.received) + found.missing,
         rate=(len(states) - 1) / (states[-1].stamp - states[0].stamp),

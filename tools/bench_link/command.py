@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -26,13 +27,14 @@ def main(arguments: list[str] | None = None) -> int:
     add("--faults", nargs="*", default=[], metavar="NAME", help="of the campaign: cases of these only; default all")
     add("--soak-minutes", type=float, default=60.0, help="default %(default)g")
     add("--soak-rate", type=float, default=60.0, metavar="HZ", help="of the sensors then; default %(default)g")
-    add("--niceness", type=int, default=0, help="of bridge and emulator in the closed loop; below 0 takes a privilege")
+    add("--niceness", type=int, default=os.getpriority(os.PRIO_PROCESS, 0), metavar="N",
+        help="of all its processes; below 0, as if on a machine of its own, takes a privilege")  # fmt: skip
     add("--out", type=Path, default=Path("out/bench_link"), metavar="FOLDER", help="default %(default)s")
     add("--page", type=Path, default=PAGE, metavar="FILE", help="the page, which is overwritten; default %(default)s")
     add("parts", nargs="*", metavar="PART", help="closed, campaign, deaths, soak or page (no run); default all")
     options = parser.parse_args(arguments)
     runs: dict[str, Callable[[Path], Any]] = {
-        "closed": lambda folder: closed_loop.measure(options.minutes, folder, options.niceness),
+        "closed": lambda folder: closed_loop.measure(options.minutes, folder),
         "campaign": lambda folder: campaign.measure(folder, _cases(options.faults)),
         "deaths": lambda folder: deaths.measure(folder, options.repetitions),
         "soak": lambda folder: soak.measure(options.soak_minutes, options.soak_rate, folder),
@@ -42,11 +44,12 @@ def main(arguments: list[str] | None = None) -> int:
     if strange:
         parser.error(f"no such part: {', '.join(sorted(strange))}; allowed: {', '.join(runs)}, page")
     options.out.mkdir(parents=True, exist_ok=True)
+    os.setpriority(os.PRIO_PROCESS, 0, options.niceness)  # which those that it starts take over
     try:
         for part, run in runs.items():
             if part in parts:
                 print(part, flush=True)
-                keep(options.out, part, run((options.out / part).resolve()))
+                keep(options.out, part, run((options.out / part).resolve()), options.niceness)
     except AssertionError as error:  # of the tests' harness: something did not come in time
         print(f"bench-link: {error}", file=sys.stderr)
         return 1

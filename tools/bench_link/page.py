@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 
 from tools.bench_link.campaign import CALM, COMMANDED, FASTEST, HALF, MOST, PULLED_ON, RIGHT, Case
@@ -32,9 +33,9 @@ def page(results: Results) -> str:
             "Made by `make bench-link`: `bench_emulator` and `bench_bridge` as processes, a pseudo-terminal between",
             "them,",
             "real DDS behind, and a subscriber to all topics in a third process. The emulator writes down what really",
-            "happens, on the clock of the same machine. Loads are averages of the last minute, on a machine that",
-            "others",
-            "used meanwhile.",
+            "happens, on the clock of the same machine. Loads are averages of the last minute, on a machine of",
+            f"{os.cpu_count()} cores that others used meanwhile; niceness of all processes:",
+            ", ".join(f"{part} {niceness}" for part, niceness in results.niceness.items()) + ".",
         ),
         table(head, lines),
     ]
@@ -64,9 +65,8 @@ def _closed(run: ClosedLoop) -> list[str]:
         ),
         paragraph(
             "Delays count from the instant at which the last byte of a frame was written to the port by the emulator.",
-            f"{run.cores} cores, load {min(loads, default=0.0):.1f} to {max(loads, default=0.0):.1f}; niceness of",
-            "bridge and",
-            f"emulator {run.niceness}. The bridge takes {run.bridge_share:.1%} of one core, the emulator",
+            f"Load {min(loads, default=0.0):.1f} to {max(loads, default=0.0):.1f}.",
+            f"The bridge takes {run.bridge_share:.1%} of one core, the emulator",
             f"{run.emulator_share:.1%}, which stood still for {run.skipped:.1f} s.",
         ),
         table(

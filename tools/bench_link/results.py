@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -16,23 +16,30 @@ from tools.bench_link.soak import Memory, Soak
 
 @dataclass(frozen=True)
 class Results:
-    """What there is; None where a part was not run yet."""
+    """What there is; None where a part was not run yet. By part, the niceness of its processes."""
 
     closed: ClosedLoop | None
     campaign: list[Case] | None
     deaths: list[Death] | None
     soak: Soak | None
+    niceness: dict[str, int] = field(default_factory=dict)
 
 
-def keep(folder: Path, part: str, result: Any) -> None:
+PARTS = "closed", "campaign", "deaths", "soak"
+"""Each in a file of its name."""
+
+
+def keep(folder: Path, part: str, result: Any, niceness: int) -> None:
     """Write what a part measured."""
     plain = [asdict(one) for one in result] if isinstance(result, Sequence) else asdict(result)
-    (folder / f"{part}.json").write_text(json.dumps(plain, indent=1) + "\n", encoding="utf-8")
+    text = json.dumps({"niceness": niceness, "result": plain}, indent=1)
+    (folder / f"{part}.json").write_text(f"{text}\n", encoding="utf-8")
 
 
 def load(folder: Path) -> Results:
     """All that was kept."""
-    closed, campaign, deaths, soak = (_plain(folder / f"{part}.json") for part in Results.__dataclass_fields__)
+    kept = {part: _plain(folder / f"{part}.json") for part in PARTS}
+    closed, campaign, deaths, soak = (kept[part] and kept[part]["result"] for part in PARTS)
     if closed:
         closed["by_minute"] = [Minute(**minute) for minute in closed["by_minute"]]
     if soak:
@@ -42,6 +49,7 @@ def load(folder: Path) -> Results:
         campaign and [Case(**case) for case in campaign],
         deaths and [Death(**death) for death in deaths],
         soak and Soak(**soak),
+        {part: known["niceness"] for part, known in kept.items() if known},
     )
 
 

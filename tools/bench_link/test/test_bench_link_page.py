@@ -14,19 +14,19 @@ from tools.bench_link.goals import goals
 from tools.bench_link.latency import Delays
 from tools.bench_link.page import page
 from tools.bench_link.processes import Usage
-from tools.bench_link.results import Results, keep, load
+from tools.bench_link.results import PARTS, Results, keep, load
 from tools.bench_link.soak import Memory, Soak, memory_of
 from tools.bench_link.truth import Truth
 
 CLOSED = ClosedLoop(
-    10.0, 2, 0, 80, 36_000, 60.0, 0, 0, 0.0, 0.1, 0.05, 0.4, [0.1, 0.2, 0.9],
+    10.0, 80, 36_000, 60.0, 0, 0, 0.0, 0.1, 0.05, 0.4, [0.1, 0.2, 0.9],
     {"published": [0.8, 4.0, 8.0], "received": [0.9, 5.0, 9.0], "called": [1.2, 6.0, 11.0]},
     [Minute(3.0, 0.9, 5.0)], 0.1, 0.1,
 )  # fmt: skip
 CASE = Case(["lost", "late"], 3.0, 0.3, 0.1, 400, 0.7, 0, 12.0, 120.0, "the port is not there")
 DEATH = Death("killed (SIGKILL)", True, 0.5, [0.5, 0.48], [3.0, 3.0])
 SOAK = Soak(20.0, 180.0, 180.0, 3.0, 0, Memory(80.0, 80.1, 0.1, 0.3), Memory(90.0, 90.0, 0.0, 0.3))
-ALL = Results(CLOSED, [CASE], [DEATH], SOAK)
+ALL = Results(CLOSED, [CASE], [DEATH], SOAK, dict.fromkeys(PARTS, 3))
 
 SPOILED = {
     "release tests": replace(ALL, closed=replace(CLOSED, released=0.51)),
@@ -58,8 +58,8 @@ def test_each_goal_can_be_missed_alone(beginning):
 
 def test_results_are_read_as_they_were_kept(tmp_path):
     assert load(tmp_path) == Results(None, None, None, None)
-    for part in Results.__dataclass_fields__:
-        keep(tmp_path, part, getattr(ALL, part))
+    for part in PARTS:
+        keep(tmp_path, part, getattr(ALL, part), ALL.niceness[part])
     assert load(tmp_path) == ALL
 
 
