@@ -14,6 +14,7 @@ from tools.bench_link import campaign, closed_loop, deaths, soak
 from tools.bench_link.faults import CASES
 from tools.bench_link.page import page
 from tools.bench_link.results import keep, load
+from tools.demo.errors import DemoError
 
 PAGE = Path("docs/bench-link.md")
 
@@ -50,7 +51,7 @@ def main(arguments: list[str] | None = None) -> int:
             if part in parts:
                 print(part, flush=True)
                 keep(options.out, part, run((options.out / part).resolve()), options.niceness)
-    except AssertionError as error:  # of the tests' harness: something did not come in time
+    except (DemoError, AssertionError) as error:  # these of the tests' harness: something did not come in time
         print(f"bench-link: {error}", file=sys.stderr)
         return 1
     options.page.write_text(page(load(options.out)), encoding="utf-8")

@@ -15,12 +15,16 @@ from harness import Probe
 
 from continuum.arrays import Array
 from tools.bench_link.ears import TimedEars
+from tools.demo.folder import claimed
 
 RATE = 60.0
 """Of the sensors, live [Hz]."""
 
 COMMAND_PERIOD = 1 / 30
 """Between two tension commands [s]."""
+
+FILES = "port", "control", "sensors.yaml", "truth.csv", "sent.csv"
+"""In the folder of a measurement."""
 
 Pull = Callable[[float], Array]
 """Tension of each cable [N] at a time since some instant [s]."""
@@ -98,11 +102,12 @@ class Rig:
 
 @contextmanager
 def rig(folder: Path, *options: str) -> Iterator[Rig]:
-    """An emulated bench in a ROS domain of its own, sensors calibrated; ``options`` are of the emulator."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for left in ("port", "control", "sensors.yaml", "truth.csv", "sent.csv"):
-        (folder / left).unlink(missing_ok=True)
-    with domain_id() as domain, Probe(domain, "bench_link") as probe:
+    """An emulated bench in a ROS domain of its own, sensors calibrated; ``options`` are of the emulator.
+
+    Raises:
+        DemoError: another measurement uses the folder.
+    """
+    with claimed(folder, FILES), domain_id() as domain, Probe(domain, "bench_link") as probe:
         given = ("--sent", str(folder / "sent.csv"), *options)
         with emulated_bench(domain, folder, *given) as bench:
             found = Rig(domain, folder, bench, TimedEars(probe))
