@@ -64,7 +64,7 @@ def measure(minutes: float, rate: float, folder: Path) -> Soak:
         bench.ears.clear()
         pids = bridge.node.process.pid, bench.bench.process.process.pid
         begin = time.monotonic()
-        while (now := time.monotonic()) - begin < 60.0 * minutes:
+        while time.monotonic() - begin < 60.0 * minutes:
             for pid, seen in zip(pids, looks, strict=True):
                 seen.append(usage(pid))
             loads.append(os.getloadavg()[0])
@@ -73,7 +73,8 @@ def measure(minutes: float, rate: float, folder: Path) -> Soak:
             bench.ears.clear()
             if len(loads) % 12 == 0:
                 memory = ", ".join(f"{seen[-1].memory / 1024:.1f} MiB" for seen in looks)
-                print(f"  {(now - begin) / 60:.0f} min, {heard / (now - begin):.0f} Hz: {memory}", flush=True)
+                lasted = time.monotonic() - begin
+                print(f"  {lasted / 60:.0f} min, {heard / lasted:.0f} Hz: {memory}", flush=True)
         lasted = time.monotonic() - begin
         bridge.probe.wait_for_report(f"{bridge.name}: link")
         lost = int(bridge.told("link")["frames lost"])
