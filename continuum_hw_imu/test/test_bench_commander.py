@@ -104,6 +104,7 @@ def test_release_leaves_the_gate_open(bench, commander):
     commander.begin()
     run(bench, commander, 0.3, [8.0, 0.0])
     assert commander.let_go() == ""
+    assert commander.gate.set_point.tolist() == [0.0, 0.0]
     assert bench.set_points == [0.0, 0.0]
     run(bench, commander, 0.1)
     assert bench.set_points == [0.0, 0.0]

@@ -114,10 +114,10 @@ class SerialLink:
         except (*FAILURES, ValueError) as error:
             self.problem = _in_words(self._port, error)
             return False
-        with self._mutex:
-            self._serial, self.problem = port, ""
         self._again.clear()
         self.openings += 1
+        with self._mutex:
+            self.problem, self._serial = "", port
         self._opened()
         return True
 

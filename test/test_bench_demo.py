@@ -1,0 +1,48 @@
+"""`make bench-demo` up to its recordings: they are runs that `continuum diagnose` can read, of an arm told rightly."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from continuum.identification.recording_bag import read_recording_bag
+from continuum.inertial.calibration import load_calibration
+from tools.bench_demo.command import main
+from tools.bench_demo.runs import RUNS
+
+pytestmark = pytest.mark.ros
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def test_bench_is_calibrated_pulled_released_and_recorded(domain, tmp_path):
+    out = tmp_path / "out"
+    words = [sys.executable, "-m", "tools.bench_demo", "--no-diagnosis", "--out", str(out)]
+    environment = os.environ | {"ROS_DOMAIN_ID": str(domain)}
+    done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr + (out / "nodes.log").read_text()
+    off = [float(text) for text in re.findall(r"angles ([\d.]+) degrees RMS off the truth", done.stdout)]
+    assert len(off) == len(RUNS)
+    assert max(off) < 0.5
+    assert load_calibration(out / "sensors.yaml").n_sensors == 5
+    for run in RUNS:
+        recording = read_recording_bag(out / run.name)
+        lasts = recording.times[-1] - recording.times[0]
+        assert lasts > run.pulled
+        assert recording.times.size > 0.9 * 60 * lasts
+        assert np.degrees(np.abs(recording.theta.sum(axis=1)).max()) > 30
+        assert recording.tensions is not None
+        assert recording.tensions.values.max() > 10
+
+
+def test_a_bench_that_is_not_there_ends_the_demo_in_one_line(domain, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    monkeypatch.setattr("tools.bench_demo.conductor.PATIENCE", 6.0)
+    assert main(["--port", str(tmp_path / "nowhere"), "--no-diagnosis", "--out", str(tmp_path / "out")]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("bench-demo: bench_bridge/calibrate_bias: ")
+    assert "nowhere is not there" in line or "not configured" in line
