@@ -14,6 +14,7 @@ from emulated_bench import Bridge
 from continuum.arrays import Array
 from tools.bench_link.ears import Sample, State
 from tools.bench_link.faults import CASES, LASTS, NO_DRIFT, orders
+from tools.bench_link.latency import load_sent
 from tools.bench_link.resumption import good_again
 from tools.bench_link.rig import RATE, Rig, rig
 from tools.bench_link.truth import Truth, errors_of, load_truth
@@ -47,6 +48,7 @@ class Case:
     Attributes:
         faults: their names.
         load: average load of the machine in the last minute.
+        stalled: by how much the emulator itself was late with a frame after the fault, as the machine was busy [s].
         resumed: time until all sensors' data stream whole again after the fault's end [s]; None: they did not.
         angles_back: the same of the joint states, after fault's end or the arm's coming to rest, whichever is later.
         states: how many joint states were published, during the fault and after it.
@@ -59,6 +61,7 @@ class Case:
 
     faults: list[str]
     load: float
+    stalled: float
     resumed: float | None
     angles_back: float | None
     states: int
@@ -92,7 +95,8 @@ def measure(folder: Path, cases: Sequence[tuple[str, ...]] = CASES) -> list[Case
             courses.append(_course(bench, bridge, case))
             print(f"  {' and '.join(case)}; {courses[-1].fell_back}", flush=True)
     truth = load_truth(bench.truth_file)
-    return [evaluated(course, truth) for course in courses]
+    sent = load_sent(bench.sent_file, truth)
+    return [evaluated(course, truth, sent) for course in courses]
 
 
 def to_and_fro(t: float) -> Array:
@@ -122,8 +126,10 @@ def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
     return _Course(case, begin, back, end, os.getloadavg()[0], joints, imus, fell_back)
 
 
-def evaluated(course: _Course, truth: Truth) -> Case:
-    """What a course showed, beside the truth."""
+def evaluated(course: _Course, truth: Truth, sent: tuple[Array, Array]) -> Case:
+    """What a course showed, beside the truth, and what was sent, as of `load_sent`."""
+    written, told = sent
+    after = (told > course.back) & (told < course.end)
     here = truth.between(course.begin, course.end)
     _, off = errors_of(course.joints, truth)
     far = np.degrees(np.abs(off).max(axis=1, initial=0.0))
@@ -132,6 +138,7 @@ def evaluated(course: _Course, truth: Truth) -> Case:
     return Case(
         faults=list(course.case),
         load=course.load,
+        stalled=float((written - told)[after].max(initial=0.0)),
         resumed=_last(resumed),
         angles_back=good_again(course.joints, since, 1 / RATE),
         states=len(far),

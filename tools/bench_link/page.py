@@ -116,6 +116,7 @@ def _campaign(cases: Sequence[Case]) -> list[str]:
                 "wrong",
                 "largest tension [N]",
                 "inactive, since",
+                "emulator late [ms]",
                 "load",
             ),
             [
@@ -128,6 +129,7 @@ def _campaign(cases: Sequence[Case]) -> list[str]:
                     case.wrong,
                     f"{case.largest_tension:.2f}",
                     case.fell_back,
+                    f"{1e3 * case.stalled:.0f}",
                     f"{case.load:.1f}",
                 )
                 for case in cases

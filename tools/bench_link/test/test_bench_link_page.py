@@ -23,7 +23,7 @@ CLOSED = ClosedLoop(
     {"published": [0.8, 4.0, 8.0], "received": [0.9, 5.0, 9.0], "called": [1.2, 6.0, 11.0]},
     [Minute(3.0, 0.9, 5.0)], 0.1, 0.1,
 )  # fmt: skip
-CASE = Case(["lost", "late"], 3.0, 0.3, 0.1, 400, 0.7, 0, 12.0, 120.0, "the port is not there")
+CASE = Case(["lost", "late"], 3.0, 0.01, 0.3, 0.1, 400, 0.7, 0, 12.0, 120.0, "the port is not there")
 DEATH = Death("killed (SIGKILL)", True, 0.5, [0.5, 0.48], [3.0, 3.0])
 SOAK = Soak(20.0, 180.0, 180.0, 3.0, 0, Memory(80.0, 80.1, 0.1, 0.3), Memory(90.0, 90.0, 0.0, 0.3))
 ALL = Results(CLOSED, [CASE], [DEATH], SOAK, dict.fromkeys(PARTS, 3))
@@ -84,7 +84,8 @@ def test_a_case_is_judged_by_the_truth():
     off = [np.radians([0.0, 2.0 if 101 < t < 101.1 else 0.1]) for t in time]
     joints = [State(t, t, t + 0.02, t, angle) for t, angle in zip(time, off, strict=True) if not 102 < t < 104.5]
     imus = [[Sample(t, t + 0.01) for t in time if not 101.5 < t < back] for back in (102.2, 102.4)]
-    case = evaluated(_Course(("lost",), 100.5, 102.0, 109.0, 3.0, joints, imus, ""), known)
+    case = evaluated(_Course(("lost",), 100.5, 102.0, 109.0, 3.0, joints, imus, ""), known, (time + 0.003, time))
+    assert case.stalled == pytest.approx(0.003)
     assert case.resumed == pytest.approx(0.41, abs=1 / 60)
     assert case.angles_back == pytest.approx(0.02, abs=1 / 60)  # at rest from 105 on
     assert (case.wrong, case.largest_error, case.largest_tension) == (5, pytest.approx(2.0), 9.0)
