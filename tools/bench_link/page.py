@@ -26,16 +26,15 @@ _STAGES = {
 def page(results: Results) -> str:
     """The page, of all that there is."""
     head = ("what", "goal", "measured", "")
+    niceness = ", ".join(f"{part} {number}" for part, number in results.niceness.items())
     lines = [(goal.what, goal.wanted, goal.figure, "met" if goal.met else "**missed**") for goal in goals(results)]
     parts = [
         "# The bridge at an emulated bench",
         paragraph(
             "Made by `make bench-link`: `bench_emulator` and `bench_bridge` as processes, a pseudo-terminal between",
-            "them,",
-            "real DDS behind, and a subscriber to all topics in a third process. The emulator writes down what really",
-            "happens, on the clock of the same machine. Loads are averages of the last minute, on a machine of",
-            f"{os.cpu_count()} cores that others used meanwhile; niceness of all processes:",
-            ", ".join(f"{part} {niceness}" for part, niceness in results.niceness.items()) + ".",
+            "them, real DDS behind, and a subscriber to all topics in a third process. The emulator writes down what",
+            "really happens, on the clock of the same machine. Loads are averages of the last minute, on a machine",
+            f"of {os.cpu_count()} cores that others used meanwhile; niceness of all processes: {niceness}.",
         ),
         table(head, lines),
     ]
@@ -56,18 +55,16 @@ def _closed(run: ClosedLoop) -> list[str]:
         "## Closed loop",
         paragraph(
             f"{run.releases} release tests: each cable in turn pulled with {HIGHEST:g} N and released, and the arm",
-            "bent by",
-            f"hand to 90 degrees and let go. Errors are those at the stamps, as published, in the {SWING:g} s after",
-            "a release",
-            f"and wherever the arm has not moved for {REST:g} s. Largest of any joint in release tests:",
-            f"{run.released_largest:.2f} degrees. Stamps are {run.shift[1]:.2f} ms after the true instant",
+            f"bent by hand to 90 degrees and let go. Errors are those at the stamps, as published, in the {SWING:g} s",
+            f"after a release and wherever the arm has not moved for {REST:g} s. Largest of any joint in release",
+            f"tests: {run.released_largest:.2f} degrees. Stamps are {run.shift[1]:.2f} ms after the true instant",
             f"(median; {run.shift[0]:.2f} to {run.shift[2]:.2f} ms).",
         ),
         paragraph(
-            "Delays count from the instant at which the last byte of a frame was written to the port by the emulator.",
-            f"Load {min(loads, default=0.0):.1f} to {max(loads, default=0.0):.1f}.",
-            f"The bridge takes {run.bridge_share:.1%} of one core, the emulator",
-            f"{run.emulator_share:.1%}, which stood still for {run.skipped:.1f} s.",
+            "Delays count from the instant at which the last byte of a frame was written to the port by the",
+            f"emulator. Load {min(loads, default=0.0):.1f} to {max(loads, default=0.0):.1f}. The bridge takes",
+            f"{run.bridge_share:.1%} of one core, the emulator {run.emulator_share:.1%}, which stood still for",
+            f"{run.skipped:.1f} s.",
         ),
         table(
             ("delay until joint states are [ms]", "median", "99 %", "largest"),
@@ -89,21 +86,16 @@ def _campaign(cases: Sequence[Case]) -> list[str]:
         "## Fault campaign",
         paragraph(
             f"Each fault lasts {LASTS:g} s, while the cables are pulled in turn, {HALF:g} s each, with {COMMANDED:g}",
-            "N; the",
-            f"receiver allows {MOST:g} N and {FASTEST:g} N/s, the bridge more. It is pulled on for {PULLED_ON:g} s",
-            "after, then",
-            f"the arm rests for {CALM:g} s. *Data again*: from the end of the fault (the port's return) until the",
-            "first sample",
-            f"came since which no sensor missed one for {WHOLE:g} s. *Angles again*: likewise the joint states, from",
-            "the end of",
-            f"the fault or, where later, from when the arm has been at rest for {REST:g} s, since a link that was",
-            "lost is found",
-            "again by its inclination at rest. After a silent line the bridge is inactive, and was activated again.",
+            f"N; the receiver allows {MOST:g} N and {FASTEST:g} N/s, the bridge more. It is pulled on for",
+            f"{PULLED_ON:g} s after, then the arm rests for {CALM:g} s. *Data again*: from the end of the fault (the",
+            f"port's return) until the first sample came since which no sensor missed one for {WHOLE:g} s. *Angles",
+            "again*: likewise the joint states, from the end of the fault or, where later, from when the arm has",
+            f"been at rest for {REST:g} s, since a link that was lost is found again by its inclination at rest.",
+            "After a silent line the bridge is inactive, and was activated again.",
         ),
         paragraph(
-            f"A joint angle is wrong if it is more than {RIGHT:g} degrees off the truth at its stamp: three times",
-            "the RMS error",
-            f"that is allowed in motion. {wrong_share:.2%} of the joint states had one.",
+            f"A joint angle is wrong if it is more than {RIGHT:g} degrees off the truth at its stamp: three times the",
+            f"RMS error that is allowed in motion. {wrong_share:.2%} of the joint states had one.",
         ),
         table(("fault", "told to the emulator"), [(name, f"`{order}`") for name, order in FAULTS.items()]),
         table(
@@ -143,8 +135,8 @@ def _deaths(deaths: Sequence[Death]) -> list[str]:
         "## When the bridge or the port goes",
         paragraph(
             f"With {TENSION:g} N on a cable and commands coming on. Time until all set points at the receiver are",
-            "zero for good,",
-            f"looked at every {1e3 * TICK:.0f} ms; the stated times are those of docs/bench-protocol.md.",
+            f"zero for good, looked at every {1e3 * TICK:.0f} ms; the stated times are those of",
+            "docs/bench-protocol.md.",
         ),
         table(
             ("what happens", "stated [s]", "measured [s]", "load"),
@@ -165,11 +157,10 @@ def _soak(run: Soak) -> list[str]:
     return [
         "## Memory",
         paragraph(
-            f"{run.minutes:.0f} minutes at {run.rate:g} Hz, of which {run.reached:.1f} joint states a second came:",
-            "as many as in",
-            f"{run.hours:.2f} hours at 60 Hz. Load {run.load:.1f}; {run.lost} frames lost. Resident memory; growth",
-            "is the slope",
-            f"of a straight line through all looks after the first {SETTLING:.0%} of the run.",
+            f"{run.minutes:.0f} minutes at {run.rate:g} Hz, of which {run.reached:.1f} joint states a second came: as",
+            f"many as in {run.hours:.2f} hours at 60 Hz. Load {run.load:.1f}; {run.lost} frames lost. Resident",
+            f"memory; growth is the slope of a straight line through all looks after the first {SETTLING:.0%} of the",
+            "run.",
         ),
         table(
             ("", "settled [MiB]", "at the end [MiB]", "growth in an hour at 60 Hz [MiB]", "of one core"),
