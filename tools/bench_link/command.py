@@ -13,6 +13,7 @@ import tools.bench_link
 from tools.bench_link import campaign, closed_loop, deaths, soak
 from tools.bench_link.faults import CASES
 from tools.bench_link.page import page
+from tools.bench_link.processes import take_niceness
 from tools.bench_link.results import keep, load
 from tools.demo.errors import DemoError
 
@@ -29,7 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
     add("--soak-minutes", type=float, default=60.0, help="default %(default)g")
     add("--soak-rate", type=float, default=60.0, metavar="HZ", help="of the sensors then; default %(default)g")
     add("--niceness", type=int, default=os.getpriority(os.PRIO_PROCESS, 0), metavar="N",
-        help="of all its processes; below 0, as if on a machine of its own, takes a privilege")  # fmt: skip
+        help="of all its processes, and of their session; below 0, as if on a machine of its own, takes a privilege")  # fmt: skip
     add("--out", type=Path, default=Path("out/bench_link"), metavar="FOLDER", help="default %(default)s")
     add("--page", type=Path, default=PAGE, metavar="FILE", help="the page, which is overwritten; default %(default)s")
     add("parts", nargs="*", metavar="PART", help="closed, campaign, deaths, soak or page (no run); default all")
@@ -45,7 +46,7 @@ def main(arguments: list[str] | None = None) -> int:
     if strange:
         parser.error(f"no such part: {', '.join(sorted(strange))}; allowed: {', '.join(runs)}, page")
     options.out.mkdir(parents=True, exist_ok=True)
-    os.setpriority(os.PRIO_PROCESS, 0, options.niceness)  # which those that it starts take over
+    take_niceness(options.niceness)
     try:
         for part, run in runs.items():
             if part in parts:
