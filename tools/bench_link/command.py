@@ -30,7 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
     add("--soak-minutes", type=float, default=60.0, help="default %(default)g")
     add("--soak-rate", type=float, default=60.0, metavar="HZ", help="of the sensors then; default %(default)g")
     add("--niceness", type=int, default=os.getpriority(os.PRIO_PROCESS, 0), metavar="N",
-        help="of all its processes, and of their session; below 0, as if on a machine of its own, takes a privilege")  # fmt: skip
+        help="of all its processes and their session; below 0 takes a privilege")  # fmt: skip
     add("--out", type=Path, default=Path("out/bench_link"), metavar="FOLDER", help="default %(default)s")
     add("--page", type=Path, default=PAGE, metavar="FILE", help="the page, which is overwritten; default %(default)s")
     add("parts", nargs="*", metavar="PART", help="closed, campaign, deaths, soak or page (no run); default all")

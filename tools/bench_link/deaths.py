@@ -13,7 +13,7 @@ from emulated_bench import Bridge
 
 from continuum_hw_imu.protocol.messages import ReceiverLimits
 from tools.bench_link.rig import Rig, rig
-from tools.bench_link.truth import load_truth
+from tools.bench_link.truth import Truth, load_truth
 
 TENSION = 10.0
 """At that instant [N]."""
@@ -33,26 +33,31 @@ class Death:
 
     Attributes:
         name: in words.
-        hang_up: the controller sees when the port is closed at the host's end.
-        stated: docs/bench-protocol.md's time until slack [s].
-        times: measured, of each repetition [s].
+        begins: docs/bench-protocol.md's time until the receiver begins to let go at the latest [s].
+        times: until all set points are zero for good, of each repetition [s].
+        begun: until the receiver began to let go, of each [s].
         loads: average load of the machine in the last minute, at each.
     """
 
     name: str
-    hang_up: bool
-    stated: float
+    begins: float
     times: list[float]
+    begun: list[float]
     loads: list[float]
+
+    @property
+    def stated(self) -> float:
+        """Time until slack [s]."""
+        return self.begins + LIMITS.slack_time
 
 
 KINDS = {
-    "killed (SIGKILL)": LIMITS.slack_time,
-    "killed, and the closed port is not seen": LIMITS.heartbeat_timeout + LIMITS.slack_time,
-    "hangs (SIGSTOP)": LIMITS.heartbeat_timeout + LIMITS.slack_time,
-    "port unplugged": LIMITS.slack_time,
+    "killed (SIGKILL)": 0.0,
+    "killed, and the closed port is not seen": LIMITS.heartbeat_timeout,
+    "hangs (SIGSTOP)": LIMITS.heartbeat_timeout,
+    "port unplugged": 0.0,
 }
-"""Stated times [s]: the port is seen to close, or the heartbeats stop."""
+"""When the receiver begins to let go [s]: the port is seen to close, or the heartbeats stop."""
 
 
 def measure(folder: Path, repetitions: int) -> list[Death]:
@@ -75,16 +80,15 @@ def _measure_all(folder: Path, hang_up: bool, kinds: list[str], repetitions: int
                     instants[kind].append((_end_it(bench, bridge, kind), os.getloadavg()[0]))
             print(f"  {kind}", flush=True)
     truth = load_truth(bench.truth_file)
-    return [
-        Death(
-            kind,
-            hang_up,
-            KINDS[kind],
-            [truth.between(at - 1.0, at + WATCHED).slack_after(at) for at, _ in found],
-            [load for _, load in found],
-        )
-        for kind, found in instants.items()
-    ]
+    return [evaluated(kind, found, truth) for kind, found in instants.items()]
+
+
+def evaluated(kind: str, found: list[tuple[float, float]], truth: Truth) -> Death:
+    """Beside the truth: instants [s] at which it happened, and the load then."""
+    parts = [(truth.between(at - 1.0, at + WATCHED), at) for at, _ in found]
+    times = [part.slack_after(at) for part, at in parts]
+    begun = [part.let_go_after(at) for part, at in parts]
+    return Death(kind, KINDS[kind], times, begun, [load for _, load in found])
 
 
 def _end_it(bench: Rig, bridge: Bridge, kind: str) -> float:

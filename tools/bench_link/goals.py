@@ -7,13 +7,15 @@ from dataclasses import dataclass
 
 from tools.bench_link.campaign import FASTEST, MOST, RIGHT, ROUNDING, Case
 from tools.bench_link.closed_loop import ClosedLoop
-from tools.bench_link.deaths import TICK, Death
+from tools.bench_link.deaths import LIMITS, TICK, Death
 from tools.bench_link.results import Results
 from tools.bench_link.rig import RATE
 from tools.bench_link.soak import Soak
 
 RISE_ROUNDING = 2 * ROUNDING * RATE
 """Of a rate taken from two set points, each rounded [N/s]."""
+
+SLACK = LIMITS.slack_time
 
 FLAT = 1.0
 """Growth of memory that counts as flat, in an hour [MiB]."""
@@ -77,8 +79,9 @@ def _campaign(cases: Sequence[Case]) -> Iterator[Goal]:
 def _deaths(deaths: Sequence[Death]) -> Iterator[Goal]:
     for death in deaths:
         worst = max(death.times)
-        what = f"slack after: {death.name}"
-        yield Goal(what, f"<= {death.stated:g} s", f"{worst:.2f}", worst <= death.stated + TICK)
+        yield Goal(f"slack after: {death.name}", f"<= {death.stated:g} s", f"{worst:.2f}", worst <= death.stated + TICK)
+    ramp = max(time - begun for death in deaths for time, begun in zip(death.times, death.begun, strict=True))
+    yield Goal("slack after the receiver began to let go", f"<= {SLACK:g} s", f"{ramp:.2f}", ramp <= SLACK + TICK)
 
 
 def _soak(run: Soak) -> Iterator[Goal]:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from continuum.arrays import Array
+from continuum_hw_imu.protocol.messages import GuardState
 from tools.bench_link.ears import State
 
 STILL = np.radians(0.5)
@@ -27,6 +28,7 @@ class Truth:
         time: of this machine's monotonic clock, (rows,) [s].
         angles, rates: (rows, n_joints) [rad], [rad/s].
         set_points, tensions: that the receiver has in force, and that pull, (rows, n_cables) [N].
+        states: of the receiver, numbers as in the protocol, (rows,).
     """
 
     device: Array
@@ -35,6 +37,7 @@ class Truth:
     rates: Array
     set_points: Array
     tensions: Array
+    states: Array
 
     def angles_at(self, times: Array) -> Array:
         """Between the rows, (times, n_joints) [rad]."""
@@ -59,6 +62,11 @@ class Truth:
         later = self.time[1:][tight[:-1] & ~tight[1:]]  # rows with which slack begins
         return max(0.0, float(later[-1]) - instant) if later.size else 0.0
 
+    def let_go_after(self, instant: float) -> float:
+        """Time from an instant until the receiver begins to let go for good [s]; 0 where it did before."""
+        following = self.time[self.states == GuardState.FOLLOWING]
+        return max(0.0, float(following[-1]) - instant) if following.size else 0.0
+
     def fastest_rise(self) -> float:
         """Of any set point [N/s]."""
         steps = np.diff(self.set_points, axis=0) / np.diff(self.time)[:, None]
@@ -75,7 +83,12 @@ def load_truth(path: Path) -> Truth:
         return table[:, [i for i, column in enumerate(names) if column.rpartition("_")[0] == name]]
 
     blocks = (block(name) for name in ("theta", "theta_rate", "set_point", "tension"))
-    return Truth(table[:, names.index("device_time_us")], table[:, names.index("monotonic_s")], *blocks)
+    return Truth(
+        table[:, names.index("device_time_us")],
+        table[:, names.index("monotonic_s")],
+        *blocks,
+        table[:, names.index("state")],
+    )
 
 
 def errors_of(states: Sequence[State], truth: Truth) -> tuple[Array, Array]:

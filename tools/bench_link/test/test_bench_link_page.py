@@ -24,7 +24,7 @@ CLOSED = ClosedLoop(
     [Minute(3.0, 0.9, 5.0)], 0.1, 0.1,
 )  # fmt: skip
 CASE = Case(["lost", "late"], 3.0, 0.01, 0.3, 0.1, 400, 0.7, 0, 12.0, 120.0, "the port is not there")
-DEATH = Death("killed (SIGKILL)", True, 0.5, [0.5, 0.48], [3.0, 3.0])
+DEATH = Death("killed (SIGKILL)", 0.0, [0.5, 0.48], [0.01, 0.0], [3.0, 3.0])
 SOAK = Soak(20.0, 180.0, 180.0, 3.0, 0, Memory(80.0, 80.1, 0.1, 0.3), Memory(90.0, 90.0, 0.0, 0.3))
 ALL = Results(CLOSED, [CASE], [DEATH], SOAK, dict.fromkeys(PARTS, 3))
 
@@ -39,7 +39,8 @@ SPOILED = {
     "joint states with": replace(ALL, campaign=[CASE, replace(CASE, wrong=1)]),
     "tension at": replace(ALL, campaign=[CASE, replace(CASE, largest_tension=12.1)]),
     "its rise": replace(ALL, campaign=[CASE, replace(CASE, fastest_rise=130.0)]),
-    "slack after": replace(ALL, deaths=[replace(DEATH, times=[0.4, 0.6])]),
+    "slack after: ": replace(ALL, deaths=[replace(DEATH, times=[0.4, 0.6], begun=[0.0, 0.2])]),
+    "slack after the": replace(ALL, deaths=[replace(DEATH, begins=0.25, times=[0.4, 0.6])]),
     "streaming, as hours": replace(ALL, soak=replace(SOAK, minutes=10.0)),
     "memory of the bridge": replace(ALL, soak=replace(SOAK, bridge=Memory(80.0, 90.0, 1.1, 0.3))),
 }
@@ -80,7 +81,7 @@ def test_a_case_is_judged_by_the_truth():
     angles = np.zeros((600, 2))
     rates = np.where((time < 104.0)[:, None], 1.0, np.zeros((600, 2)))
     tension = np.where((time < 103.0)[:, None], 9.0, np.zeros((600, 2)))
-    known = Truth(1e6 * time, time, angles, rates, tension, tension)
+    known = Truth(1e6 * time, time, angles, rates, tension, tension, tension[:, 0] > 0)
     off = [np.radians([0.0, 2.0 if 101 < t < 101.1 else 0.1]) for t in time]
     joints = [State(t, t, t + 0.02, t, angle) for t, angle in zip(time, off, strict=True) if not 102 < t < 104.5]
     imus = [[Sample(t, t + 0.01) for t in time if not 101.5 < t < back] for back in (102.2, 102.4)]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from continuum_hw_imu.protocol.messages import GuardState
 from tools.bench_link.ears import Sample, State
 from tools.bench_link.latency import delays, load_sent
 from tools.bench_link.resumption import good_again
@@ -15,7 +16,9 @@ TIME = 100.0 + PERIOD * np.arange(240)
 def truth(angles=None, rates=None, set_points=None) -> Truth:
     none = np.zeros((len(TIME), 2))
     blocks = (none if block is None else block for block in (angles, rates, set_points))
-    return Truth(1e6 * (TIME - 100.0), TIME, *blocks, none)
+    blocks = list(blocks)
+    following = np.where(blocks[2][:, 0] == 5.0, GuardState.FOLLOWING, GuardState.LETTING_GO)
+    return Truth(1e6 * (TIME - 100.0), TIME, *blocks, none, following)
 
 
 def state(stamp: float, angles, delay: float = 0.002) -> State:
@@ -53,6 +56,8 @@ def test_slack_counts_from_the_instant_and_only_for_good():
     known = truth(set_points=columns(pulled, np.zeros_like(TIME)))
     assert known.slack_after(100.9) == pytest.approx(0.6, abs=PERIOD)
     assert known.slack_after(102.0) == 0.0
+    assert known.let_go_after(101.3) == pytest.approx(0.2, abs=PERIOD)
+    assert known.let_go_after(102.0) == 0.0
     assert known.between(100.0, 100.5).slack_after(100.1) == np.inf
 
 
