@@ -105,6 +105,9 @@ def to_and_fro(t: float) -> Array:
 
 
 def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
+    if bridge.state != "active":
+        bridge.change("activate")
+        bridge.wait_for_state("active")
     bench.wait_for_joints(bridge)
     bench.drive(bridge, to_and_fro, 4 * HALF)
     bench.ears.clear()
@@ -120,9 +123,8 @@ def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
     end, joints, imus = time.monotonic(), list(bench.ears.joints), [list(imu) for imu in bench.ears.imus]
     fell_back = ""
     if bridge.state != "active":
-        fell_back = bridge.node.stderr.rpartition(_FALLEN)[2].partition("\n")[0].strip()
-        bridge.change("activate")
-        bridge.wait_for_state("active")
+        said = bridge.node.stderr.rpartition(_FALLEN)[2].partition("\n")[0]
+        fell_back = said.replace(str(bench.folder), "").strip(" /")
     return _Course(case, begin, back, end, os.getloadavg()[0], joints, imus, fell_back)
 
 

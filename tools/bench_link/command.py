@@ -14,7 +14,7 @@ from tools.bench_link import campaign, closed_loop, deaths, soak
 from tools.bench_link.faults import CASES
 from tools.bench_link.page import page
 from tools.bench_link.processes import take_niceness
-from tools.bench_link.results import keep, load
+from tools.bench_link.results import keep, load, together
 from tools.demo.errors import DemoError
 
 PAGE = Path("docs/bench-link.md")
@@ -26,7 +26,13 @@ def main(arguments: list[str] | None = None) -> int:
     add = parser.add_argument
     add("--minutes", type=float, default=10.0, help="of the closed loop; default %(default)g")
     add("--repetitions", type=int, default=5, help="of each death; default %(default)s")
-    add("--faults", nargs="*", default=[], metavar="NAME", help="of the campaign: cases of these only; default all")
+    add(
+        "--faults",
+        nargs="*",
+        default=[],
+        metavar="NAME",
+        help="of the campaign: cases of these only, beside those kept",
+    )
     add("--soak-minutes", type=float, default=60.0, help="default %(default)g")
     add("--soak-rate", type=float, default=60.0, metavar="HZ", help="of the sensors then; default %(default)g")
     add("--niceness", type=int, default=os.getpriority(os.PRIO_PROCESS, 0), metavar="N",
@@ -37,7 +43,9 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     runs: dict[str, Callable[[Path], Any]] = {
         "closed": lambda folder: closed_loop.measure(options.minutes, folder),
-        "campaign": lambda folder: campaign.measure(folder, _cases(options.faults)),
+        "campaign": lambda folder: together(
+            load(options.out).campaign if options.faults else None, campaign.measure(folder, _cases(options.faults))
+        ),
         "deaths": lambda folder: deaths.measure(folder, options.repetitions),
         "soak": lambda folder: soak.measure(options.soak_minutes, options.soak_rate, folder),
     }

@@ -36,6 +36,12 @@ def keep(folder: Path, part: str, result: Any, niceness: int) -> None:
     (folder / f"{part}.json").write_text(f"{text}\n", encoding="utf-8")
 
 
+def together(kept: Sequence[Case] | None, new: Sequence[Case]) -> list[Case]:
+    """Cases kept and new ones, which count in the place of those of the same faults."""
+    cases = {tuple(case.faults): case for case in (*(kept or []), *new)}
+    return list(cases.values())
+
+
 def load(folder: Path) -> Results:
     """All that was kept."""
     kept = {part: _plain(folder / f"{part}.json") for part in PARTS}

@@ -14,7 +14,7 @@ from tools.bench_link.goals import goals
 from tools.bench_link.latency import Delays
 from tools.bench_link.page import page
 from tools.bench_link.processes import Usage
-from tools.bench_link.results import PARTS, Results, keep, load
+from tools.bench_link.results import PARTS, Results, keep, load, together
 from tools.bench_link.soak import Memory, Soak, memory_of
 from tools.bench_link.truth import Truth
 
@@ -62,6 +62,12 @@ def test_results_are_read_as_they_were_kept(tmp_path):
     for part in PARTS:
         keep(tmp_path, part, getattr(ALL, part), ALL.niceness[part])
     assert load(tmp_path) == ALL
+
+
+def test_cases_of_a_later_run_count():
+    again, other = replace(CASE, resumed=0.2), replace(CASE, faults=["noise"])
+    assert together(None, [CASE]) == [CASE]
+    assert together([CASE, other], [again]) == [again, other]
 
 
 def test_the_page_tells_what_was_missed_and_leaves_out_what_was_not_run():
