@@ -20,6 +20,7 @@ from continuum_hw_imu.protocol.messages import Hello, ImuFrame, TensionFrame
 from continuum_hw_imu.sensor_watch import SensorWatch
 from continuum_manipulator.nodekit.planar_arm import PlanarArm
 from continuum_manipulator.nodekit.stamps import NANOSECONDS
+from continuum_manipulator.nodekit.two_clocks import read_together
 
 Publish = Callable[[object], None]
 
@@ -104,8 +105,8 @@ class BenchStreams:
 
     def _stamp(self, heard: Heard) -> TimeMessage:
         """ROS time of what was heard."""
-        ago = time.monotonic() - heard.time
-        return Time(nanoseconds=max(0, self._clock.now().nanoseconds - round(ago * NANOSECONDS))).to_msg()
+        instant, now = read_together(time.monotonic, lambda: self._clock.now().nanoseconds)
+        return Time(nanoseconds=max(0, now - round((instant - heard.time) * NANOSECONDS))).to_msg()
 
     def _publish_joints(self, watch: SensorWatch, heard: Heard) -> None:
         self.age = heard.read - heard.time

@@ -4,7 +4,7 @@ import csv
 import json
 import socket
 import time
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -30,10 +30,13 @@ class EmulatedBench:
         self._control = folder / "control"
         words = ["--link", self.port, "--control", self._control, "--truth", self.truth_file, *options]
         self.process = NodeProcess("continuum_hw_imu", "bench_emulator", domain, arguments=tuple(map(str, words)))
-        wait_until(lambda: self.port.exists() and self._control.exists(), lambda: f"port; {self.process.stderr}")
-        self._socket = socket.socket(socket.AF_UNIX)
-        self._socket.settimeout(30.0)
-        self._socket.connect(str(self._control))
+        with ExitStack() as undone:
+            undone.callback(self.process.close)
+            wait_until(lambda: self.port.exists() and self._control.exists(), lambda: f"port; {self.process.stderr}")
+            self._socket = undone.enter_context(socket.socket(socket.AF_UNIX))
+            self._socket.settimeout(30.0)
+            self._socket.connect(str(self._control))
+            undone.pop_all()
         self._answers = self._socket.makefile("r")
 
     def tell(self, order: str) -> dict:
@@ -92,7 +95,7 @@ class Bridge:
         self._clients = {
             name: ears.probe.node.create_client(kind, f"{self.name}/{name}")
             for kind, names in {
-                Trigger: ("zero", "calibrate_bias", "find_axes", "stop", "reset_stop"),
+                Trigger: ("zero", "calibrate_bias", "find_axes", "release", "stop", "reset_stop"),
                 ChangeState: ("change_state",),
                 GetState: ("get_state",),
             }.items()

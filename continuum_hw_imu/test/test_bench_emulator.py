@@ -106,3 +106,20 @@ def test_the_truth_is_complete(lab):
     assert len(rows) == 60
     assert list(rows[0])[:2] == ["device_time_us", "monotonic_s"]
     assert len(rows[0]) == 2 + 10 + 4 + 2
+
+
+def test_it_tells_when_sound_frames_left(tmp_path):
+    lab = Lab(tmp_path, sent=tmp_path / "sent.csv")
+    try:
+        lab.open()
+        lab.run(0.5)
+        lab.order("damage share=1 for=0.5")
+        lab.run(0.5)
+        whole = lab.run(0.5)
+    finally:
+        lab.close()
+    rows = (tmp_path / "sent.csv").read_text().splitlines()[1:]
+    frames = [frame for frame in lab.frames if isinstance(frame.message, m.ImuFrame)]
+    assert [row.split(",")[1:] for row in rows] == [[str(frame.time), str(frame.sequence)] for frame in frames]
+    assert len(rows) < 70
+    assert len(of(m.ImuFrame, whole)) > 25

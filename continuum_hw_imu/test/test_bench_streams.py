@@ -1,5 +1,6 @@
 """What is published of frames, and what is not: nothing wrong, nothing of another bench, nothing not measured."""
 
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -177,3 +178,24 @@ def test_stamps_are_those_of_the_samples():
     stamps = np.array([nanoseconds(message.header.stamp) for message in published.imus[0]])
     assert abs((stamps[-1] - stamps[0]) / NANOSECONDS - 119 / 60) < 0.01
     assert abs(np.median(np.diff(stamps)) / NANOSECONDS - 1 / 60) < 1e-3
+
+
+class StumblingClock(Clock):
+    """The processor is taken away before every third reading."""
+
+    readings = 0
+
+    def now(self):
+        self.readings += 1
+        if self.readings % 3 == 0:
+            time.sleep(0.02)
+        return super().now()
+
+
+def test_stamps_are_even_where_the_processor_is_taken_away():
+    published = Published()
+    published.streams._clock = StumblingClock()
+    published.measure(50)
+    stamps = np.array([nanoseconds(message.header.stamp) for message in published.imus[0]]) / NANOSECONDS
+    assert len(stamps) == 50
+    np.testing.assert_allclose(np.diff(stamps), 1 / 60, atol=0.005)

@@ -67,6 +67,10 @@ class Probe:
                 raise AssertionError(f"not within {timeout} s: {what() if callable(what) else what}")
             self._executor.spin_once(timeout_sec=0.05)
 
+    def spin(self, longest: float) -> None:
+        """Listen to what comes next, for so long at the most [s]."""
+        self._executor.spin_once(timeout_sec=longest)
+
     def wait_for_nodes(self, *names: str) -> None:
         """Listen until nodes of these names run."""
         self.wait_until(lambda: set(names) <= set(self.node.get_node_names()), f"nodes {', '.join(names)}")

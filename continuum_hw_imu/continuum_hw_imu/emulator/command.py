@@ -117,6 +117,7 @@ def _emulator_settings(options: argparse.Namespace) -> EmulatorSettings:
     return EmulatorSettings(
         link=options.link,
         truth=options.truth,
+        sent=options.sent,
         baud=options.baud,
         clock_start=options.clock_start,
         sees_hang_up=not options.no_hang_up,
@@ -138,6 +139,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--model", default="lamecc_prototype.yaml", help="model file, or the name of one that comes with the library")
     add("--bend", type=_number(-270, 270), default=0.0, metavar="DEG", help="bend of the whole arm at the start")
     add("--truth", type=Path, metavar="FILE", help="write what really happens, CSV, a row for every sample")
+    add("--sent", type=Path, metavar="FILE", help="write when each frame of the sensors left, CSV")
     add("--faults", type=Path, metavar="FILE", help="carry out the orders in a file")
     add("--control", type=Path, metavar="PATH", help="listen for orders on a UNIX socket")
     add("--rate", type=_number(1, 1000), default=60.0, metavar="HZ", help="samples a second, 60 without")

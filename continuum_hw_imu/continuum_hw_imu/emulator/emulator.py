@@ -16,6 +16,7 @@ from continuum_hw_imu.emulator.device_clock import DeviceClock
 from continuum_hw_imu.emulator.line_faults import FaultyLine, pieces_of
 from continuum_hw_imu.emulator.line_queue import LineQueue
 from continuum_hw_imu.emulator.pseudo_port import PseudoPort
+from continuum_hw_imu.emulator.sent_file import SentFile
 from continuum_hw_imu.emulator.truth_file import TruthFile
 from continuum_hw_imu.protocol.frame import FrameWriter
 from continuum_hw_imu.protocol.messages import FaultCode, Message
@@ -37,6 +38,7 @@ class EmulatorSettings:
     Attributes:
         link: where a symbolic link to the port is kept.
         truth: file of what really happened.
+        sent: file of when frames were written to the port.
         baud: bits a second of the line; 0 for one that takes no time.
         clock_start: what the controller's clock shows at the start [us].
         sees_hang_up: the controller notices when the host closes the port, as by DTR; else it has only its time-outs.
@@ -45,6 +47,7 @@ class EmulatorSettings:
 
     link: Path | None = None
     truth: Path | None = None
+    sent: Path | None = None
     baud: float = 0.0
     clock_start: int = 0
     sees_hang_up: bool = True
@@ -74,6 +77,7 @@ class Emulator:
         self._outgoing, self._incoming = LineQueue(settings.baud), LineQueue(settings.baud)
         self.port = PseudoPort(settings.link)
         self._truth = TruthFile(settings.truth, bench.n_joints, len(SIDES)) if settings.truth else None
+        self._sent = SentFile(settings.sent) if settings.sent else None
         self.began = now
         self.skipped = 0.0
         self.largest_set_point = 0.0
@@ -86,6 +90,8 @@ class Emulator:
         self.port.unplug()
         if self._truth is not None:
             self._truth.close()
+        if self._sent is not None:
+            self._sent.close()
 
     @property
     def wake_at(self) -> float:
@@ -105,6 +111,8 @@ class Emulator:
         for data in self._outgoing.due(now):
             if self.port.open:
                 self.port.write(data)
+                if self._sent is not None:
+                    self._sent.note(data)
         self.port.flush()
 
     def unplug(self) -> None:

@@ -1,0 +1,73 @@
+"""The command line: which parts are run, and the page."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import tools.bench_link
+from tools.bench_link import campaign, closed_loop, deaths, soak
+from tools.bench_link.faults import CASES
+from tools.bench_link.page import page
+from tools.bench_link.processes import take_niceness
+from tools.bench_link.results import keep, load, together
+from tools.demo.errors import DemoError
+
+PAGE = Path("docs/bench-link.md")
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the parts, and make the page of all that was kept."""
+    parser = argparse.ArgumentParser(prog="make bench-link ARGS=...", description=tools.bench_link.__doc__)
+    add = parser.add_argument
+    add("--minutes", type=float, default=10.0, help="of the closed loop; default %(default)g")
+    add("--repetitions", type=int, default=5, help="of each death; default %(default)s")
+    add(
+        "--faults",
+        nargs="*",
+        default=[],
+        metavar="NAME",
+        help="of the campaign: cases of these only, beside those kept",
+    )
+    add("--soak-minutes", type=float, default=60.0, help="default %(default)g")
+    add("--soak-rate", type=float, default=60.0, metavar="HZ", help="of the sensors then; default %(default)g")
+    add("--niceness", type=int, default=os.getpriority(os.PRIO_PROCESS, 0), metavar="N",
+        help="of all its processes and their session; below 0 takes a privilege")  # fmt: skip
+    add("--out", type=Path, default=Path("out/bench_link"), metavar="FOLDER", help="default %(default)s")
+    add("--page", type=Path, default=PAGE, metavar="FILE", help="the page, which is overwritten; default %(default)s")
+    add("parts", nargs="*", metavar="PART", help="closed, campaign, deaths, soak or page (no run); default all")
+    options = parser.parse_args(arguments)
+    runs: dict[str, Callable[[Path], Any]] = {
+        "closed": lambda folder: closed_loop.measure(options.minutes, folder),
+        "campaign": lambda folder: together(
+            load(options.out).campaign if options.faults else None, campaign.measure(folder, _cases(options.faults))
+        ),
+        "deaths": lambda folder: deaths.measure(folder, options.repetitions),
+        "soak": lambda folder: soak.measure(options.soak_minutes, options.soak_rate, folder),
+    }
+    parts = options.parts or list(runs)
+    strange = set(parts) - {*runs, "page"}
+    if strange:
+        parser.error(f"no such part: {', '.join(sorted(strange))}; allowed: {', '.join(runs)}, page")
+    options.out.mkdir(parents=True, exist_ok=True)
+    take_niceness(options.niceness)
+    try:
+        for part, run in runs.items():
+            if part in parts:
+                print(part, flush=True)
+                keep(options.out, part, run((options.out / part).resolve()), options.niceness)
+    except (DemoError, AssertionError) as error:  # these of the tests' harness: something did not come in time
+        print(f"bench-link: {error}", file=sys.stderr)
+        return 1
+    options.page.write_text(page(load(options.out)), encoding="utf-8")
+    print(f"written: {options.page}")
+    return 0
+
+
+def _cases(names: list[str]) -> list[tuple[str, ...]]:
+    """Those made of these faults alone; all without a name."""
+    return [case for case in CASES if not names or set(case) <= set(names)]

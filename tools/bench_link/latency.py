@@ -1,0 +1,58 @@
+"""How long sensors' frames take until their joint states are there, and which never were."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from continuum.arrays import Array
+from tools.bench_link.ears import State
+from tools.bench_link.truth import Truth
+
+WRAP = 1 << 32
+
+
+@dataclass(frozen=True)
+class Delays:
+    """Of each frame with its joint state, from when the emulator wrote its last byte; (n,) [s].
+
+    Attributes:
+        written: when that was, of this machine's monotonic clock.
+        published, received, called: see `State`.
+        missing: frames between the first and the last of these that became no joint state.
+        shift: stamp less the true instant.
+    """
+
+    written: Array
+    published: Array
+    received: Array
+    called: Array
+    missing: int
+    shift: Array
+
+
+def load_sent(path: Path, truth: Truth) -> tuple[Array, Array]:
+    """When each frame was written, and the instant that it tells of; of the monotonic clock, (frames,) each [s]."""
+    table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    instants = dict(zip((truth.device.astype(np.int64) % WRAP).tolist(), truth.time.tolist(), strict=True))
+    told = np.array([instants[int(device)] for device in table[:, 1]])
+    return table[:, 0], told
+
+
+def delays(states: Sequence[State], written: Array, told: Array) -> Delays:
+    """States beside their frames: those of the nearest instant, by the states' stamps.
+
+    Args:
+        states: in the order of their stamps.
+        written, told: as of `load_sent`.
+    """
+    stamps = np.array([state.stamp for state in states])
+    right = np.clip(np.searchsorted(told, stamps), 1, len(told) - 1)
+    nearest = np.where(stamps - told[right - 1] < told[right] - stamps, right - 1, right)
+    columns = (np.array([getattr(state, name) for state in states]) for name in ("published", "received", "called"))
+    published, received, called = (column - written[nearest] for column in columns)
+    missing = int(nearest[-1] - nearest[0] + 1 - np.unique(nearest).size)
+    return Delays(written[nearest], published, received, called, missing, stamps - told[nearest])

@@ -1,0 +1,112 @@
+"""Goals met and missed, results kept and read again, and the page of them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tools.bench_link.campaign import Case, _Course, evaluated
+from tools.bench_link.closed_loop import ClosedLoop, Minute, by_minute
+from tools.bench_link.deaths import Death
+from tools.bench_link.ears import Sample, State
+from tools.bench_link.faults import CASES, FAULTS, orders
+from tools.bench_link.goals import goals
+from tools.bench_link.latency import Delays
+from tools.bench_link.page import page
+from tools.bench_link.processes import Usage
+from tools.bench_link.results import PARTS, Results, keep, load, together
+from tools.bench_link.soak import Memory, Soak, memory_of
+from tools.bench_link.truth import Truth
+
+CLOSED = ClosedLoop(
+    10.0, 80, 36_000, 60.0, 0, 0, 0.0, 0.1, 0.05, 0.4, [0.1, 0.2, 0.9],
+    {"published": [0.8, 4.0, 8.0], "received": [0.9, 5.0, 9.0], "called": [1.2, 6.0, 11.0]},
+    [Minute(3.0, 0.9, 5.0)], 0.1, 0.1,
+)  # fmt: skip
+CASE = Case(["lost", "late"], 3.0, 0.01, 0.3, 0.1, 400, 0.7, 0, 12.0, 120.0, "the port is not there")
+DEATH = Death("killed (SIGKILL)", 0.0, [0.5, 0.48], [0.01, 0.0], [3.0, 3.0])
+SOAK = Soak(20.0, 180.0, 180.0, 3.0, 0, Memory(80.0, 80.1, 0.1, 0.3), Memory(90.0, 90.0, 0.0, 0.3))
+ALL = Results(CLOSED, [CASE], [DEATH], SOAK, dict.fromkeys(PARTS, 3))
+
+SPOILED = {
+    "release tests": replace(ALL, closed=replace(CLOSED, released=0.51)),
+    "at rest": replace(ALL, closed=replace(CLOSED, resting=0.31)),
+    "five sensors": replace(ALL, closed=replace(CLOSED, minutes=9.0)),
+    "joint states a second": replace(ALL, closed=replace(CLOSED, rate=59.0)),
+    "frames lost": replace(ALL, closed=replace(CLOSED, missing=1)),
+    "frame to": replace(ALL, closed=replace(CLOSED, until={**CLOSED.until, "received": [1.0, 10.1, 20.0]})),
+    "data stream again": replace(ALL, campaign=[CASE, replace(CASE, resumed=None)]),
+    "joint states with": replace(ALL, campaign=[CASE, replace(CASE, wrong=1)]),
+    "tension at": replace(ALL, campaign=[CASE, replace(CASE, largest_tension=12.1)]),
+    "its rise": replace(ALL, campaign=[CASE, replace(CASE, fastest_rise=130.0)]),
+    "slack after: ": replace(ALL, deaths=[replace(DEATH, times=[0.4, 0.6], begun=[0.0, 0.2])]),
+    "slack after the": replace(ALL, deaths=[replace(DEATH, begins=0.25, times=[0.4, 0.6])]),
+    "streaming, as hours": replace(ALL, soak=replace(SOAK, minutes=10.0)),
+    "memory of the bridge": replace(ALL, soak=replace(SOAK, bridge=Memory(80.0, 90.0, 1.1, 0.3))),
+}
+
+
+def test_all_goals_can_be_met():
+    assert all(goal.met for goal in goals(ALL))
+
+
+@pytest.mark.parametrize("beginning", SPOILED)
+def test_each_goal_can_be_missed_alone(beginning):
+    missed = [goal.what for goal in goals(SPOILED[beginning]) if not goal.met]
+    assert len(missed) == 1
+    assert missed[0].startswith(beginning)
+
+
+def test_results_are_read_as_they_were_kept(tmp_path):
+    assert load(tmp_path) == Results(None, None, None, None)
+    for part in PARTS:
+        keep(tmp_path, part, getattr(ALL, part), ALL.niceness[part])
+    assert load(tmp_path) == ALL
+
+
+def test_cases_of_a_later_run_count():
+    again, other = replace(CASE, resumed=0.2), replace(CASE, faults=["noise"])
+    assert together(None, [CASE]) == [CASE]
+    assert together([CASE, other], [again]) == [again, other]
+
+
+def test_the_page_tells_what_was_missed_and_leaves_out_what_was_not_run():
+    assert "**missed**" not in page(ALL)
+    assert "**missed**" in page(SPOILED["at rest"])
+    assert "## Memory" not in page(replace(ALL, soak=None))
+
+
+def test_every_fault_stands_alone_and_beside_every_other():
+    n = len(FAULTS)
+    assert len(CASES) == len(set(CASES)) == n + n * (n - 1) // 2
+    assert orders(("unplugged", "late"))[1] == FAULTS["unplugged"]
+
+
+def test_a_case_is_judged_by_the_truth():
+    time = 100.0 + np.arange(600) / 60
+    angles = np.zeros((600, 2))
+    rates = np.where((time < 104.0)[:, None], 1.0, np.zeros((600, 2)))
+    tension = np.where((time < 103.0)[:, None], 9.0, np.zeros((600, 2)))
+    known = Truth(1e6 * time, time, angles, rates, tension, tension, tension[:, 0] > 0)
+    off = [np.radians([0.0, 2.0 if 101 < t < 101.1 else 0.1]) for t in time]
+    joints = [State(t, t, t + 0.02, t, angle) for t, angle in zip(time, off, strict=True) if not 102 < t < 104.5]
+    imus = [[Sample(t, t + 0.01) for t in time if not 101.5 < t < back] for back in (102.2, 102.4)]
+    case = evaluated(_Course(("lost",), 100.5, 102.0, 109.0, 3.0, joints, imus, ""), known, (time + 0.003, time))
+    assert case.stalled == pytest.approx(0.003)
+    assert case.resumed == pytest.approx(0.41, abs=1 / 60)
+    assert case.angles_back == pytest.approx(0.02, abs=1 / 60)  # at rest from 105 on
+    assert (case.wrong, case.largest_error, case.largest_tension) == (5, pytest.approx(2.0), 9.0)
+
+
+def test_minutes_are_reckoned_apart():
+    written = np.arange(0.0, 120.0, 0.5)
+    delay = np.where(written < 60.0, 0.001, 0.002)
+    found = Delays(written, delay, delay, delay, 0, delay)
+    assert [minute.median for minute in by_minute(found, 0.0, [1.0, 2.0])] == pytest.approx([1.0, 2.0])
+
+
+def test_growth_of_memory_is_that_in_an_hour_at_live_speed():
+    seen = [Usage(5.0 * k, 2.0 * k, 1024 * (100 if k < 20 else 80) + 8 * k) for k in range(100)]
+    memory = memory_of(seen, 3.0)
+    assert memory.growth == pytest.approx(8 / 5 * 3600 / 1024 / 3)
+    assert memory.core == pytest.approx(0.4)
