@@ -5,11 +5,16 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
+<<<<<<< HEAD
 .PHONY: help setup demo bench-demo test reproduction bench-dynamics bench-ik bench-discovery bench-inertial bench-link fuzz prototype \
   check format lock clean
+=======
+.PHONY: help setup demo bench-demo test reproduction bench-dynamics bench-ik bench-identification bench-discovery \
+  bench-inertial fuzz prototype check format lock clean
+>>>>>>> fbb1c99973ca6d36f2fd9228026969a480e71fd9
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 setup: ## make .venv, install pinned versions, build the workspace; does nothing where nothing changed
 	@PYTHON="$(PYTHON)" sh tools/setup/run.sh
@@ -34,10 +39,13 @@ bench-dynamics: setup ## measure the integrators (6 minutes); overwrites docs/nu
 bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/ik-benchmark.md unless ARGS say otherwise
 	@$(IN_WORKSPACE) python3 -m tools.bench_ik $(ARGS)
 
+bench-identification: setup ## compare the fit with the thesis's swarm (10 minutes); overwrites docs/identification.md
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_identification $(ARGS)
+
 bench-discovery: setup ## hide effects and see what is found; ARGS="--minutes 60" stops it; overwrites docs/discovery-benchmark.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_discovery $(ARGS)
 
-fuzz: setup ## damaged and made-up bytes through the bench protocol's parsers (2 minutes); overwrites docs/bench-fuzzing.md
+fuzz: setup ## damaged and made-up bytes through the bench protocol's parsers (6 minutes); overwrites docs/bench-fuzzing.md
 	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/fuzz/extra \
 	  -r tools/fuzz_bench/requirements.txt || echo "atheris cannot be installed and is left out"
 	@$(IN_WORKSPACE) python3 -m tools.fuzz_bench $(ARGS)

@@ -155,6 +155,7 @@ TAGS = tuple(f"link {i + 1}" for i in range(N))
 def write_exports(folder: Path, recording: ImuRecording, first_tick: int = 1_000_000) -> list[Path]:
     """Files as the vendor's app exports them, one for each sensor; readings that are not valid are not in them."""
     paths = []
+    folder.mkdir(exist_ok=True)
     for i, tag in enumerate(TAGS[: recording.n_sensors]):
         head = ["sep=,", f"DeviceTag:,{tag}", "FirmwareVersion:,2.0.0", "AppVersion:,2021.0", "© X 2005-2021", ""]
         lines = ["PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z,Status"]

@@ -78,8 +78,11 @@ def test_a_recording_without_topics(tmp_path: Path) -> None:
 
 
 def test_no_recording(tmp_path: Path) -> None:
-    for path in (tmp_path / "nowhere", tmp_path):
-        with pytest.raises(FileError, match="is not a readable rosbag2 recording"):
+    for path, told in (
+        (tmp_path / "nowhere", "is not a readable rosbag2 recording"),
+        (tmp_path, r"is not a readable rosbag2 recording \(it has no metadata.yaml\)"),
+    ):
+        with pytest.raises(FileError, match=told):
             Bag(path)
 
 

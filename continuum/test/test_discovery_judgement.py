@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
 from continuum.discovery.findings import Estimate, Findings
-from continuum.discovery.in_words import cost_in_words, verdict_in_words
+from continuum.discovery.in_words import cost_in_words, verdict_in_words, worth_in_words
 from continuum.discovery.judgement import confirmed, judge
 from continuum.discovery.measured_gain import RunScore, closed_gap
 from continuum.discovery.verdict import Kind, Verdict
@@ -172,11 +172,21 @@ def test_what_a_simulation_costs_is_told_by_the_usual_run() -> None:
     assert cost_in_words(quick, slow) == "simulating a run takes 30 ms instead of 10 ms"
 
 
+def test_what_an_extension_is_worth_may_be_less_than_nothing() -> None:
+    assert "closes 50 %" in worth_in_words(0.5)
+    assert worth_in_words(-0.01).endswith("no better")
+    assert "worse" in worth_in_words(-0.1)
+
+
 RUN = Recording("run_1", np.arange(3) / 120, np.zeros((3, 5)))
 
 
 def score(name: str, position: float, floor: float = 0.05) -> RunScore:
     return RunScore(name, position, 2 * position, floor, 0.01, None, RUN)
+
+
+def scores(*positions: float) -> list[RunScore]:
+    return [score(f"run_{i}", position) for i, position in enumerate(positions)]
 
 
 def found(verdict: Verdict) -> Findings:
@@ -251,11 +261,10 @@ def test_the_part_of_the_gap_that_is_closed() -> None:
 
 
 def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
-    def scores(*positions: float) -> list[RunScore]:
-        return [score(f"run_{i}", position) for i, position in enumerate(positions)]
-
     for kind, verdict in judged().items():
         named = kind in (Kind.CAUSE, Kind.AMBIGUOUS)
+        if kind is Kind.ADEQUATE:
+            continue
         assert confirmed(verdict, scores(0.45, 0.45), scores(0.05, 0.25)) is verdict
         assert confirmed(verdict, scores(0.05, 0.04), scores(0.05, 0.05)) is verdict  # nothing to predict better
         doubted = confirmed(verdict, scores(0.45, 0.45), scores(0.44, 0.40))
@@ -264,7 +273,18 @@ def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
         assert ("does not predict runs" in verdict_in_words(doubted)) == named
     needless = judge(GOOD, [a_round(GOOD, trial("base_tilt", misfit=0.6, seed=3))])
     assert needless.kind is Kind.CAUSE
-    assert confirmed(needless, scores(0.45), scores(0.44)).kind is Kind.ADEQUATE
+    assert confirmed(needless, scores(0.14), scores(0.13)).kind is Kind.ADEQUATE
+    assert confirmed(needless, scores(0.45), scores(0.44)).kind is Kind.UNKNOWN
+
+
+def test_no_model_is_adequate_whose_free_runs_end_far_from_what_was_measured() -> None:
+    verdict = judged()[Kind.ADEQUATE]
+    for near in (scores(0.05, 0.05), scores(0.09, 0.24)):
+        assert confirmed(verdict, near, near) is verdict
+    for far in (scores(0.05, 0.36), scores(0.05, np.inf)):
+        doubted = confirmed(verdict, far, far)
+        assert doubted.kind is Kind.UNKNOWN
+        assert "does not predict whole runs" in verdict_in_words(doubted)
 
 
 def test_more_has_to_be_explained_to_name_a_cause_than_to_call_a_model_adequate() -> None:

@@ -6,11 +6,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from discovery_laws import trial
+from discovery_laws import RUNS, SIZE, WINDOWS, trial
 
 from continuum.discovery.candidate import Extension
+from continuum.discovery.evidence import gain
+from continuum.discovery.judgement import judge
 from continuum.discovery.search import search
 from continuum.discovery.trial import Trial
+from continuum.discovery.window_beginnings import with_beginnings_of
 from continuum.discovery.workers import Task
 
 EFFECTS = ("tip_payload", "base_tilt", "quadratic_drag")
@@ -61,6 +64,42 @@ def test_one_effect_that_leaves_noise_ends_the_search() -> None:
     _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
     assert [effects_of(one.best.extension) for one in rounds] == [["base_tilt"]]
     assert not any(len(task.extension) > 1 for task in fits.asked)
+
+
+def test_luck_in_one_run_hides_no_effect_that_helps_in_all() -> None:
+    fits = Fits({(): 0.3, ("tip_payload",): 0.3, ("base_tilt",): 0.2, ("quadratic_drag",): 0.3})
+    fitted = fits.fitted
+
+    def lucky(task: Task) -> Trial:
+        made = fitted(task)
+        if effects_of(task.extension) != ["tip_payload"]:
+            return made
+        first, *others = trial(bad=0.3).held_out  # as without any effect
+        return replace(made, held_out=(np.minimum(first, 0.5 * SIZE), *others), cost=150.0)
+
+    fits.fitted = lucky  # type: ignore[method-assign]
+    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+    before, (tilt, payload, *_) = rounds[0].before, rounds[0].leaders
+    assert effects_of(rounds[0].best.extension) == effects_of(tilt.extension) == ["base_tilt"]
+    assert effects_of(payload.extension) == ["tip_payload"]
+    assert gain(payload, before).log_likelihood > gain(tilt, before).log_likelihood
+    assert not gain(payload, before).is_significant
+    assert all(cause.addition.effect != "tip_payload" for cause in judge(before, rounds).alternatives)
+
+
+def test_windows_that_are_explained_badly_begin_as_where_they_are_explained_best() -> None:
+    """States of effects that there are not stay; what is explained as well as elsewhere begins as it did."""
+    n = RUNS * WINDOWS
+    mine, other = (
+        replace(one, own=tuple(np.full(size, value) for _ in range(n)))
+        for one, size, value in ((trial("backlash", bad=0.1), 6, 1.0), (trial(bad=0.0), 4, 2.0))
+    )
+    begun = with_beginnings_of(mine, [other])
+    for here, there, relative in zip(mine.own, begun.own, mine.relative, strict=True):
+        wanted = [2.0, 2.0, 2.0, 2.0, 1.0, 1.0] if relative > 2 else here
+        np.testing.assert_array_equal(there, wanted)
+    assert sum(own[0] == 2.0 for own in begun.own) == round(0.1 * n)
+    assert all(own.size == 4 for own in with_beginnings_of(replace(mine, own=other.own), [mine]).own)
 
 
 def test_what_the_model_without_it_gains_by_the_same_search_is_no_gain() -> None:

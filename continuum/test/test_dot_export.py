@@ -98,8 +98,8 @@ def test_empty_and_repeated_rows_are_left_out_and_told(tmp_path: Path) -> None:
     found = parsed(tmp_path, "\n".join([COLUMNS, *rows]))
     assert found.ticks.tolist() == [200, 300]
     assert found.notes == (
-        "1 rows of nothing but zeros, left out (first: row 2)",
-        "1 rows with the time of the row before, left out (first: row 4)",
+        "1 row of nothing but zeros, left out (first: row 2)",
+        "1 row with the time of the row before, left out (first: row 4)",
     )
 
 

@@ -77,6 +77,11 @@ def test_angles_alone_are_a_free_run(tmp_path: Path) -> None:
     assert (found.theta_rate, found.tensions, found.is_driven) == (None, None, False)
 
 
+def test_columns_that_are_not_understood_are_told(tmp_path: Path) -> None:
+    found = read_recording_csv(write(tmp_path, sway() | {"q3deg": sway()["q2_rad"]}))
+    assert found.notes == ("columns that are not understood, and not used: q3deg",)
+
+
 def test_units_may_differ_from_column_to_column(tmp_path: Path) -> None:
     table = sway("rad") | {"q2_deg": sway("deg")["q2_deg"]}
     found = read_recording_csv(write(tmp_path, without(table, "q2_rad")))
@@ -203,6 +208,10 @@ def changed(column: str, rows: slice, values: str | Callable[[float], float]) ->
         (renamed(sway(), dq2_rad_s="dq2_rad"), "has the column dq2_rad; allowed units of dq: deg_s, rad_s"),
         (renamed(sway(), u1_N="u1_mN"), "has the column u1_mN; allowed units of u: N"),
         (sway() | {"q1_deg": sway()["q1_rad"]}, "has q1 twice, in two units"),
+        (
+            without(sway(), "q1_rad") | {"q1rad": sway()["q1_rad"]},
+            "has q of 2: numbers must run from 1 without a gap; not understood: q1rad",
+        ),
         ({name: column[:20] for name, column in sway().items()}, "has 20 usable rows; at least 30 are needed"),
         (text_of(sway()).replace("dq1_rad_s", "q1_rad"), "has the column 'q1_rad' twice"),
         (text_of(sway()).replace("\n", ",\n", 7), "row 8 has 7 cells, the header 8"),

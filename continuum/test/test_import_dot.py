@@ -147,6 +147,14 @@ def test_what_cannot_be_done_is_refused(
     assert not (tmp_path / "run.csv").exists()
 
 
+def test_sensors_that_were_not_synchronised_are_refused(
+    recording: ImuRecording, tmp_path: Path, capsys: Captured
+) -> None:
+    files = write_exports(tmp_path, recording)
+    late = write_exports(tmp_path / "late", recording, 1_500_000)
+    assert "move at different times" in refused(capsys, "import-dot", *files[:4], late[4])
+
+
 def test_files_that_do_not_fit_are_refused(files: list[Path], tmp_path: Path, capsys: Captured) -> None:
     assert "is it a CSV export" in refused(capsys, "import-dot", __file__)
     assert "cannot be read" in refused(capsys, "import-dot", tmp_path / "no.csv")

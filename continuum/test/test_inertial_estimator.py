@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from inertial_arm import (
     DEG,
     PERFECT,
@@ -27,6 +29,7 @@ from continuum.inertial.angle_estimator import AngleEstimator
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.imu_sample import ImuSample
+from continuum.inertial.integrated_rate import Liveliness, turn_since
 
 LIVE = 60.0
 ANY = np.random.default_rng
@@ -122,6 +125,31 @@ def test_a_long_gap_in_a_swing_is_not_bridged(motion: Motion, recording: ImuReco
     after = [estimate for estimate in estimates if RELEASE + 0.3 <= estimate.time < RELEASE + 0.6]
     assert not any(estimate.good.any() for estimate in after)
     assert after[0].why_not[0] == "sensor 1 waits for rest"
+
+
+@pytest.mark.parametrize(("gap", "bridged"), [(0.05, True), (0.2, False)])
+def test_a_gap_at_rest_is_bridged_if_nothing_can_have_happened(motion: Motion, gap: float, bridged: bool) -> None:
+    recording, _ = sensed(motion, LIVE, PERFECT, seed=0)
+    lost = (recording.times > 2.0) & (recording.times < 2.0 + gap)
+    estimates = estimated(with_losses(recording, lost).part(0.0, 3.0), calibrated(recording))
+    after = next(estimate for estimate in estimates if estimate.time > 2.0)
+    assert after.good.tolist() == [bridged] * N
+
+
+@given(st.integers(1, 5), st.floats(1.0, 15.0), st.floats(0.0, 2 * np.pi))
+def test_the_reckoned_error_of_a_gap_covers_the_real_one(missing: int, frequency: float, phase: float) -> None:
+    """Of a rate that swings; shorter waves than two gaps cannot be told."""
+    omega, period = 2 * np.pi * min(frequency, LIVE / (2 * missing + 2) / 2), 1 / LIVE
+    t = np.arange(-60, 20) * period
+    means = np.diff(np.sin(omega * np.append(t[0] - period, t) + phase))[:, None] / period
+    at, before = 70, 70 - missing - 1
+    lively = Liveliness(np.zeros(1), np.zeros(1))
+    for k in range(2, before + 1):
+        lively = lively.after(means[k - 2 : k + 1], period, 0.5)
+    real = means[before + 1 : at + 1].sum() * period
+    bridged = turn_since(means[at], means[before], np.array([(missing + 1) * period]), period, means=True)
+    reckoned = lively.error_of_gap(np.array([missing]), means[at] - means[before], period)
+    assert abs(bridged[0] - real) <= reckoned[0] + 1e-12
 
 
 def test_a_link_at_rest_is_found_again_within_a_second(recording: ImuRecording) -> None:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from inertial_arm import (
+    PERFECT,
     RELEASE,
     REST,
     Motion,
@@ -131,6 +132,10 @@ def test_angles_of_a_whole_recording(motion: Motion, recording: ImuRecording) ->
     assert np.isfinite(off).all()
     assert rms(off[swing]).max() < 0.5
     assert rms(off[~swing]).max() < 0.3
+
+
+def test_both_ways_belong_to_the_same_instant(motion: Motion) -> None:
+    assert np.abs(angle_errors(sensed(motion, STORED, PERFECT, seed=0)[0], motion)).max() < 0.2
 
 
 def test_rest_at_either_end_is_enough(motion: Motion, recording: ImuRecording) -> None:

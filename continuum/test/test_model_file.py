@@ -211,6 +211,11 @@ def test_an_error_names_its_file(tmp_path: Path) -> None:
         load_model(path)
 
 
+def test_a_name_with_a_slip_is_told_what_was_meant() -> None:
+    with pytest.raises(InvalidValueError, match=r"did you mean stiffness\?"):
+        model_from_mapping(content() | {"parameters": {"stifness": {"value": 1.0, "unit": "N m/rad"}}})
+
+
 def test_files_that_cannot_be_read_or_written(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="cannot be read"):
         load_model(tmp_path / "none.yaml")

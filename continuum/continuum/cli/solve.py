@@ -83,11 +83,17 @@ def run(options: argparse.Namespace) -> int:
         if options.json:
             print(json.dumps(_plain(arm, targets, k, answers[k])))
         else:
+            if len(targets) > 1:
+                print("\n" * (k > 0) + f"target {k + 1} of {len(targets)}, {_position(targets, k)}:")
             _show(arm, answers[k], targets.kind > POSITION)
     farthest = math.hypot(*targets.positions[int(np.argmax(answers.distances))])
     if not options.json and 10.0 * arm.length < farthest <= 1e3 * arm.length:
         print(f"Targets are in metres, and the arm is {arm.length:.3g} m long: were these millimetres?")
     return 0 if answers.solved.all() else 1
+
+
+def _position(targets: Targets, k: int) -> str:
+    return " ".join(f"{value:g}" for value in targets.positions[k]) + " m"
 
 
 def _start(arm: Arm, degrees: list[float]) -> Array:

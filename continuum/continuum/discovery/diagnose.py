@@ -12,7 +12,7 @@ from continuum.discovery.search import Round, Tell, search, tell_nobody
 from continuum.discovery.trial import TOLERANCES
 from continuum.discovery.verdict import Verdict
 from continuum.discovery.workers import workers
-from continuum.dynamics.effect_lookup import effect_names
+from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model import Model
 from continuum.dynamics.simulator import Simulator
 from continuum.errors import InvalidValueError
@@ -21,8 +21,6 @@ from continuum.identification.baseline import baseline_unknowns, with_dry_fricti
 from continuum.identification.dataset import Dataset
 from continuum.identification.noise import SensorKnowledge, estimate_noise
 from continuum.identification.tension_rows import with_likelier_rows
-
-NEEDS_TENSION = ("capstan", "elastic_cable", "actuator_lag")
 
 
 @dataclass(frozen=True)
@@ -66,11 +64,12 @@ def diagnose(
     tell("how tensions go on between rows", 0.0)
     recordings = with_likelier_rows(Simulator(ready, TOLERANCES), dataset.recordings, noise, unknowns)
     question = Question(ready, unknowns, recordings, noise)
-    driven = any(recording.is_driven for recording in dataset.recordings)
-    tried = [name for name in effects or effect_names() if driven or name not in NEEDS_TENSION]
     present = {active.effect.name for active in model.effects}
+    driven = any(recording.is_driven for recording in dataset.recordings)
+    asked = [name for name in effects or effect_names() if name not in present]
+    tried = [name for name in asked if driven or not effect_named(name).needs_tension]
     with workers(question, processes or os.cpu_count() or 1) as make:
-        baseline, rounds = search(make, [name for name in tried if name not in present], tell)
+        baseline, rounds = search(make, tried, tell)
     verdict = judge(baseline, rounds)
     if verdict.best.status is FitStatus.NO_SIMULATION:
         raise InvalidValueError("model", verdict.best.status.value, "one that moves from the angles that were measured")

@@ -92,10 +92,16 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         tuple(after),
         closed_gap(before, after),
         split.weakness,
-        tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes),
+        tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes) + _left_out(verdict),
         fit_extension(question, (), verdict.baseline, 2).model,
         _told(fitted, [r.name for r in question.recordings]),
     )
+
+
+def _left_out(verdict: Verdict) -> tuple[str, ...]:
+    """What was fitted and the extended model does not have."""
+    own = sorted({unknown.name for unknown in verdict.best.unknowns if unknown.recording is not None})
+    return (f"the extended model has no {', '.join(own)}: each recording has its own",) if own else ()
 
 
 def _of_alternative(question: Question, rival: Cause, random: np.random.Generator) -> list[Estimate]:

@@ -10,6 +10,8 @@ from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
 
+_NOTICED = 0.02  # of the distance to the noise floor
+
 
 def verdict_in_words(verdict: Verdict) -> str:
     """Two sentences, or three where something is to be measured."""
@@ -30,6 +32,11 @@ def verdict_in_words(verdict: Verdict) -> str:
                 f"These data show that something is missing, but not which of these it is: {_names(verdict)}. "
                 f"Each of them explains what was left ({before} of the data before, {after} after). "
                 f"To tell them apart: {verdict.experiment}"
+            )
+        case Kind.UNKNOWN if not (verdict.causes or verdict.predicts):
+            return (
+                "The simulation explains short stretches of these data but does not predict whole runs: left to itself "
+                "it ends far from what was measured. No effect that is known here explains why."
             )
         case Kind.UNKNOWN:
             return (
@@ -64,6 +71,8 @@ def _what_helps(verdict: Verdict, after: str) -> str:
 
 def worth_in_words(closed: float) -> str:
     """What the extension gains on runs that it was not fitted to."""
+    if closed <= -_NOTICED:
+        return "The extension predicts runs that it was not fitted to worse than the refitted model"
     if closed <= 0.0:
         return "The extension predicts runs that it was not fitted to no better"
     return f"The extension closes {100 * closed:.0f} % of the distance to the noise"

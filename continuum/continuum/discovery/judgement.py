@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
-from continuum.discovery.measured_gain import RunScore, closed_gap, is_open
+from continuum.discovery.measured_gain import RunScore, closed_gap, is_far, is_open
 from continuum.discovery.search import Round
 from continuum.discovery.trial import Trial
 from continuum.discovery.verdict import Cause, Kind, Verdict
@@ -42,12 +42,15 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
     """The verdict, unless its model does not predict runs that were held out: then its cause is not the one.
 
     Windows as short as these are explained by what only looks like the cause, a free run is not. Where the model
-    without it is adequate, nothing has to be explained, and that model it is.
+    without it is adequate, nothing has to be explained, and that model it is; but no model is whose free runs end far
+    from what was measured.
     """
+    if verdict.kind is Kind.ADEQUATE:
+        return replace(verdict, kind=Kind.UNKNOWN, predicts=False) if is_far(before) else verdict
     named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
     if not named or not is_open(before) or closed_gap(before, after) >= _LEAST_CLOSED:
         return verdict
-    if is_adequate(verdict.baseline):
+    if is_adequate(verdict.baseline) and not is_far(before):
         share = verdict.unexplained[0], verdict.unexplained[0]
         return Verdict(Kind.ADEQUATE, (), (), verdict.baseline, verdict.baseline, share)
     return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", predicts=False)
@@ -58,8 +61,9 @@ def _cause(one: Round) -> Cause:
 
 
 def _rivals(one: Round) -> list[Cause]:
-    """Effects that explain as much as the best one does."""
-    others = [trial for trial in one.leaders[1:] if not gain(one.best, trial).is_distinct]
+    """Effects that help for sure, too, and explain as much as the best one does."""
+    sure = [trial for trial in one.leaders[1:] if gain(trial, one.before).is_significant]
+    others = [trial for trial in sure if not gain(one.best, trial).is_distinct]
     return [Cause(t.extension[-1], _confidence(one, t), gain(t, one.before), t) for t in others]
 
 

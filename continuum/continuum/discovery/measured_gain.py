@@ -22,6 +22,7 @@ from continuum.identification.recording import Recording
 
 _ITERATIONS = 8
 _OPEN = 1.05  # times the noise floor, an error is more than noise
+_FAR = 6.0  # times the noise floor; sticking and slipping take arms that the model describes up to 4
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,11 @@ def held_out_scores(question: Question, trial: Trial, split: Split) -> list[RunS
 def is_open(before: Sequence[RunScore]) -> bool:
     """Whether there is a distance to the noise floor that may be closed."""
     return any(b.position > _OPEN * b.floor for b in before)
+
+
+def is_far(scores: Sequence[RunScore]) -> bool:
+    """Whether a run ends up farther from what was measured than the chance of sticking and slipping takes it."""
+    return any(score.position > _FAR * score.floor for score in scores)
 
 
 def closed_gap(before: Sequence[RunScore], after: Sequence[RunScore]) -> float:

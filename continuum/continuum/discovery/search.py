@@ -15,6 +15,7 @@ from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import explains_all, gain
 from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
+from continuum.discovery.window_beginnings import with_beginnings_of
 from continuum.discovery.workers import Make, Task, first_look
 
 _LEADERS = 5
@@ -33,8 +34,8 @@ class Round:
     Attributes:
         before: the best trial of the round before, at its best.
         looks: every effect after its first look, the most promising first.
-        leaders: those fitted to all data, best first, which are those fitted to the end; none where nothing promised
-            anything.
+        leaders: those fitted to all data, of which the best were fitted to the end; those that help for sure first, the
+            best of them before all; none where nothing promised anything.
     """
 
     before: Trial
@@ -103,12 +104,13 @@ def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[fl
     (without,) = [trial for trial in looks if trial.extension == before.extension]
     looks = sorted((trial for trial in looks if trial is not without), key=_hoped_for)
     leading = [Task(look.extension, carried(look, before), _LEADER_ITERATIONS) for look in _leading(looks, without)]
-    leaders = sorted(make(leading), key=lambda trial: -gain(trial, before).log_likelihood)
+    leaders = list(make(leading))
     tell(0.75)
     contenders = _contending(leaders, before)
-    ended = list(make([Task(trial.extension, trial, _ITERATIONS, True) for trial in contenders]))
+    begun = [with_beginnings_of(trial, (before, *leaders)) for trial in contenders]
+    ended = list(make([Task(trial.extension, trial, _ITERATIONS, True) for trial in begun]))
     ended += [trial for trial in leaders if all(trial is not one for one in contenders)]
-    ended.sort(key=lambda trial: -gain(trial, before).log_likelihood)
+    ended = sorted(ended, key=partial(_rank, before))
     if ended and gain(ended[0], before).is_significant:
         before = _as_well_fitted(make, before, ended[0])
     return Round(before, tuple(looks), tuple(ended))
@@ -132,6 +134,13 @@ def _leading(looks: Sequence[Trial], without: Trial) -> list[Trial]:
 
 
 def _contending(leaders: Sequence[Trial], before: Trial) -> list[Trial]:
-    gains = [gain(trial, before).log_likelihood for trial in leaders]
-    least = _CONTENDING * max(gains, default=0.0)
-    return [trial for trial, gained in zip(leaders, gains, strict=True) if gained >= least]
+    """Those not far behind the best of those that help for sure, if any do: luck in one stretch hides none."""
+    gains = [gain(trial, before) for trial in leaders]
+    sure = [gained.log_likelihood for gained in gains if gained.is_significant]
+    least = _CONTENDING * max(sure or [gained.log_likelihood for gained in gains], default=0.0)
+    return [trial for trial, gained in zip(leaders, gains, strict=True) if gained.log_likelihood >= least]
+
+
+def _rank(before: Trial, trial: Trial) -> tuple[bool, float]:
+    gained = gain(trial, before)
+    return not gained.is_significant, -gained.log_likelihood

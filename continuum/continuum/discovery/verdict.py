@@ -48,7 +48,8 @@ class Verdict:
         best: the best trial, whose extension the extended model has.
         unexplained: share of the data that stays unexplained before and after, 0 to 1.
         experiment: what to measure to tell alternatives apart, in words; empty where nothing is to be told apart.
-        predicts: whether the best one's free runs come nearer to what was held out; if not, its cause is not named.
+        predicts: whether the best one's free runs come as near to what was held out as they should; if not, no cause is
+            named, and no model is adequate.
     """
 
     kind: Kind

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
@@ -84,15 +85,21 @@ def workers(question: Question, processes: int) -> Iterator[Make]:
     if processes == 1:
         yield lambda tasks: (make(question, task) for task in tasks)
         return
-    context = multiprocessing.get_context("spawn")
+    context, others = multiprocessing.get_context("spawn"), set(multiprocessing.active_children())
     with ProcessPoolExecutor(processes, context, initializer=_keep, initargs=(question,)) as pool:
-        yield lambda tasks: (done.result() for done in as_completed([pool.submit(_make_kept, t) for t in tasks]))
+        try:
+            yield lambda tasks: (done.result() for done in as_completed([pool.submit(_make_kept, t) for t in tasks]))
+        except KeyboardInterrupt:  # nobody waits for trials that nobody will see
+            for worker in set(multiprocessing.active_children()) - others:
+                worker.terminate()
+            raise
 
 
 _kept: list[Question] = []
 
 
 def _keep(question: Question) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt from the terminal is the first process's to hear
     _kept[:] = [question]
 
 

@@ -35,6 +35,7 @@ class Effect:
         experiment: what to measure so that it stands out from what resembles it, one sentence.
         state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
             units; 0 where it is certain.
+        needs_tension: whether only a cable that pulls can show it.
     """
 
     name: ClassVar[str]
@@ -44,6 +45,7 @@ class Effect:
     looks_like: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
     state_spread: ClassVar[float] = 0.0
+    needs_tension: ClassVar[bool] = False
 
     def n_states(self, n_joints: int) -> int:
         """Number of states that the effect adds."""

@@ -13,6 +13,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from difflib import get_close_matches
 from pathlib import Path
 
 import yaml
@@ -124,4 +125,6 @@ def _only(block: Mapping[str, object], allowed: Iterable[str], prefix: str) -> N
     names = tuple(allowed)
     for key in block:
         if key not in names:
-            raise InvalidValueError(f"{prefix}{key}", block[key], "not known here; one of " + ", ".join(names))
+            near = get_close_matches(str(key), names, 1)
+            meant = f"; did you mean {near[0]}?" if near else ""
+            raise InvalidValueError(f"{prefix}{key}", block[key], f"not known here; one of {', '.join(names)}{meant}")

@@ -38,6 +38,7 @@ class SlackCable(Effect):
         "slack": Parameter("s", "m", 0.0, 0.2, False, "by which a cable that is not pulled hangs loose", 0.0, 0.01),
         "speed": Parameter("v", "m/s", 0.02, 5.0, False, "at which a motor winds up what hangs loose", 0.3, 0.2),
     }
+    needs_tension = True
     source = "Agrawal, Peine and Yao, IEEE Trans. Robotics 26, 2010, 914-924 (slack of cables in conduits)"
     in_words = "The cables hang loose when they are not pulled, and pull only after the motor has wound that up."
     looks_like = "When a cable begins to pull nothing happens for a moment; cables that stay taut do as the model says."

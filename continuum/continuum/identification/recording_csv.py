@@ -7,6 +7,7 @@ told; else refused, and told which row of the file (the header is row 1) is the 
 from __future__ import annotations
 
 import csv
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +32,7 @@ def read_recording_csv(path: str | Path) -> Recording:
     columns = {name: table[:, i] for i, name in enumerate(header)}
     if TIME not in columns:
         raise FileError(path, f"has no column {TIME}; it has {', '.join(header)}")
-    theta = _block(path, columns, ANGLE)
+    theta, others = _block(path, columns, ANGLE), _of_nothing(header)
     if theta is None:
         raise FileError(path, f"has no joint angles q1_deg .. or q1_rad ..; it has {', '.join(header)}")
     rate, pull = _block(path, columns, RATE), _block(path, columns, TENSION)
@@ -41,7 +42,14 @@ def read_recording_csv(path: str | Path) -> Recording:
         raise FileError(path, f"has tensions of {pull.shape[1]} cables; a planar section has u1_N and u2_N")
     good, notes = repaired(Samples(path, numbers, columns[TIME], theta, rate, pull))
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
+    if others:
+        notes = (*notes, f"columns that are not understood, and not used: {', '.join(others)}")
     return Recording(path.stem, good.times, good.theta, good.rate, tensions, notes)
+
+
+def _of_nothing(header: Sequence[str]) -> list[str]:
+    """Columns that are neither the time nor of a quantity."""
+    return [name for name in header if name != TIME and not any(q.names(name) for q in (ANGLE, RATE, TENSION))]
 
 
 def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:
@@ -92,6 +100,7 @@ def _block(path: Path, columns: dict[str, Array], quantity: Quantity) -> Array |
     if not found:
         return None
     if sorted(found) != list(range(1, len(found) + 1)):
-        numbers = ", ".join(map(str, sorted(found)))
-        raise FileError(path, f"has {quantity.letter} of {numbers}: numbers must run from 1 without a gap")
+        numbers, others = ", ".join(map(str, sorted(found))), ", ".join(_of_nothing(list(columns)))
+        hint = f"; not understood: {others}" if others else ""
+        raise FileError(path, f"has {quantity.letter} of {numbers}: numbers must run from 1 without a gap{hint}")
     return np.stack([found[number] for number in sorted(found)], axis=1)

@@ -140,7 +140,7 @@ def _export(path: Path, tag: str, columns: dict[str, Array], numbers: NDArray[np
         clipped |= columns.get(name, np.zeros(ticks.size)) > 0
     empty, again = ~readings.any(axis=1), np.diff(ticks, prepend=-1) == 0
     notes = [
-        f"{np.count_nonzero(rows)} rows {why}, left out (first: row {numbers[rows][0]})"
+        f"{_rows(int(rows.sum()))} {why}, left out (first: row {numbers[rows][0]})"
         for rows, why in ((empty, "of nothing but zeros"), (again & ~empty, "with the time of the row before"))
         if rows.any()
     ]
@@ -148,6 +148,10 @@ def _export(path: Path, tag: str, columns: dict[str, Array], numbers: NDArray[np
     return DotExport(
         path, tag, ticks[keep], np.radians(readings[keep, 3:]), readings[keep, :3], clipped[keep], tuple(notes)
     )
+
+
+def _rows(count: int) -> str:
+    return "1 row" if count == 1 else f"{count} rows"
 
 
 def _unwrapped(path: Path, wrapped: NDArray[np.int64], numbers: NDArray[np.int64]) -> NDArray[np.int64]:

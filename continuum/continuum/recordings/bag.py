@@ -36,6 +36,8 @@ class Bag:
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
+        if self.path.is_dir() and not (self.path / "metadata.yaml").exists():
+            raise FileError(self.path, "is not a readable rosbag2 recording (it has no metadata.yaml)")
         with self._readable():
             self._reader = AnyReader([self.path], default_typestore=get_typestore(Stores.ROS2_JAZZY))
             self._reader.open()

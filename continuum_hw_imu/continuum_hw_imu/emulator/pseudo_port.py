@@ -55,11 +55,11 @@ class PseudoPort:
         """The port goes, with whatever was under way in it."""
         if self._master is None:
             return
+        if self._link is not None and self._link.is_symlink():
+            self._link.unlink()  # first: the name that it leads to may be another's the moment that it is free
         os.close(self._master)
         self._master = None
         self._waiting.clear()
-        if self._link is not None and self._link.is_symlink():
-            self._link.unlink()
 
     @property
     def plugged(self) -> bool:
