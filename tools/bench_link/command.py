@@ -42,7 +42,7 @@ def main(arguments: list[str] | None = None) -> int:
     add("parts", nargs="*", metavar="PART", help="closed, campaign, deaths, soak or page (no run); default all")
     options = parser.parse_args(arguments)
     runs: dict[str, Callable[[Path], Any]] = {
-        "closed": lambda folder: closed_loop.measure(options.minutes, folder),
+        "closed": lambda folder: [*(load(options.out).closed or []), closed_loop.measure(options.minutes, folder)],
         "campaign": lambda folder: together(
             load(options.out).campaign if options.faults else None, campaign.measure(folder, _cases(options.faults))
         ),

@@ -35,7 +35,7 @@ def goals(results: Results) -> list[Goal]:
     """Those of which there are figures."""
     lines: list[Goal] = []
     parts: Sequence[tuple[object, Callable[..., Iterator[Goal]]]] = (
-        (results.closed, _closed),
+        (results.closed and results.closed[-1], _closed),
         (results.campaign, _campaign),
         (results.deaths, _deaths),
         (results.soak, _soak),

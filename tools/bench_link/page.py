@@ -39,7 +39,7 @@ def page(results: Results) -> str:
         table(head, lines),
     ]
     if results.closed:
-        parts += _closed(results.closed)
+        parts += [*_closed(results.closed[-1]), *_runs(results.closed)]
     if results.campaign:
         parts += _campaign(results.campaign)
     if results.deaths:
@@ -75,6 +75,37 @@ def _closed(run: ClosedLoop) -> list[str]:
             [
                 (k, f"{minute.load:.1f}", f"{minute.median:.2f}", f"{minute.slowest_percent:.2f}")
                 for k, minute in enumerate(run.by_minute, start=1)
+            ],
+        ),
+    ]
+
+
+def _runs(runs: Sequence[ClosedLoop]) -> list[str]:
+    return [
+        "All runs, the newest, of which the goals are, last:",
+        table(
+            (
+                "minutes",
+                "load",
+                "frames",
+                "lost",
+                "without joint state",
+                "delay until received, 99 % [ms]",
+                "released [degrees]",
+                "at rest [degrees]",
+            ),
+            [
+                (
+                    f"{run.minutes:.1f}",
+                    " to ".join(f"{pick(minute.load for minute in run.by_minute):.1f}" for pick in (min, max)),
+                    run.frames,
+                    run.lost,
+                    run.missing,
+                    f"{run.until['received'][1]:.1f}",
+                    f"{run.released:.2f}",
+                    f"{run.resting:.2f}",
+                )
+                for run in runs
             ],
         ),
     ]

@@ -16,9 +16,12 @@ from tools.bench_link.soak import Memory, Soak
 
 @dataclass(frozen=True)
 class Results:
-    """What there is; None where a part was not run yet. By part, the niceness of its processes."""
+    """What there is; None where a part was not run yet. By part, the niceness of its processes.
 
-    closed: ClosedLoop | None
+    All runs of the closed loop are kept, the newest is the last: delays depend on what else the machine did.
+    """
+
+    closed: list[ClosedLoop] | None
     campaign: list[Case] | None
     deaths: list[Death] | None
     soak: Soak | None
@@ -46,12 +49,12 @@ def load(folder: Path) -> Results:
     """All that was kept."""
     kept = {part: _plain(folder / f"{part}.json") for part in PARTS}
     closed, campaign, deaths, soak = (kept[part] and kept[part]["result"] for part in PARTS)
-    if closed:
-        closed["by_minute"] = [Minute(**minute) for minute in closed["by_minute"]]
+    for run in closed or []:
+        run["by_minute"] = [Minute(**minute) for minute in run["by_minute"]]
     if soak:
         soak |= {name: Memory(**soak[name]) for name in ("bridge", "emulator")}
     return Results(
-        closed and ClosedLoop(**closed),
+        closed and [ClosedLoop(**run) for run in closed],
         campaign and [Case(**case) for case in campaign],
         deaths and [Death(**death) for death in deaths],
         soak and Soak(**soak),

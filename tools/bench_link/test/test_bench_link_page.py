@@ -26,15 +26,15 @@ CLOSED = ClosedLoop(
 CASE = Case(["lost", "late"], 3.0, 0.01, 0.3, 0.1, 400, 0.7, 0, 12.0, 120.0, "the port is not there")
 DEATH = Death("killed (SIGKILL)", 0.0, [0.5, 0.48], [0.01, 0.0], [3.0, 3.0])
 SOAK = Soak(20.0, 180.0, 180.0, 3.0, 0, Memory(80.0, 80.1, 0.1, 0.3), Memory(90.0, 90.0, 0.0, 0.3))
-ALL = Results(CLOSED, [CASE], [DEATH], SOAK, dict.fromkeys(PARTS, 3))
+ALL = Results([CLOSED], [CASE], [DEATH], SOAK, dict.fromkeys(PARTS, 3))
 
 SPOILED = {
-    "release tests": replace(ALL, closed=replace(CLOSED, released=0.51)),
-    "at rest": replace(ALL, closed=replace(CLOSED, resting=0.31)),
-    "five sensors": replace(ALL, closed=replace(CLOSED, minutes=9.0)),
-    "joint states a second": replace(ALL, closed=replace(CLOSED, rate=59.0)),
-    "frames lost": replace(ALL, closed=replace(CLOSED, missing=1)),
-    "frame to": replace(ALL, closed=replace(CLOSED, until={**CLOSED.until, "received": [1.0, 10.1, 20.0]})),
+    "release tests": replace(ALL, closed=[replace(CLOSED, released=0.51)]),
+    "at rest": replace(ALL, closed=[replace(CLOSED, resting=0.31)]),
+    "five sensors": replace(ALL, closed=[replace(CLOSED, minutes=9.0)]),
+    "joint states a second": replace(ALL, closed=[replace(CLOSED, rate=59.0)]),
+    "frames lost": replace(ALL, closed=[replace(CLOSED, missing=1)]),
+    "frame to": replace(ALL, closed=[replace(CLOSED, until={**CLOSED.until, "received": [1.0, 10.1, 20.0]})]),
     "data stream again": replace(ALL, campaign=[CASE, replace(CASE, resumed=None)]),
     "joint states with": replace(ALL, campaign=[CASE, replace(CASE, wrong=1)]),
     "tension at": replace(ALL, campaign=[CASE, replace(CASE, largest_tension=12.1)]),
