@@ -7,7 +7,6 @@ IN_WORKSPACE := source install/setup.bash &&
 .NOTPARALLEL:
 .PHONY: help setup demo bench-demo test reproduction bench-dynamics bench-ik bench-identification bench-discovery \
   bench-inertial bench-link fuzz prototype check format lock clean
->>>>>>> 7c142df0d17d85e6eccc9e9b2d3d9f8e893c9cb4
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
