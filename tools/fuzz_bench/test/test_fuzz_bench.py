@@ -31,7 +31,7 @@ def test_together_the_ways_reach_everything():
     kinds = {kind for one in found for kind in one.refused}
     assert kinds == set(decoder.Garbage) - {decoder.Garbage.VERSION}  # of another version nothing is ever sealed
     assert [one.accepted > 0 for one in found] == [False, False, True, True, True]
-    assert found[-1].largest_tension == LIMITS.max_tension
+    assert 0.0 < found[-1].largest_tension <= LIMITS.max_tension  # stops, obeyed whenever they come, keep it low
 
 
 def test_a_parser_that_takes_what_has_no_check_is_seen(monkeypatch):
