@@ -21,6 +21,8 @@ from continuum.identification.fisher import Identifiability, identifiability
 from continuum.identification.fit import THESIS_PARAMETERS, Fit
 from continuum.identification.free import Free
 
+_ITERATIONS = 8
+
 
 @dataclass(frozen=True)
 class Estimate:
@@ -82,7 +84,7 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
     after = held_out_scores(question, best, split) if best.extension else before
     verdict = confirmed(diagnosis.verdict, before, after)
     after = after if verdict.extension else before
-    fitted = fit_extension(question, verdict.extension, verdict.best, 2)
+    fitted = fit_extension(question, verdict.extension, verdict.best, _ITERATIONS, to_the_end=True)
     return Findings(
         verdict,
         tuple(_estimates(fitted, random)),
@@ -105,7 +107,7 @@ def _left_out(verdict: Verdict) -> tuple[str, ...]:
 
 
 def _of_alternative(question: Question, rival: Cause, random: np.random.Generator) -> list[Estimate]:
-    fitted = fit_extension(question, rival.trial.extension, rival.trial, 2)
+    fitted = fit_extension(question, rival.trial.extension, rival.trial, _ITERATIONS, to_the_end=True)
     return [e for e in _estimates(fitted, random) if e.unknown.name.startswith(rival.addition.effect + ".")]
 
 

@@ -66,6 +66,7 @@ def fit_extension(
     iterations: int = 12,
     seekings: int = 2,
     steps: int = STEPS,
+    to_the_end: bool = False,
 ) -> Fit:
     """Fit the extended model to all runs.
 
@@ -75,6 +76,7 @@ def fit_extension(
         iterations: of the fit, at most.
         near: a trial to start from; what is not among its unknowns starts absent or at a part of a typical size.
         seekings, steps: of the fit, at most.
+        to_the_end: as of `continuum.identification.fit.fit`.
     """
     model = extended(question.model, extension)
     added = [u for a in extension for u in unknowns_of(a, model.n_joints, len(question.recordings))]
@@ -95,6 +97,7 @@ def fit_extension(
         own=own,
         seekings=seekings,
         steps=steps,
+        to_the_end=to_the_end,
     )
 
 

@@ -20,7 +20,9 @@ from continuum.arrays import Array
 
 _ENOUGH = 0.5  # of log-likelihood: a smaller expected gain is not worth a step
 _ENOUGH_OF_COST = 5e-4
+_ENOUGH_TO_THE_END = 0.01  # the same where the very values matter
 _LEAST_DAMPING, _MOST_DAMPING = 1e-6, 1e4
+_FIRST_DAMPING, _FIRST_TO_THE_END = 1e-3, 1e-5
 _NEAR = 0.03  # of the cost: expected to gain less, the search seeks bad windows anew for the first time
 _NOISE = 1.5  # squared errors, per error, up to which they may be noise
 _TAIL = 1.0  # so far beyond, a window counts half
@@ -90,24 +92,30 @@ class Solution:
     promised: float = 0.0
 
 
-def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int, seekings: int = 2) -> Solution:
+def arrow_least_squares(
+    evaluate: Evaluate, unknowns: Unknowns, iterations: int, seekings: int = 2, to_the_end: bool = False
+) -> Solution:
     """Search from where the unknowns are, with at most so many iterations.
 
     Damping holds the shared unknowns and the windows' own alike. Where the search settles,
     windows that are still bad are sought anew, at most ``seekings`` times, and it goes on if that helped.
+
+    ``to_the_end`` it goes on where the cost hardly falls, and hardly damped: where little but the prior tells the
+    values of all joints from those of each, these may still be standard deviations off.
     """
     shared = unknowns.shared
     begun = evaluate(shared, unknowns.own, False)
     if begun is None:
         return Solution(FitStatus.NO_SIMULATION, shared, unknowns.own, [], np.inf, 1)
-    (parts, own), damping, evaluations, sought_before = begun, 1e-3, 1, 0
+    first_damping = _FIRST_TO_THE_END if to_the_end else _FIRST_DAMPING
+    (parts, own), damping, evaluations, sought_before = begun, first_damping, 1, 0
     cost = _cost(unknowns, parts, shared, own)
     costs = [cost]
     for _ in range(iterations):
         step, own_steps, gain = _damped_step(unknowns, parts, shared, own, damping)
-        enough = max(_ENOUGH, _ENOUGH_OF_COST * cost)
+        enough = _ENOUGH_TO_THE_END if to_the_end else max(_ENOUGH, _ENOUGH_OF_COST * cost)
         near = sought_before == 0 < seekings and gain < _NEAR * cost
-        settled = gain < enough or damping > _MOST_DAMPING or _has_stalled(costs)
+        settled = gain < enough or damping > _MOST_DAMPING or (_has_stalled(costs) and not to_the_end)
         if not settled and not near:
             there = np.clip(shared + step, unknowns.lower, unknowns.upper)
             tried = evaluate(there, [mine + change for mine, change in zip(own, own_steps, strict=True)], False)
@@ -124,7 +132,7 @@ def arrow_least_squares(evaluate: Evaluate, unknowns: Unknowns, iterations: int,
             return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)
         if settled or near:
             sought = evaluate(shared, own, True)
-            evaluations, sought_before, damping = evaluations + 1, sought_before + 1, 1e-3
+            evaluations, sought_before, damping = evaluations + 1, sought_before + 1, first_damping
             if sought is None or _cost(unknowns, sought[0], shared, sought[1]) > cost - enough:
                 if settled:
                     return Solution(FitStatus.CONVERGED, shared, own, parts, cost, evaluations)

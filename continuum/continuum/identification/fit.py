@@ -100,6 +100,7 @@ def fit(
     own: Sequence[Array] | None = None,
     seekings: int = 2,
     steps: int = STEPS,
+    to_the_end: bool = False,
 ) -> Fit:
     """Fit the unknowns ``free`` of a model, and the first state of every window.
 
@@ -115,6 +116,7 @@ def fit(
             measured without.
         seekings: how often first states of windows that fit badly are sought anew, at most.
         steps: of each window's first state at every iteration, at most.
+        to_the_end: go on where the cost hardly falls, for the values' sake.
 
     Raises:
         InvalidValueError: an unknown that the model does not have.
@@ -126,6 +128,7 @@ def fit(
     ]
     first = _begun([coordinates for run in runs for coordinates in run.start], own)
     begin = np.zeros(len(space.unknowns)) if start is None else space.clipped(start)
+    begin = space.likeliest(begin) if to_the_end else begin
     unknowns = Unknowns(
         begin, space.spread, space.lower, space.upper, first, [spread for run in runs for spread in run.spreads]
     )
@@ -139,7 +142,7 @@ def fit(
             windows += found
         return [at.part for at in windows], [at.own for at in windows]
 
-    found = arrow_least_squares(evaluate, unknowns, iterations, seekings)
+    found = arrow_least_squares(evaluate, unknowns, iterations, seekings, to_the_end)
     ended = replace(unknowns, shared=found.shared, own=list(found.own))
     simulations = round(sum(run.windows_simulated / len(run.rows) for run in runs))
     return Fit(found.status, simulator, space, runs, ended, found.parts, found.cost, simulations, found.promised)
