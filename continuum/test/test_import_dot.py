@@ -163,3 +163,9 @@ def test_files_that_do_not_fit_are_refused(files: list[Path], tmp_path: Path, ca
     assert code("import-dot", *files[:3], *HOW, "--save-calibration", sensors) == 0
     assert code("import-dot", *files, "--calibration", sensors, "--out", tmp_path / "run.csv") == 2
     assert "is of 3 sensors, not 5" in capsys.readouterr().err
+
+
+def test_a_posture_of_no_time_is_refused(files: list[Path], tmp_path: Path, capsys: Captured) -> None:
+    words = ("--first-turn", "1", "--posture", "0,0,0,0,0", "--out", tmp_path / "run.csv")
+    assert code("import-dot", *files, *words) == 2
+    assert "--posture is '0,0,0,0,0'; allowed: only with --zero" in capsys.readouterr().err

@@ -73,6 +73,7 @@ class BenchDiagnostics:
             "frames repeated": client.arrivals.repeated,
             "frames overtaken": client.arrivals.late,
             "frames damaged": client.decoder.refused,
+            "frames of other sensors or cables": self._streams.unfit,
             "sendings refused by the port": client.link.refused,
         }
         if talk.status is not None:

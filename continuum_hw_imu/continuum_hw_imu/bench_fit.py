@@ -4,13 +4,22 @@ from __future__ import annotations
 
 from continuum_hw_imu.protocol.messages import Hello
 
+LONGEST_SLACK_TIME = 5.0
+"""A bench that lets cables go more slowly than this [s] is none to wait for."""
+
 
 def misfit(hello: Hello, n_joints: int, n_cables: int) -> str:
-    """Why a bench does not fit an arm, in words; empty where it does: one sensor on each link, and all cables."""
+    """Why a bench does not fit an arm, in words; empty where it does: one sensor on each link, and all cables.
+
+    Its times count, too: the node waits for slack cables.
+    """
     links = sorted(sensor.link for sensor in hello.sensors)
     if links != list(range(1, n_joints + 1)):
         found = ", ".join(map(str, links))
         return f"{hello.firmware} has sensors on the links {found}; the model has {n_joints} joints, a sensor on each"
     if hello.n_cables != n_cables:
         return f"{hello.firmware} has {hello.n_cables} cables; the model has {n_cables}"
+    slack_time = hello.limits.slack_time
+    if slack_time > LONGEST_SLACK_TIME:
+        return f"{hello.firmware} lets cables go in {slack_time:g} s; allowed: up to {LONGEST_SLACK_TIME:g} s"
     return ""

@@ -16,6 +16,7 @@ from continuum_hw_imu.bench_fit import misfit
 from continuum_hw_imu.imu_messages import ImuMessages
 from continuum_hw_imu.latency_meter import LatencyMeter
 from continuum_hw_imu.link.heard import Heard
+from continuum_hw_imu.protocol.device_time import MICROSECONDS
 from continuum_hw_imu.protocol.messages import Hello, ImuFrame, TensionFrame
 from continuum_hw_imu.sensor_watch import SensorWatch
 from continuum_manipulator.nodekit.planar_arm import PlanarArm
@@ -53,6 +54,7 @@ class BenchStreams:
         withheld: samples whose joint states were not published.
         age: of the newest sample when its bytes were there [s].
         tension: the latest tension frame.
+        unfit: frames of another number of sensors or cables than the bench said that it has.
     """
 
     def __init__(
@@ -73,6 +75,7 @@ class BenchStreams:
         self.problem = ""
         self.latency = LatencyMeter()
         self.withheld = 0
+        self.unfit = 0
         self.age = self.oldest = 0.0
         self.tension: TensionFrame | None = None
 
@@ -92,6 +95,8 @@ class BenchStreams:
             case TensionFrame() as frame if len(frame.set_points) == len(self._planar.cables):
                 self.tension = frame
                 self._publish_cables(watch, heard, frame)
+            case ImuFrame() | TensionFrame():
+                self.unfit += 1
 
     def forget(self) -> None:
         """The line is closed."""
@@ -112,7 +117,7 @@ class BenchStreams:
         self.age = heard.read - heard.time
         self.oldest = max(self.oldest, self.age)
         estimate = watch.estimate
-        is_of_now = estimate is not None and abs(heard.device_time * 1e-6 - estimate.time) < SAME
+        is_of_now = estimate is not None and abs(heard.device_time / MICROSECONDS - estimate.time) < SAME
         if estimate is None or not is_of_now or not estimate.good.all():
             self.withheld += 1
             return
@@ -135,7 +140,7 @@ class BenchStreams:
         known = (
             estimate is not None
             and bool(estimate.good.all())
-            and abs(heard.device_time * 1e-6 - estimate.time) <= FRESH
+            and abs(heard.device_time / MICROSECONDS - estimate.time) <= FRESH
         )
         angles, rates = (estimate.angles, estimate.rates) if known else (None, None)
         self._cables(self._planar.cable_states(self._stamp(heard), angles, rates, tensions))

@@ -15,6 +15,7 @@ from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.imu_sample import ImuSample
 from continuum_hw_imu.link.heard import Heard
+from continuum_hw_imu.protocol.device_time import MICROSECONDS
 from continuum_hw_imu.protocol.messages import Hello, ImuFrame
 
 KEPT = 20.0
@@ -58,7 +59,7 @@ class SensorWatch:
         Samples have the device's own time, which has no jitter [s].
         """
         sample = ImuSample(
-            heard.device_time * 1e-6,
+            heard.device_time / MICROSECONDS,
             frame.angular_rates[self._order],
             frame.specific_forces[self._order],
             frame.clipped[self._order],

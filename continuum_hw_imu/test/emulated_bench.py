@@ -4,6 +4,7 @@ import csv
 import json
 import socket
 import time
+from collections.abc import Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
@@ -15,7 +16,8 @@ from sensor_msgs.msg import Imu, JointState
 from std_srvs.srv import Trigger
 
 from continuum_manipulator.nodekit.qos import STREAM
-from continuum_manipulator.nodekit.stamps import NANOSECONDS
+from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
+from continuum_manipulator.nodekit.two_clocks import read_together
 from continuum_msgs.msg import CableStates
 
 CABLES = ["section_1_cable_1", "section_1_cable_2"]
@@ -85,13 +87,22 @@ class Ears:
 class Bridge:
     """The node at an emulated bench. Each has a name of its own, lest one that was killed be asked in its place."""
 
-    def __init__(self, ears: Ears, bench: EmulatedBench, domain: int, **parameters) -> None:
+    def __init__(
+        self, ears: Ears, bench: EmulatedBench, domain: int, arguments: Sequence[str] = (), **parameters
+    ) -> None:
         ears.bridges += 1
         ears.clear()
         self.probe, self.bench, self.name = ears.probe, bench, f"bench_bridge_{ears.bridges}"
         self.joints, self.cables, self.imus, self._say = ears.joints, ears.cables, ears.imus, ears.say
         parameters = {"port": bench.port, "rest_time": 1.5, **parameters}
-        self.node = NodeProcess("continuum_hw_imu", "bench_bridge", domain, name=self.name, parameters=parameters)
+        self.node = NodeProcess(
+            "continuum_hw_imu",
+            "bench_bridge",
+            domain,
+            name=self.name,
+            parameters=parameters,
+            arguments=tuple(arguments),
+        )
         self._clients = {
             name: ears.probe.node.create_client(kind, f"{self.name}/{name}")
             for kind, names in {
@@ -147,6 +158,11 @@ class Bridge:
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(now, NANOSECONDS)
         self._say(message)
 
+    def monotonic(self, message) -> float:
+        """When what a message tells of was measured, by this machine's monotonic clock [s]."""
+        instant, now = read_together(time.monotonic, lambda: self.probe.node.get_clock().now().nanoseconds)
+        return instant + (nanoseconds(message.header.stamp) - now) / NANOSECONDS
+
     def pull(self, effort, until) -> None:
         """Command tensions, with every cable state that comes, until ``until()``."""
 
@@ -195,7 +211,7 @@ def emulated_bench(domain: int, folder: Path, *options: str):
 
 
 @contextmanager
-def bridge_at(ears: Ears, bench: EmulatedBench, domain: int, **parameters):
-    bridge = Bridge(ears, bench, domain, **parameters)
+def bridge_at(ears: Ears, bench: EmulatedBench, domain: int, arguments: Sequence[str] = (), **parameters):
+    bridge = Bridge(ears, bench, domain, arguments, **parameters)
     with ended_in_any_case(bridge.node):
         yield bridge

@@ -67,9 +67,8 @@ def active(bridge):
 
 def angles_beside_truth(bridge, joints):
     """Joint angles as published, and the true ones at their stamps, (n, n_joints) each [rad]."""
-    to_monotonic = bridge.bench.status["monotonic"] - bridge.probe.node.get_clock().now().nanoseconds / NANOSECONDS
     truth = bridge.bench.truth()
-    at = np.array([nanoseconds(message.header.stamp) / NANOSECONDS + to_monotonic for message in joints])
+    at = np.array([bridge.monotonic(message) for message in joints])
     inside = (at > truth["time"][0]) & (at < truth["time"][-1])
     real = np.stack([np.interp(at[inside], truth["time"], column) for column in truth["theta"].T], axis=1)
     return np.array([message.position[1:-1] for message in joints])[inside], real

@@ -35,6 +35,10 @@ BAD = {
     "a speed that no port has": ({"port": "/dev/null", "baud_rate": 1}, "baud_rate is 1; allowed: "),
     "simulated time": ({"port": "/dev/null", "use_sim_time": True}, "use_sim_time is True; allowed: false"),
     "unknown autostart": ({"port": "/dev/null", "autostart": "maybe"}, "one of none, configure, activate"),
+    "tension beyond what the line carries": (
+        {"port": "/dev/null", "max_tension": 400.0},
+        "max_tension is 400.0; allowed: up to 327.67 N",
+    ),
     "no model": ({"port": "/dev/null", "model": "nowhere.yaml"}, "nowhere.yaml: "),
     "a model in the place of a calibration": (
         {"port": "/dev/null", "calibration": __file__},

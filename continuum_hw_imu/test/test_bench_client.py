@@ -118,6 +118,14 @@ def test_repeated_and_overtaken_frames_are_counted_and_not_handed_on(bench):
     assert (bench.client.arrivals.late, bench.client.arrivals.repeated) == (1, 1)
 
 
+def test_what_was_overtaken_says_nothing_of_now(bench):
+    """A status from before the stop that comes after the stop's own."""
+    before = bench.frame(bench.controller.status())
+    bench.client.stop()
+    bench.deliver(before)
+    assert bench.client.conversation.status.state is GuardState.STOPPED
+
+
 def test_damage_costs_the_frames_that_it_touches(bench):
     status = bench.controller.status()
     hurt = bytearray(bench.frame(status))

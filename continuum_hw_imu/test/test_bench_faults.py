@@ -85,6 +85,17 @@ def test_a_slow_line_takes_its_time_and_keeps_order():
     assert queue.next is None
 
 
+def test_what_a_line_cannot_carry_is_dropped_and_a_cut_frees_it():
+    queue = LineQueue(baud=1000.0)
+    for _ in range(100):
+        queue.put(0.0, b"x" * 100)  # a second each
+    assert queue.dropped == 98
+    assert queue.due(10.0) == [b"x" * 100] * 2
+    queue.clear()
+    queue.put(0.0, b"y" * 10)
+    assert queue.next == pytest.approx(0.1)
+
+
 def test_an_order_is_read_with_its_defaults():
     assert read_order("at 2.5 lose share=0.2 way=both") == Order("lose", {"share": 0.2, "for": 1.0}, "both", 2.5)
     assert read_order("drop sensor=3 for=2").numbers == {"sensor": 3.0, "for": 2.0}

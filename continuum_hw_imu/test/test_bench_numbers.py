@@ -1,7 +1,6 @@
 """Units of the messages on the line, against numbers worked out by hand."""
 
 import numpy as np
-import pytest
 
 from continuum_hw_imu.protocol import messages as m
 from continuum_hw_imu.protocol.messages.imu import PRESENT
@@ -51,8 +50,3 @@ def test_measured_tensions_beyond_the_range_are_its_end():
 
 def test_the_time_to_slack_is_the_longest():
     assert m.ReceiverLimits(command_timeout=0.5, heartbeat_timeout=0.25, slack_time=0.5).slack_after == 1.0
-
-
-@pytest.mark.parametrize("result", m.Result)
-def test_good_results_are_those_that_were_carried_out(result):
-    assert result.good == (result.name in ("DONE", "LIMITED"))

@@ -77,6 +77,21 @@ def test_sensors_are_told_apart_by_their_links():
     assert [imu[-1].angular_velocity.y for imu in published.imus] == pytest.approx([0, 0, 0, 0.5, 0.5], abs=1e-3)
 
 
+def test_frames_of_other_sensors_or_cables_are_left_out_and_counted():
+    published = Published()
+    published.measure(5)
+    published.bench.say(ImuFrame.of(6, np.zeros((3, 3)), UP[:3], np.full(3, PRESENT)))
+    published.bench.say(TensionFrame((1.0,), (None,)))
+    assert published.streams.unfit == 2
+    assert not published.cables
+    assert [len(imu) for imu in published.imus] == [5] * N
+
+
+def test_a_bench_that_lets_cables_go_for_ever_is_none():
+    slow = replace(HELLO, limits=replace(HELLO.limits, slack_time=60.0))
+    assert Published(hello=slow).streams.problem == "looped lets cables go in 60 s; allowed: up to 5 s"
+
+
 def test_a_missing_sensor_withholds_joint_states_and_its_own_data_alone():
     published = Published()
     published.measure(60)

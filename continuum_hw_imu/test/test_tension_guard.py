@@ -85,6 +85,22 @@ def test_a_commander_that_begins_anew_begins_slack(pulling):
     assert pulling.guard.claim(A, pulling.now) is Result.DONE
 
 
+def test_a_claim_that_comes_twice_makes_nothing_older():
+    """As on a slow line, where the second sending was under way when the first was answered."""
+    bench = Bench()
+    assert bench.guard.claim(A, bench.now) is Result.DONE
+    bench.run(0.1)
+    assert bench.guard.claim(A, bench.now) is Result.DONE
+    assert bench.reset_stop(age=50_000) is Result.DONE  # decided between the two
+    assert bench.pull((5.0, 5.0)) is Result.DONE
+
+
+def test_a_claim_after_commands_begins_anew(pulling):
+    pulling.run(0.2, pull=(0.0, 0.0))
+    assert pulling.guard.claim(A, pulling.now) is Result.DONE
+    assert pulling.pull((5.0, 5.0), age=10_000) is Result.STALE  # from before the claim
+
+
 @pytest.mark.parametrize(
     ("age", "result"),
     [

@@ -110,6 +110,8 @@ def _calibration(options: argparse.Namespace, recording: ImuRecording, found: li
     steps = steps.with_bias(recording.part(*max(found, key=lambda span: span[1] - span[0])))
     if options.first_turn is not None:
         steps = steps.with_axis(recording, 1 if options.first_turn == "1" else -1)
+    if options.posture is not None and options.zero is None:
+        raise InvalidValueError("--posture", options.posture, "only with --zero, which says when the arm had it")
     if options.zero is not None:
         steps = steps.with_zero(recording.part(*_span(options.zero)), _posture(options.posture))
     calibration = steps.complete()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from continuum_hw_imu.protocol.device_time import MICROSECONDS
+
 
 class DeviceClock:
     """Device times [us] unwrapped, real times [s] of a clock that is never set.
@@ -32,4 +34,4 @@ class DeviceClock:
     @property
     def _rate(self) -> float:
         """Microseconds shown in a second."""
-        return 1e6 + self.drift
+        return MICROSECONDS + self.drift

@@ -18,6 +18,7 @@ from continuum_hw_imu.emulator.line_queue import LineQueue
 from continuum_hw_imu.emulator.pseudo_port import PseudoPort
 from continuum_hw_imu.emulator.sent_file import SentFile
 from continuum_hw_imu.emulator.truth_file import TruthFile
+from continuum_hw_imu.protocol.device_time import MICROSECONDS
 from continuum_hw_imu.protocol.frame import FrameWriter
 from continuum_hw_imu.protocol.messages import FaultCode, Message
 
@@ -138,7 +139,7 @@ class Emulator:
 
     def _tick_time(self, tick: int) -> int:
         """What the device's clock shows then [us]."""
-        return self._first + round(tick * 1e6 / self.bench.tick_rate)
+        return self._first + round(tick * MICROSECONDS / self.bench.tick_rate)
 
     def _watch_port(self, now: float) -> None:
         opened = self.port.open

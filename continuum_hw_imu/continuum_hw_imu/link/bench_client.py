@@ -15,7 +15,7 @@ from continuum_hw_imu.link.heard import Conversation, Heard, Results
 from continuum_hw_imu.link.serial_link import SerialLink
 from continuum_hw_imu.protocol.clock_map import ClockMap
 from continuum_hw_imu.protocol.decoder import Decoder
-from continuum_hw_imu.protocol.device_time import DeviceTime
+from continuum_hw_imu.protocol.device_time import MICROSECONDS, DeviceTime
 from continuum_hw_imu.protocol.frame import WRAP_TIME, Frame, FrameWriter
 from continuum_hw_imu.protocol.messages import (
     Ack,
@@ -42,8 +42,6 @@ BEGAN_ANEW = 2_000_000
 
 HELLO_AGAIN = 0.2
 """A device that did not say who it is is asked again after this time [s]."""
-
-MICROSECONDS = 1e6
 
 
 class BenchClient:
@@ -155,9 +153,10 @@ class BenchClient:
             tensions: finite, none negative.
             decided: when, by `time.monotonic` [s]; None for just now.
         """
-        as_of = self.conversation.newest
-        if decided is not None and self.clock.known:
-            as_of = min(as_of, self.clock.device_time(decided))
+        with self._news:
+            as_of = self.conversation.newest
+            if decided is not None and self.clock.known:
+                as_of = min(as_of, self.clock.device_time(decided))
         self._say(SetTension(self._token, as_of % WRAP_TIME, tuple(tensions)))
 
     def _ask(
@@ -232,20 +231,22 @@ class BenchClient:
             self.clock.heard(device_time, now)
             talk = self.conversation
             talk.last, talk.newest = now, max(talk.newest, device_time)
-            self._keep(frame.message, now)
+            overtaken = arrival is Arrival.LATE
+            if not overtaken or isinstance(frame.message, Ack):  # an answer is one whenever it comes
+                self._keep(frame.message)
             self._news.notify_all()
-            if arrival is Arrival.LATE:
+            if overtaken:
                 return None
             host_time = self.clock.host_time(device_time)
             return Heard(frame.message, host_time, now, device_time, self.conversations)
 
-    def _keep(self, message: Message, now: float) -> None:
+    def _keep(self, message: Message) -> None:
         talk = self.conversation
         match message:
             case Hello():
                 talk.hello = message
             case Status():
-                talk.status, talk.last_status = message, now
+                talk.status = message
                 self.commands = self.commands and message.claimed
             case Ack(sequence, _, result):
                 self.results.counts[result] += 1

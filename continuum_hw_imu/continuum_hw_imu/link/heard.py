@@ -37,14 +37,12 @@ class Conversation:
         status: its latest.
         newest: device time of the newest frame, unwrapped [us].
         last: when the last good frame came, by `time.monotonic` [s].
-        last_status: when the last status came.
     """
 
     hello: Hello | None = None
     status: Status | None = None
     newest: int = 0
     last: float = -math.inf
-    last_status: float = -math.inf
 
 
 @dataclass

@@ -14,6 +14,8 @@ from __future__ import annotations
 from collections import deque
 from itertools import pairwise
 
+from continuum_hw_imu.protocol.device_time import MICROSECONDS
+
 Point = tuple[float, float]
 
 _BUCKET = 0.25
@@ -65,7 +67,7 @@ class ClockMap:
         if self._origin is None:
             self._origin = device
             self._offset = host
-        t = (device - self._origin) * 1e-6
+        t = (device - self._origin) / MICROSECONDS
         point = (t, host - t)
         if self._points and t < (_bucket(self._points[-1][0]) + 1) * _BUCKET:
             if point[1] >= self._points[-1][1] or _bucket(t) != _bucket(self._points[-1][0]):
@@ -77,12 +79,12 @@ class ClockMap:
 
     def host_time(self, device: int) -> float:
         """When it was ``device`` [us] there, by the host's clock [s]; only once `known`."""
-        t = (device - (self._origin or 0)) * 1e-6
+        t = (device - (self._origin or 0)) / MICROSECONDS
         return self._offset + (1.0 + self.drift) * t
 
     def device_time(self, host: float) -> int:
         """What the device's clock shows [us] at a host time [s]; only once `known`."""
-        return (self._origin or 0) + round((host - self._offset) / (1.0 + self.drift) * 1e6)
+        return (self._origin or 0) + round((host - self._offset) / (1.0 + self.drift) * MICROSECONDS)
 
     def _fit(self) -> None:
         while self._points[0][0] < self._points[-1][0] - self._window:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from continuum_hw_imu.protocol.frame import WRAP_TIME
 
+MICROSECONDS = 1e6
+"""In a second."""
+
 
 def signed_difference(later: int, earlier: int) -> int:
     """How much later [us] one reading of the clock is than another, of those within half a turn of 71.6 minutes."""

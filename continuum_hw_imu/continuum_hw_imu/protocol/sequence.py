@@ -28,7 +28,6 @@ class SequenceTracker:
     Attributes:
         lost: frames that never came, as far as is known.
         late, repeated: frames of these kinds.
-        restarts: leaps that are too large for losses.
     """
 
     def __init__(self) -> None:
@@ -37,7 +36,6 @@ class SequenceTracker:
         self.lost = 0
         self.late = 0
         self.repeated = 0
-        self.restarts = 0
 
     def forget(self) -> None:
         """The sender begins anew, or the line was cut: the next number is as good as any."""
@@ -55,7 +53,6 @@ class SequenceTracker:
             return Arrival.NEW
         if ahead == 0 or behind < _REMEMBERED:
             return self._looked_up(0 if ahead == 0 else behind)
-        self.restarts += 1
         self._begin(sequence)
         return Arrival.NEW
 

@@ -21,11 +21,9 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.live.stepper import Interval
 from continuum.dynamics.live.tension_follower import TensionFollower, TensionLimits
-from continuum_hw_imu.protocol.device_time import signed_difference
+from continuum_hw_imu.protocol.device_time import MICROSECONDS, signed_difference
 from continuum_hw_imu.protocol.frame import WRAP_SEQUENCE, WRAP_TIME
 from continuum_hw_imu.protocol.messages import Cause, GuardState, ReceiverLimits, Result
-
-MICROSECONDS = 1e6
 
 
 @dataclass
@@ -98,7 +96,10 @@ class TensionGuard:
                 self._claim.alive = now
                 self._let_go(Cause.CLAIMED_AGAIN)
             return Result.NOT_SLACK
-        self._claim, self._floor = _Claim(token, now), now
+        if self._claim is not None and self._claim.sequence is None:
+            self._claim.alive = now  # the same request once more: what was decided since the first one still counts
+        else:
+            self._claim, self._floor = _Claim(token, now), now
         return Result.DONE
 
     def release(self, token: int, now: int) -> Result:

@@ -36,11 +36,6 @@ class Result(IntEnum):
     REFUSED = 8
     """Not one tension for each cable, or one that is no number >= 0."""
 
-    @property
-    def good(self) -> bool:
-        """Whether the request was carried out."""
-        return self in (Result.DONE, Result.LIMITED)
-
 
 @dataclass(frozen=True)
 class Ack:

@@ -7,7 +7,9 @@ from collections.abc import Sequence
 
 from continuum_hw_imu.protocol.messages.base import PayloadFault, in_steps
 
-STEP = 0.01
+STEPS_IN_A_NEWTON = 100
+
+STEP = 1 / STEPS_IN_A_NEWTON
 """[N]"""
 
 LARGEST = 0x7FFF
@@ -38,7 +40,7 @@ def commands(data: bytes) -> tuple[float, ...]:
     steps = struct.unpack(f"<{len(data) // 2}H", data)
     if max(steps) > LARGEST:
         raise PayloadFault(f"a set point of {max(steps)} steps; allowed: {LARGEST}")
-    return tuple(step / 100 for step in steps)
+    return tuple(step / STEPS_IN_A_NEWTON for step in steps)
 
 
 def measured_bytes(tensions: Sequence[float | None]) -> bytes:
@@ -50,5 +52,6 @@ def measured_bytes(tensions: Sequence[float | None]) -> bytes:
 def measured(data: bytes) -> tuple[float | None, ...]:
     """Measured tensions [N] of their bytes, None where none was measured."""
     return tuple(
-        None if steps == NONE_MEASURED else steps / 100 for steps in struct.unpack(f"<{len(data) // 2}h", data)
+        None if steps == NONE_MEASURED else steps / STEPS_IN_A_NEWTON
+        for steps in struct.unpack(f"<{len(data) // 2}h", data)
     )

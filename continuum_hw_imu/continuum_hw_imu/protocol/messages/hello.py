@@ -121,7 +121,9 @@ class Hello:
             sensors.append(SensorPlace(link, name))
         if at != len(payload):
             raise PayloadFault(f"{len(payload) - at} bytes too many")
-        limits = ReceiverLimits(tension / 100, change / 10, command / 1000, heartbeat / 1000, slack / 1000)
+        limits = ReceiverLimits(
+            tension / forces.STEPS_IN_A_NEWTON, change / 10, command / 1000, heartbeat / 1000, slack / 1000
+        )
         return cls(boot, firmware, rate / 100, tuple(sensors), cables, limits)
 
 
