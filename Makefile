@@ -6,7 +6,7 @@ IN_WORKSPACE := source install/setup.bash &&
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup demo bench-demo test reproduction bench-dynamics bench-ik bench-identification bench-discovery \
-  bench-inertial bench-link fuzz prototype check format lock clean
+  bench-inertial bench-link fuzz prototype figures api check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -54,6 +54,12 @@ bench-link: setup ## measure the bridge at an emulated bench (90 minutes); overw
 
 prototype: setup ## diagnose the real arm; overwrites docs/prototype.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.prototype $(ARGS)
+
+figures: reproduction prototype ## make every picture of docs/pictures again, and with two of them their pages (5 minutes)
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.figures $(ARGS)
+
+api: setup ## the library's reference from its docstrings, in out/api/index.html
+	@$(IN_WORKSPACE) python3 -m tools.api $(ARGS)
 
 check: setup ## style, lint and types, without the tests
 	@$(IN_WORKSPACE) ruff format --check --quiet && ruff check --quiet && mypy
