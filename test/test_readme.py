@@ -1,8 +1,8 @@
 """README.md: every command block does what the page says; a command that nobody said how to run fails.
 
 Blocks are run in a copy of the checkout that shares all but `out/` and holds the beginning of the measured run alone,
-which makes a diagnosis of minutes one of seconds. `make` targets are only looked up: each takes minutes, and has tests of
-its own.
+which makes a diagnosis of minutes one of seconds. `make` targets are only looked up: each takes minutes, and has tests
+of its own.
 """
 
 import os
@@ -106,7 +106,7 @@ def test_every_way_is_used() -> None:
 
 
 @pytest.mark.ros
-@pytest.mark.parametrize("block", SHELL, ids=lambda block: f"line {block.line}")
+@pytest.mark.parametrize("block", SHELL, ids=lambda block: f"line_{block.line}")
 def test_commands_do_what_the_page_says(block: Block, scene: Scene) -> None:
     for command in block.commands:
         way = WAYS[str(way_of(words(command), WAYS))]
@@ -125,7 +125,7 @@ def check(command: str, way: Checked) -> None:
     assert (ROOT / way.by).is_file()
 
 
-@pytest.mark.parametrize("block", [b for b in BLOCKS if b.language == "python"], ids=lambda block: f"line {block.line}")
+@pytest.mark.parametrize("block", [b for b in BLOCKS if b.language == "python"], ids=lambda block: f"line_{block.line}")
 def test_python_does_what_the_page_says(block: Block) -> None:
     done = subprocess.run([sys.executable, "-c", block.text], cwd=ROOT, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr
