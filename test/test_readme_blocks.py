@@ -1,7 +1,7 @@
 """Reading of command blocks, and what is said of how they are run."""
 
 import pytest
-from readme.blocks import blocks, without_comment, words
+from readme.blocks import blocks, outside_of_blocks, without_comment, words
 from readme.ways import Run, way_of
 
 PAGE = """\
@@ -22,7 +22,8 @@ x = "```"
 
 def test_blocks_know_their_language_and_line() -> None:
     assert [(b.language, b.line) for b in blocks(PAGE)] == [("sh", 2), ("python", 10)]
-    assert blocks(PAGE)[1].text == 'x = "```"'
+    assert blocks(PAGE)[1].text == 'x = "```"\n'
+    assert outside_of_blocks(PAGE) == "text"
 
 
 def test_commands_are_joined_and_comments_left_out() -> None:

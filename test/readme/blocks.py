@@ -2,7 +2,8 @@
 
 import re
 import shlex
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 _FENCE = re.compile(r"^```(.*)$")
 
@@ -42,20 +43,34 @@ def blocks(page: str) -> list[Block]:
     Raises:
         ValueError: a block does not end.
     """
-    found: list[Block] = []
-    language, begin, text = None, 0, list[str]()
+    return [part for part in _parts(page) if isinstance(part, Block)]
+
+
+def outside_of_blocks(page: str) -> str:
+    """The page without its code blocks.
+
+    Raises:
+        ValueError: a block does not end.
+    """
+    return "\n".join(part for part in _parts(page) if isinstance(part, str))
+
+
+def _parts(page: str) -> Iterator[Block | str]:
+    """Blocks, and the lines outside of them."""
+    begun: Block | None = None
     for number, line in enumerate(page.splitlines(), 1):
         fence = _FENCE.match(line)
-        if language is None and fence:
-            language, begin, text = fence[1].strip(), number, []
-        elif language is not None and line == "```":
-            found.append(Block(language, "\n".join(text), begin))
-            language = None
-        elif language is not None:
-            text.append(line)
-    if language is not None:
-        raise ValueError(f"line {begin}: a block does not end")
-    return found
+        if begun is None and fence:
+            begun = Block(fence[1].strip(), "", number)
+        elif begun is None:
+            yield line
+        elif line == "```":
+            yield begun
+            begun = None
+        else:
+            begun = replace(begun, text=f"{begun.text}{line}\n")
+    if begun is not None:
+        raise ValueError(f"line {begun.line}: a block does not end")
 
 
 def words(command: str) -> str:
