@@ -7,12 +7,12 @@ from collections.abc import Mapping
 import numpy as np
 import viser
 from scipy.spatial.transform import Rotation
+from yourdfpy import URDF
 
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.kinematics.cable_lines import section_arrow
 from continuum.viewer.cable_holes import CableHoles
-from continuum.viewer.description import arm_description
 from continuum.viewer.link_poses import LinkPoses
 from continuum.viewer.link_shapes import link_shapes
 from continuum.viewer.section_angles import configuration_of_joints
@@ -36,7 +36,7 @@ class ArmLinks:
     Args:
         server: of the page.
         name: of its nodes in the scene.
-        arm: the arm.
+        description: of the arm.
         ghost: translucent, in one colour.
 
     Attributes:
@@ -44,8 +44,7 @@ class ArmLinks:
         poses: of the links as they were shown last, (n_links, 4, 4) [m].
     """
 
-    def __init__(self, server: viser.ViserServer, name: str, arm: Arm, ghost: bool = False) -> None:
-        description = arm_description(arm)
+    def __init__(self, server: viser.ViserServer, name: str, description: URDF, ghost: bool = False) -> None:
         self.chain = LinkPoses(description)
         self._angles = np.zeros(len(self.chain.joints))
         self.poses = self.chain.poses(self._angles)
@@ -105,11 +104,15 @@ class ArmScene:
     Args:
         server: of the page.
         arm: the arm.
+        description: of the arm.
+
+    Attributes:
+        links: its links.
     """
 
-    def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
+    def __init__(self, server: viser.ViserServer, arm: Arm, description: URDF) -> None:
         self._arm = arm
-        self.links = ArmLinks(server, "/arm", arm)
+        self.links = ArmLinks(server, "/arm", description)
         names = self.links.chain.links
         self._bases = [names.index(section.base_frame) for section in arm.sections]
         self._tip = names.index(arm.sections[-1].tip_frame)

@@ -30,7 +30,7 @@ class LinkPoses:
 
     def __init__(self, description: URDF) -> None:
         order = _parents_first(description)
-        self.links = [description.base_link, *(joint.child for joint in order)]
+        self.links = [root_link(description), *(joint.child for joint in order)]
         self.joints = [joint.name for joint in order if joint.type != "fixed"]
         for joint in order:
             if joint.type not in ("fixed", "revolute", "continuous"):
@@ -67,9 +67,22 @@ class LinkPoses:
         return poses
 
 
+def root_link(description: URDF) -> str:
+    """Name of the link that no joint carries.
+
+    Raises:
+        InvalidValueError: there is none, or more than one.
+    """
+    carried = {joint.child for joint in description.robot.joints}
+    roots = [link.name for link in description.robot.links if link.name not in carried]
+    if len(roots) != 1:
+        raise InvalidValueError("links that no joint carries", roots, "one")
+    return str(roots[0])
+
+
 def _parents_first(description: URDF) -> list[object]:
     """The joints, each after the one that carries its parent link."""
-    waiting, known, order = list(description.robot.joints), {description.base_link}, []
+    waiting, known, order = list(description.robot.joints), {root_link(description)}, []
     while waiting:
         ready = [joint for joint in waiting if joint.parent in known]
         if not ready:

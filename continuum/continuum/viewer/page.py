@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import socket
 import threading
 import time
+from contextlib import redirect_stdout
 
 import numpy as np
 import viser
@@ -13,6 +15,7 @@ from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
 from continuum.viewer.arm_scene import ArmLinks, ArmScene
+from continuum.viewer.description import arm_description
 from continuum.viewer.layout import layout_of
 from continuum.viewer.plots import CablePlots
 from continuum.viewer.seen import Seen, Source
@@ -48,12 +51,14 @@ class Page:
         _check_address(host, port)
         self._source = source
         self._arm = arm
-        self._server = viser.ViserServer(host=host, port=port, label="continuum", verbose=False)
+        self._description = arm_description(arm)
+        with redirect_stdout(io.StringIO()):  # it has a banner of its own
+            self._server = viser.ViserServer(host=host, port=port, label="continuum", verbose=False)
         self._host = host
         layout = layout_of(self._server)
         self._set_up_view()
         source.add_controls(layout)
-        self._scene = ArmScene(self._server, arm)
+        self._scene = ArmScene(self._server, arm, self._description)
         self._ghost: ArmLinks | None = None
         self._plots = CablePlots(layout, arm)
         self._statuses = StatusTable(layout)
@@ -93,14 +98,15 @@ class Page:
 
     def close(self) -> None:
         """End the server."""
-        self._server.stop()
+        with redirect_stdout(io.StringIO()):
+            self._server.stop()
 
     def _draw_arms(self, seen: Seen) -> None:
         if self._scene.show(seen.simulated or seen.joints):
             self._tip_trail.follow(self._scene.tip)
         if seen.simulated and seen.joints:
             if self._ghost is None:
-                self._ghost = ArmLinks(self._server, "/ghost", self._arm, ghost=True)
+                self._ghost = ArmLinks(self._server, "/ghost", self._description, ghost=True)
             self._ghost.show(seen.joints)
         if self._ghost is not None:
             self._ghost.visible = bool(seen.simulated and seen.joints)
