@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 from yourdfpy import URDF
 
@@ -15,12 +16,13 @@ from continuum.kinematics.cable_lines import section_arrow
 from continuum.viewer.cable_holes import CableHoles
 from continuum.viewer.link_poses import LinkPoses
 from continuum.viewer.link_shapes import link_shapes
+from continuum.viewer.screen_colours import linear_light
 from continuum.viewer.section_angles import configuration_of_joints
 
 _ARROW_COLOUR = (150, 0, 200)
 _GHOST_COLOUR = (70, 130, 200)
 _GHOST_OPACITY = 0.3
-_CABLE = 0.05
+_CABLE = 0.09
 """Thickness of a cable's line, of the radius of the first section's holes; half of it where it only passes."""
 
 _ARROW_LENGTH = 0.25
@@ -60,7 +62,7 @@ class ArmLinks:
                     shape.faces,
                     batched_wxyzs=turns[shape.links],
                     batched_positions=places[shape.links],
-                    batched_colors=_GHOST_COLOUR if ghost else shape.colours,
+                    batched_colors=_GHOST_COLOUR if ghost else linear_light(shape.colours),
                     opacity=_GHOST_OPACITY if ghost else None,
                     flat_shading=True,
                     lod="off",
@@ -92,7 +94,7 @@ class ArmLinks:
             mesh.batched_positions = places[links]
         return True
 
-    def _placed(self) -> tuple[Array, Array]:
+    def _placed(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Quaternions (n_links, 4), real part first, and positions (n_links, 3) [m]."""
         turns = Rotation.from_matrix(self.poses[:, :3, :3]).as_quat(scalar_first=True)
         return turns.astype(np.float32), self.poses[:, :3, 3].astype(np.float32)
@@ -121,7 +123,7 @@ class ArmScene:
             holes = CableHoles(arm, names, passing=kind == "passing")
             if len(holes.colours):
                 lines = server.scene.add_line_segments(
-                    f"/cables/{kind}", holes.pieces(self.links.poses), holes.colours,
+                    f"/cables/{kind}", holes.pieces(self.links.poses), linear_light(holes.colours),
                     thickness=thickness * arm.sections[0].a,
                 )  # fmt: skip
                 self._cables.append((holes, lines))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -44,7 +45,7 @@ class CableHoles:
             routing = cables_through(arm, i)
             for name, a, azimuth in zip(routing.names, routing.a, routing.azimuths, strict=True):
                 if (name not in section.cable_names) is passing:
-                    on += zip(discs, discs[1:], strict=False)
+                    on += pairwise(discs)
                     places += [(a * np.cos(azimuth), a * np.sin(azimuth), 0.0)] * section.n_joints
                     colours += [colour_of[name]] * section.n_joints
         self._links = np.array(on, dtype=int).reshape(-1, 2)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from scipy.spatial.transform import Rotation
-from yourdfpy import URDF
+from yourdfpy import URDF, Joint
 
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
@@ -39,7 +39,7 @@ class LinkPoses:
         turning = {name: i for i, name in enumerate(self.joints)}
         self._parents = [number[joint.parent] for joint in order]
         self._origins = np.array([np.eye(4) if joint.origin is None else joint.origin for joint in order])
-        self._turns = np.array([i for i, joint in enumerate(order) if joint.type != "fixed"], dtype=int)
+        self._turns = np.flatnonzero([joint.type != "fixed" for joint in order])
         self._axes = np.array([joint.axis for joint in order if joint.type != "fixed"]).reshape(-1, 3)
         self._followers = [
             (turning[joint.name], turning[joint.mimic.joint], joint.mimic.multiplier or 1.0, joint.mimic.offset or 0.0)
@@ -53,7 +53,8 @@ class LinkPoses:
         for joint, leader, multiplier, offset in self._followers:
             if np.isnan(angles[joint]):
                 angles[joint] = multiplier * np.nan_to_num(angles[leader]) + offset
-        return np.nan_to_num(angles)
+        known: Array = np.nan_to_num(angles)
+        return known
 
     def poses(self, angles: Array) -> Array:
         """Poses (n_links, 4, 4) [m] in the base link at ``angles`` (n_joints,) [rad]."""
@@ -80,7 +81,7 @@ def root_link(description: URDF) -> str:
     return str(roots[0])
 
 
-def _parents_first(description: URDF) -> list[object]:
+def _parents_first(description: URDF) -> list[Joint]:
     """The joints, each after the one that carries its parent link."""
     waiting, known, order = list(description.robot.joints), {root_link(description)}, []
     while waiting:

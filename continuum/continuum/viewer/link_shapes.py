@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
-from yourdfpy import URDF
+from yourdfpy import URDF, Geometry, Link, Material
 
 from continuum.arrays import Array
+from continuum.cable_colours import Colour
+from continuum.errors import InvalidValueError
 
 _ROUND = 20
 """Corners of a cylinder."""
@@ -35,9 +37,10 @@ class Shape:
 
 def link_shapes(description: URDF, links: Sequence[str]) -> list[Shape]:
     """The shapes of a description of cylinders and spheres; of each link what has one colour is one mesh."""
-    found: dict[bytes, tuple[trimesh.Trimesh, list[int], list[tuple[float, ...]]]] = {}
+    materials = {material.name: material for material in description.robot.materials}
+    found: dict[bytes, tuple[trimesh.Trimesh, list[int], list[Colour]]] = {}
     for number, link in enumerate(links):
-        for colour, mesh in _meshes(description, link):
+        for colour, mesh in _meshes(description.link_map[link], materials):
             key = np.round(mesh.vertices, 9).tobytes()
             _, on, colours = found.setdefault(key, (mesh, [], []))
             on.append(number)
@@ -48,25 +51,30 @@ def link_shapes(description: URDF, links: Sequence[str]) -> list[Shape]:
     ]
 
 
-def _meshes(description: URDF, link: str) -> Iterator[tuple[tuple[float, ...], trimesh.Trimesh]]:
-    by_colour: dict[tuple[float, ...], list[trimesh.Trimesh]] = {}
-    for visual in description.link_map[link].visuals:
+def _meshes(link: Link, materials: Mapping[str, Material]) -> Iterator[tuple[Colour, trimesh.Trimesh]]:
+    by_colour: dict[Colour, list[trimesh.Trimesh]] = {}
+    for visual in link.visuals:
         mesh = _mesh(visual.geometry)
         if visual.origin is not None:
             mesh.apply_transform(visual.origin)
-        by_colour.setdefault(_colour(description, visual.material), []).append(mesh)
+        by_colour.setdefault(_colour(materials, visual.material.name), []).append(mesh)
     for colour, meshes in by_colour.items():
-        yield colour, trimesh.util.concatenate(meshes)
+        merged: trimesh.Trimesh = trimesh.util.concatenate(meshes)  # type: ignore[assignment]
+        yield colour, merged
 
 
-def _mesh(geometry: object) -> trimesh.Trimesh:
+def _mesh(geometry: Geometry) -> trimesh.Trimesh:
+    mesh: trimesh.Trimesh
     if geometry.cylinder is not None:
         cylinder = geometry.cylinder
-        return trimesh.creation.cylinder(radius=cylinder.radius, height=cylinder.length, sections=_ROUND)
-    return trimesh.creation.icosphere(subdivisions=2, radius=geometry.sphere.radius)
+        mesh = trimesh.creation.cylinder(radius=cylinder.radius, height=cylinder.length, sections=_ROUND)
+    elif geometry.sphere is not None:
+        mesh = trimesh.creation.icosphere(subdivisions=2, radius=geometry.sphere.radius)
+    else:
+        raise InvalidValueError("geometry of a link", geometry, "a cylinder or a sphere")
+    return mesh
 
 
-def _colour(description: URDF, material: object) -> tuple[float, ...]:
-    named = description.material_map.get(material.name, material) if hasattr(description, "material_map") else material
-    named = next((one for one in description.robot.materials if one.name == material.name), named)
-    return tuple(float(part) for part in named.color.rgba[:3])
+def _colour(materials: Mapping[str, Material], name: str) -> Colour:
+    red, green, blue, _ = materials[name].color.rgba.tolist()
+    return red, green, blue

@@ -122,13 +122,16 @@ class Page:
         scene, camera = self._server.scene, self._server.initial_camera
         scene.set_up_direction("+z")
         camera.up = (0.0, 0.0, 1.0)
-        camera.position = (1.3 * length, 1.3 * length, 1.0 * length)
-        camera.look_at = (0.0, 0.0, 0.45 * length)
+        camera.position = (1.7 * length, 1.1 * length, 1.0 * length)
+        camera.fov = 0.75
+        camera.look_at = (0.0, 0.0, 0.47 * length)
+        scene.configure_environment_map(environment_intensity=0.25)
+        scene.configure_default_lights(cast_shadow=False)
         camera.near = 0.01 * length
         plane = -0.4 * self._arm.sections[0].b
         cell = float(10.0 ** np.floor(np.log10(0.4 * length)))
         scene.add_grid(
-            "/ground", width=4 * length, height=4 * length, cell_size=cell, section_size=5 * cell,
+            "/ground", width=2.4 * length, height=2.4 * length, cell_size=cell, section_size=5 * cell,
             position=(0.0, 0.0, plane), shadow_opacity=0.0,
         )  # fmt: skip
 

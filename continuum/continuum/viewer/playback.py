@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 
 import numpy as np
+import viser
 
 from continuum.viewer.layout import Layout
 from continuum.viewer.seen import Seen
@@ -30,13 +31,14 @@ class Playback:
         self._asked: float | None = None
 
     def add_controls(self, layout: Layout) -> None:
+        """Begin to play when somebody looks."""
         gui = layout.server.gui
         end = max(self._tracks.duration, _STEP)
         with layout.move:
             gui.add_markdown(f"`{self._name}`")
-            self._plays = gui.add_checkbox("Play", True)
+            self._plays: viser.GuiCheckboxHandle = gui.add_checkbox("Play", True)
             self._speed = gui.add_dropdown("Speed", tuple(_SPEEDS), initial_value="1")
-            self._slider = gui.add_slider("time [s]", 0.0, end, min(_STEP, end), 0.0)
+            self._slider: viser.GuiSliderHandle[float] = gui.add_slider("time [s]", 0.0, end, min(_STEP, end), 0.0)
         self._shown = self._slider.value
 
     def newest(self) -> Seen:
@@ -65,6 +67,6 @@ class Playback:
             else:
                 self._time = min(self._time + passed * _SPEEDS[self._speed.value], end)
                 if self._time >= end:
-                    self._plays.value = False
-            self._slider.value = self._time
+                    self._plays.value = False  # type: ignore[misc]
+            self._slider.value = self._time  # type: ignore[misc]
         self._shown = self._slider.value

@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Mapping
 
 import numpy as np
+import viser
 from viser import uplot
 
 from continuum.arm import Arm, Section
@@ -70,7 +71,7 @@ class CablePlots:
         """(n_cables, n_rows), NaN where nothing is known."""
         return np.array([[row.get(cable, np.nan) for row in rows] for cable in self._plotted.cable_names])
 
-    def _make(self, section: Section) -> dict[str, tuple[object, float]]:
+    def _make(self, section: Section) -> dict[str, tuple[viser.GuiUplotHandle, float]]:
         empty = tuple(np.zeros(1) for _ in range(1 + len(section.cable_names)))
         series = (
             uplot.Series(label="t [s]"),
