@@ -37,7 +37,7 @@ class TensionControls:
         for slider in self._sliders.values():
             if slider.disabled is self.taken:
                 slider.disabled = not self.taken
-                slider.value = 0.0
+                slider.value = 0.0  # type: ignore[misc]
         return {name: slider.value if self.taken else 0.0 for name, slider in self._sliders.items()}
 
     def give_back(self) -> None:
