@@ -6,7 +6,7 @@ IN_WORKSPACE := source install/setup.bash &&
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup demo bench-demo test browser reproduction bench-dynamics bench-ik bench-identification bench-discovery \
-  bench-inertial bench-link fuzz prototype check format lock clean
+  bench-inertial bench-link bench-viewer fuzz prototype check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -57,6 +57,9 @@ bench-inertial: setup ## measure joint angles from inertial sensors (3 minutes);
 bench-link: setup ## measure the bridge at an emulated bench (90 minutes); overwrites docs/bench-link.md; ARGS="campaign" for a part
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="continuum_hw_imu/test:test:$$PYTHONPATH" \
 	  python3 -m tools.bench_link $(ARGS)
+
+bench-viewer: setup ## processor time of the viewer, latency of others beside it (8 minutes); overwrites tables of docs/viewer.md
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_viewer $(ARGS)
 
 prototype: setup ## diagnose the real arm; overwrites docs/prototype.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.prototype $(ARGS)

@@ -27,6 +27,10 @@ _SWITCHES = (
 """Root may run it; drawing needs no graphics card; it asks nobody for updates."""
 
 
+_SCENE = {"x": 310, "y": 150, "width": 550, "height": 570}
+"""What is to be seen of the scene, without panels and notes."""
+
+
 @contextmanager
 def headless_browser() -> Iterator[Any]:
     """Chromium driven by Playwright; the test is skipped where one of them is missing."""
@@ -79,24 +83,24 @@ class ViewedPage:
     def __init__(self, browser: Any, address: str) -> None:
         self.requests: list[str] = []
         self.errors: list[str] = []
-        self.tab = browser.new_page(viewport={"width": 1100, "height": 760})
+        self.tab = browser.new_page(viewport={"width": 1200, "height": 720})
         self.tab.set_default_timeout(60_000)
         self.tab.on("request", lambda request: self.requests.append(request.url))
         self.tab.on("websocket", lambda socket: self.requests.append(socket.url))
         self.tab.on("pageerror", lambda error: self.errors.append(str(error)))
         self.tab.goto(address)
-        self.tab.get_by_role("tab", name="Arm").wait_for()
+        self.tab.get_by_text("continuum", exact=True).wait_for()
 
     def pixels(self) -> Any:
         """The scene without the panel and without notes, (height, width, 3) from 0 to 255, as integers."""
-        picture = Image.open(io.BytesIO(self.tab.screenshot(clip={"x": 250, "y": 0, "width": 490, "height": 760})))
+        picture = Image.open(io.BytesIO(self.tab.screenshot(clip=_SCENE)))
         return np.asarray(picture.convert("RGB")).astype(int)
 
     def uppermost(self, mask: Any) -> tuple[float, float]:
         """Where on the tab the upper end of a mask of `pixels` is."""
         rows, columns = np.nonzero(mask)
         top = rows < rows.min() + 12
-        return 250.0 + float(columns[top].mean()), float(rows[top].mean())
+        return _SCENE["x"] + float(columns[top].mean()), float(rows[top].mean())
 
     def keep(self, name: str) -> None:
         """Keep a screenshot among the tests' artefacts."""

@@ -65,7 +65,11 @@ class ViewerNode(CheckedNode):
         self._statuses: dict[str, tuple[float, Status]] = {}
         self._pulled_until = -float("inf")
         self._page = Page(self.arm, self._remote, self.values["host"], self.values["port"])
-        self.diagnostics.values |= {"address": lambda: self._page.address, "browsers": lambda: self._page.lookers}
+        self.diagnostics.values |= {
+            "address": lambda: self._page.address,
+            "browsers": lambda: self._page.lookers,
+            "frames": lambda: self._page.frames,
+        }
         self._publish_target = self.offer(PoseStamped, "traj_pose")
         self._publish_joints = self.offer(JointState, "joint_states")
         self._publish_tensions = self.offer(CableStates, "cable_tension_cmd")

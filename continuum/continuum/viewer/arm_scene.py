@@ -133,6 +133,16 @@ class ArmScene:
             shaft_radius=radius, head_radius=2.5 * radius, head_length=6 * radius, visible=False,
         )  # fmt: skip
 
+    def cable_lengths(self) -> dict[str, float]:
+        """Lengths [m] of the cables as they are shown, by name."""
+        lengths = dict.fromkeys(self._arm.cable_names, 0.0)
+        for holes, lines in self._cables:
+            ends = lines.points.astype(float)
+            pieces = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+            for name, length in zip(holes.cables.tolist(), pieces.tolist(), strict=True):
+                lengths[name] += length
+        return lengths
+
     @property
     def tip(self) -> Array:
         """Where the tip is shown, (3,) [m]."""

@@ -31,6 +31,7 @@ class CableHoles:
             the section's own.
 
     Attributes:
+        cables: name of the cable that each piece belongs to, (n_pieces,).
         colours: of both ends of each piece, (n_pieces, 2, 3), from 0 to 1.
     """
 
@@ -39,6 +40,7 @@ class CableHoles:
         on: list[tuple[int, int]] = []
         places: list[tuple[float, float, float]] = []
         colours: list[tuple[float, float, float]] = []
+        cables: list[str] = []
         colour_of = {name: cable_colour(j) for section in arm.sections for j, name in enumerate(section.cable_names)}
         for i, section in enumerate(arm.sections):
             discs = [number[link] for link in disc_links(section)]
@@ -47,7 +49,9 @@ class CableHoles:
                 if (name not in section.cable_names) is passing:
                     on += pairwise(discs)
                     places += [(a * np.cos(azimuth), a * np.sin(azimuth), 0.0)] * section.n_joints
+                    cables += [name] * section.n_joints
                     colours += [colour_of[name]] * section.n_joints
+        self.cables = np.array(cables)
         self._links = np.array(on, dtype=int).reshape(-1, 2)
         self._places = np.array(places).reshape(-1, 3)
         self.colours = np.repeat(np.array(colours).reshape(-1, 1, 3), 2, axis=1)

@@ -7,7 +7,6 @@ import time
 import numpy as np
 
 from continuum.arm import Arm
-from continuum.kinematics.routing import tangle
 from continuum.viewer.layout import Layout
 from continuum.viewer.posture_controls import PostureControls
 from continuum.viewer.section_angles import joints_of
@@ -15,7 +14,7 @@ from continuum.viewer.seen import Seen
 
 
 class Hands:
-    """Sliders and a target move the arm; cables have the lengths that the kinematics says.
+    """Sliders and a target move the arm.
 
     Args:
         arm: the arm.
@@ -33,5 +32,4 @@ class Hands:
         if self._controls is not None:
             self._controls.follow()
             w = self._controls.w
-        lengths = dict(zip(self._arm.cable_names, tangle(w, self._arm).tolist(), strict=True))
-        return Seen(time=time.monotonic(), joints=joints_of(w, self._arm), lengths=lengths)
+        return Seen(time=time.monotonic(), joints=joints_of(w, self._arm))

@@ -1,10 +1,13 @@
-"""Where things stand on the page: the scene, and three tabs beside it."""
+"""Where things stand on the page: the scene, what moves the arm on its right, what is measured on its left."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import viser
+
+_WIDTH = 300
+"""Of the panel on the left [pixels]."""
 
 
 @dataclass(frozen=True)
@@ -13,20 +16,23 @@ class Layout:
 
     Attributes:
         server: of the page.
-        move: tab of what moves the arm.
-        cables: tab of plots.
-        status: tab of statuses.
+        move: what moves the arm.
+        cables: plots.
+        status: statuses.
     """
 
     server: viser.ViserServer
-    move: viser.GuiTabHandle
+    move: viser.GuiFolderHandle
     cables: viser.GuiTabHandle
     status: viser.GuiTabHandle
 
 
 def layout_of(server: viser.ViserServer) -> Layout:
-    """Make the tabs."""
+    """Make the panels."""
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="medium")
     server.gui.set_panel_label("continuum")
-    tabs = server.gui.add_tab_group()
-    return Layout(server, tabs.add_tab("Arm"), tabs.add_tab("Cables"), tabs.add_tab("Status"))
+    panel = server.gui.add_panel()
+    cables, status = panel.add_tab("Cables"), panel.add_tab("Status")
+    panel.dock_left()
+    panel.set_width(_WIDTH)
+    return Layout(server, server.gui.add_folder("Arm"), cables, status)

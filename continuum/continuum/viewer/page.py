@@ -7,6 +7,7 @@ import socket
 import threading
 import time
 from contextlib import redirect_stdout
+from dataclasses import replace
 
 import numpy as np
 import viser
@@ -42,6 +43,9 @@ class Page:
         host: address that the page is served on; the default is reached from this host alone.
         port: 0 for any that is free.
 
+    Attributes:
+        frames: drawn so far.
+
     Raises:
         InvalidValueError: nobody can listen on that address.
         NoDescriptionError: no installed package writes the arm's description.
@@ -49,6 +53,7 @@ class Page:
 
     def __init__(self, arm: Arm, source: Source, host: str = HOST, port: int = PORT) -> None:
         _check_address(host, port)
+        self.frames = 0
         self._source = source
         self._arm = arm
         self._description = arm_description(arm)
@@ -89,11 +94,12 @@ class Page:
 
     def draw(self) -> None:
         """One frame."""
+        self.frames += 1
         seen = self._source.newest()
         with self._server.atomic():
             self._draw_arms(seen)
             self._draw_target(seen.target)
-            self._plots.show(seen)
+            self._plots.show(seen if seen.lengths else replace(seen, lengths=self._scene.cable_lengths()))
             self._statuses.show(seen.statuses)
 
     def close(self) -> None:
@@ -125,7 +131,7 @@ class Page:
         camera.position = (1.7 * length, 1.1 * length, 1.0 * length)
         camera.fov = 0.75
         camera.look_at = (0.0, 0.0, 0.47 * length)
-        scene.configure_environment_map(environment_intensity=0.25)
+        scene.configure_environment_map(environment_intensity=0.4)
         scene.configure_default_lights(cast_shadow=False)
         camera.near = 0.01 * length
         plane = -0.4 * self._arm.sections[0].b

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import deque
 from collections.abc import Mapping
 
@@ -18,14 +19,17 @@ from continuum.viewer.seen import Seen
 SPAN = 20.0
 """What the plots reach back [s]."""
 
+_STEP = 0.05
+"""Shortest time between two points [s]."""
+
 _PERIOD = 0.2
-"""Shortest time between two points, and between two drawings [s]."""
+"""Shortest time between two drawings, by the machine's clock [s]."""
 
 _HEIGHT = 190
 
 
 class CablePlots:
-    """Plots of lengths [mm] and tensions [N] on the page's tab of cables.
+    """Plots of lengths [mm] and tensions [N] on the page's panel of cables.
 
     Args:
         layout: of the page.
@@ -39,6 +43,7 @@ class CablePlots:
         gui = layout.server.gui
         with layout.cables:
             self._choice = gui.add_dropdown("Section", tuple(self._sections), visible=arm.n_sections > 1)
+        self._due = 0.0
         self._plotted = arm.sections[0]
         self._plots = self._make(self._plotted)
 
@@ -46,11 +51,13 @@ class CablePlots:
         """Take the instant in, and draw where it is time to."""
         if self._rows and seen.time < self._rows[-1][0]:
             self._rows.clear()  # another run, or the time slider was moved back
-        if self._rows and seen.time - self._rows[-1][0] < _PERIOD and self._choice.value == self._plotted.name:
-            return
-        self._rows.append((seen.time, dict(seen.lengths), dict(seen.tensions)))
+        if not self._rows or seen.time - self._rows[-1][0] >= _STEP:
+            self._rows.append((seen.time, dict(seen.lengths), dict(seen.tensions)))
         while self._rows[0][0] < seen.time - SPAN:
             self._rows.popleft()
+        if time.monotonic() < self._due:
+            return
+        self._due = time.monotonic() + _PERIOD
         if self._choice.value != self._plotted.name:
             for plot, _ in self._plots.values():
                 plot.remove()
@@ -59,7 +66,7 @@ class CablePlots:
         self._draw()
 
     def _draw(self) -> None:
-        times = np.array([time for time, _, _ in self._rows]) - self._rows[-1][0]
+        times = np.array([row[0] for row in self._rows]) - self._rows[-1][0]
         for column, (name, (plot, factor)) in enumerate(self._plots.items(), start=1):
             values = self._values([row[column] for row in self._rows])  # type: ignore[misc]
             known = bool(np.any(np.isfinite(values)))
@@ -76,7 +83,7 @@ class CablePlots:
         series = (
             uplot.Series(label="t [s]"),
             *(
-                uplot.Series(label=f"cable {j + 1}", stroke=_css(j), width=2, spanGaps=False)
+                uplot.Series(label=f"cable {j + 1}", stroke=_css(j), width=2, points=uplot.Series_Points(show=False))
                 for j in range(len(section.cable_names))
             ),
         )
@@ -84,7 +91,12 @@ class CablePlots:
         for name, title, factor in (("lengths", "Cable lengths [mm]", 1e3), ("tensions", "Cable tensions [N]", 1.0)):
             with self._layout.cables:
                 plot = self._layout.server.gui.add_uplot(
-                    empty, series, title=title, height=_HEIGHT, scales={"x": uplot.Scale(time=False, auto=True)}
+                    empty,
+                    series,
+                    title=title,
+                    height=_HEIGHT,
+                    legend=uplot.Legend(show=False),
+                    scales={"x": uplot.Scale(time=False, auto=True)},
                 )
             made[name] = (plot, factor)
         return made

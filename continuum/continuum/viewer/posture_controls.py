@@ -47,7 +47,7 @@ class PostureControls:
 
     def __init__(self, layout: Layout, arm: Arm) -> None:
         self._arm = arm
-        self._solver = InverseKinematics(arm)
+        self._solver = InverseKinematics(arm, objective="near_start")
         self.w = np.zeros((arm.n_sections, 2))
         self.target = arm_pose(self.w, arm)[:3, 3]
         gui = layout.server.gui

@@ -34,7 +34,7 @@ class Seen:
         joints: joint angles by name [rad]. The arm is drawn by them.
         simulated: those of a simulated arm beside a measured one [rad]. Where there are any, the arm is drawn by
             these, and ``joints`` as its ghost.
-        lengths: of cables by name [m].
+        lengths: of cables by name [m]; where nobody says them, those of the cables as they are drawn are plotted.
         tensions: of cables by name [N].
         target: where the tip shall be, (3,) [m] in ``base_link``.
         statuses: of sensors, link, nodes.

@@ -14,7 +14,7 @@ _NOTHING = "<p>Nobody reports a status.</p>"
 
 
 class StatusTable:
-    """On the page's tab of statuses, sent anew only where one changed.
+    """On the page's panel of statuses, sent anew only where one changed.
 
     Args:
         layout: of the page.

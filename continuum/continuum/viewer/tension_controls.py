@@ -10,7 +10,7 @@ from continuum.viewer.layout import Layout
 
 
 class TensionControls:
-    """One slider for each cable on the page's first tab.
+    """One slider for each cable.
 
     Args:
         layout: of the page.
