@@ -47,6 +47,10 @@ WAYS: dict[str, Way] = {
     "continuum info": Run(says=("section_3",)),
     "ros2 run continuum_description create_continuum_robot": Run(leaves=("out/arm.urdf",)),
     "ros2 run continuum_manipulator section": Run(stays=True, nodes=("section",)),
+    "continuum view": Run(stays=True, after_ctrl_c=True, serves=True, also="--port 0"),
+    "ros2 run continuum_manipulator viewer": Run(
+        stays=True, nodes=("viewer",), serves=True, also="--ros-args -p port:=0"
+    ),
     "continuum solve": Run(says=("section_1",)),
     "continuum simulate --release 90 --pulled": Run(leaves=("out/release.csv", "out/release.png")),
     "ros2 launch continuum_manipulator dynamics.launch.xml": Run(

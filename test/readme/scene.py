@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 from types import TracebackType
+from urllib.request import urlopen
 
 from diagnostic_msgs.msg import DiagnosticArray
 from harness import Probe
@@ -20,6 +21,9 @@ from readme.ways import Run
 
 TOPICS = {"/cable_states": CableStates, "/joint_states": JointState, "/diagnostics": DiagnosticArray}
 """Topics that are listened to while the commands run."""
+
+ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+")
+"""Of a page that is served on this host alone."""
 
 ENDS_BY_CTRL_C = (0, signal.SIGINT, 128 + signal.SIGINT, -signal.SIGINT)
 """Exit codes of what ends in good order by Ctrl-C: of nodes, of `ros2`, of shells, and of what does not take it."""
@@ -120,6 +124,10 @@ class Scene:
             self._wait(command, lambda heard=heard, count=count: len(heard) >= count, f"{count} messages on {topic}")
         names = self._probe.node.get_node_names
         self._wait(command, lambda: set(way.nodes) <= set(names()), f"nodes {way.nodes}")
+        if way.serves:
+            self._wait(command, lambda: ADDRESS.search(command.said), "the address of its page")
+            with urlopen(ADDRESS.search(command.said)[0], timeout=PATIENCE) as answer:
+                assert b"<html" in answer.read().lower()
         if way.listens:
             own = int(way.listens in TOPICS)
             count = self._probe.node.count_subscribers

@@ -22,6 +22,7 @@ class Run:
         hears: topics on which so many messages come from its start on.
         nodes: names of ROS nodes that run then.
         listens: a topic on which a further subscription is there then.
+        serves: it tells the address of a page, which then answers.
         leaves: patterns of files that are there in the end.
         also: words added for the test alone, `{folder}` in them a folder of its own.
     """
@@ -33,6 +34,7 @@ class Run:
     hears: tuple[tuple[str, int], ...] = ()
     nodes: tuple[str, ...] = ()
     listens: str = ""
+    serves: bool = False
     leaves: tuple[str, ...] = ()
     also: str = ""
 

@@ -11,9 +11,9 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from continuum.arm import Arm
 from continuum.arrays import Array
+from continuum.cable_colours import cable_colour
+from continuum.kinematics.cable_lines import cable_lines
 from continuum.recordings.arm_recording import ArmRecording
-from continuum_manipulator.cable_lines import cable_lines
-from continuum_manipulator.markers import COLOURS
 from tools.figures.posture import backbone, discs
 
 _NOW = 0.8
@@ -57,4 +57,4 @@ def _draw_posture(axes: Any, w: Array, arm: Arm) -> None:
     axes.plot(*(_MM * backbone(w, arm)).T, color="0.35", linewidth=3.0, zorder=5)
     for line in cable_lines(w, arm):
         width = 0.6 if line.passing else 1.4
-        axes.plot(*(_MM * line.points).T, color=COLOURS[line.colour_index % len(COLOURS)], linewidth=width, zorder=6)
+        axes.plot(*(_MM * line.points).T, color=cable_colour(line.colour_index), linewidth=width, zorder=6)
