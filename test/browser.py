@@ -27,8 +27,8 @@ _SWITCHES = (
 """Root may run it; drawing needs no graphics card; it asks nobody for updates."""
 
 
-_SCENE = {"x": 310, "y": 150, "width": 550, "height": 570}
-"""What is to be seen of the scene, without panels and notes."""
+_SCENE = {"x": 310, "y": 0, "width": 550, "height": 720}
+"""What is to be seen of the scene, without panels."""
 
 
 @contextmanager
@@ -90,6 +90,10 @@ class ViewedPage:
         self.tab.on("pageerror", lambda error: self.errors.append(str(error)))
         self.tab.goto(address)
         self.tab.get_by_text("continuum", exact=True).wait_for()
+        note = self.tab.get_by_text("Software WebGL rendering detected")
+        note.wait_for()
+        self.tab.locator(".mantine-Notification-closeButton").click()
+        note.wait_for(state="detached")
 
     def pixels(self) -> Any:
         """The scene without the panel and without notes, (height, width, 3) from 0 to 255, as integers."""
