@@ -130,3 +130,14 @@ def test_what_is_no_recording_is_told_in_one_line(tmp_path):
         read_tracks(tmp_path)
     with pytest.raises(FileError, match="cannot be read"):
         read_tracks(tmp_path / "none.csv")
+
+
+def test_trail_begins_anew_after_a_leap(opened):
+    trail = opened(Hands(ARM))._tip_trail
+    for x in np.arange(0.0, 0.1, 0.001):
+        trail.follow(np.array([x, 0.0, 0.0]))
+    pieces = trail._line.points
+    np.testing.assert_allclose(pieces[1:, 0], pieces[:-1, 1])
+    assert np.linalg.norm(pieces[:, 1] - pieces[:, 0], axis=1).min() >= trail._step * 0.999
+    trail.follow(np.array([0.0, 1.0, 0.0]))
+    assert not trail._line.visible

@@ -1,5 +1,9 @@
 """The viewer over DDS: what it refuses, that it lives on, and who looks and leaves."""
 
+import itertools
+import signal
+import subprocess
+import sys
 import urllib.request
 
 import numpy as np
@@ -61,6 +65,35 @@ def test_bad_messages_are_counted_and_the_page_lives(probe):
 
         probe.wait_until(counted, f"{cause} counted; {probe.report('viewer')}")
     assert "<html" in page_of(probe)
+
+
+def test_a_browser_that_stalls_or_leaves_holds_nobody_up(probe):
+    """Frames are drawn while one is there, if it takes them or not, and none once all have left."""
+    joints = probe.speaker(JointState, "joint_states").publish
+    way = [joint_state(k, w) for k, w in enumerate(postures(200)[0])]
+    looker = subprocess.Popen([sys.executable, "-m", "tools.bench_viewer.looker", probe.report("viewer")["address"]])
+    try:
+        probe.wait_until(lambda: probe.count("viewer", "browsers") == 1, "a browser")
+        looker.send_signal(signal.SIGSTOP)
+        before, heard = probe.count("viewer", "frames"), probe.count("viewer", "received joint_states")
+        sent = itertools.cycle(way)
+
+        def went_on():
+            joints(next(sent))
+            return (
+                probe.count("viewer", "frames") > before + 60
+                and probe.count("viewer", "received joint_states") > heard + 60
+            )
+
+        probe.wait_until(went_on, lambda: f"frames and messages beside a browser that stalls: {probe.report('viewer')}")
+    finally:
+        looker.kill()
+        looker.wait()
+    probe.wait_until(lambda: probe.count("viewer", "browsers") == 0, "nobody looking")
+    probe.wait_for_report("viewer")
+    frames = probe.count("viewer", "frames")
+    probe.wait_for_report("viewer")
+    assert probe.count("viewer", "frames") == frames
 
 
 def test_statuses_without_end_are_not_kept(probe):
