@@ -27,8 +27,8 @@ _SWITCHES = (
 """Root may run it; drawing needs no graphics card; it asks nobody for updates."""
 
 
-_SCENE = {"x": 310, "y": 150, "width": 550, "height": 570}
-"""What is to be seen of the scene, without panels and notes."""
+_SCENE = {"x": 310, "y": 0, "width": 550, "height": 720}
+"""What is to be seen of the scene, without panels."""
 
 
 @contextmanager
@@ -84,17 +84,33 @@ class ViewedPage:
         self.requests: list[str] = []
         self.errors: list[str] = []
         self.tab = browser.new_page(viewport={"width": 1200, "height": 720})
-        self.tab.set_default_timeout(60_000)
+        self.tab.set_default_timeout(120_000)
         self.tab.on("request", lambda request: self.requests.append(request.url))
         self.tab.on("websocket", lambda socket: self.requests.append(socket.url))
         self.tab.on("pageerror", lambda error: self.errors.append(str(error)))
         self.tab.goto(address)
         self.tab.get_by_text("continuum", exact=True).wait_for()
+        note = self.tab.get_by_text("Software WebGL rendering detected")
+        note.wait_for()
+        self.tab.locator(".mantine-Notification-closeButton").click()
+        note.wait_for(state="detached")
 
     def pixels(self) -> Any:
         """The scene without the panel and without notes, (height, width, 3) from 0 to 255, as integers."""
         picture = Image.open(io.BytesIO(self.tab.screenshot(clip=_SCENE)))
         return np.asarray(picture.convert("RGB")).astype(int)
+
+    def settled(self) -> Any:
+        """As `pixels`, once the scene stands still: a machine without a graphics card draws late."""
+        seen = [self.pixels()]
+
+        def still() -> bool:
+            self.tab.wait_for_timeout(400)
+            seen.append(self.pixels())
+            return bool(np.array_equal(seen[-1], seen[-2]))
+
+        self.wait_for(still, "a scene that stands still")
+        return seen[-1]
 
     def uppermost(self, mask: Any) -> tuple[float, float]:
         """Where on the tab the upper end of a mask of `pixels` is."""
@@ -120,4 +136,4 @@ class ViewedPage:
 
     def wait_for(self, condition: Any, what: str) -> None:
         """Wait while the page goes on."""
-        wait_until(lambda: (self.tab.wait_for_timeout(50), condition())[1], what, timeout=60.0, pause=0.0)
+        wait_until(lambda: (self.tab.wait_for_timeout(50), condition())[1], what, timeout=120.0, pause=0.0)

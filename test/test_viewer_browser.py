@@ -45,13 +45,14 @@ def test_nothing_comes_from_elsewhere(moved_by_hand):
 
 def test_arm_moves_with_a_slider(moved_by_hand):
     page = moved_by_hand
-    before = page.pixels()
+    before = page.settled()
     page.keep("straight")
     page.set_number("theta [deg]", 80.0)
     page.wait_for(lambda: (orange(page.pixels()) ^ orange(before)).sum() > 0.2 * orange(before).sum(), "a bent arm")
     page.set_number("theta [deg]", 60.0, which=1)
     page.set_number("phi [deg]", 120.0, which=1)
     page.tab.get_by_text("The target follows the sliders.").wait_for()
+    page.settled()
     page.keep("bent")
 
 
@@ -60,16 +61,18 @@ def test_a_dragged_target_is_reached(moved_by_hand):
     for number in range(3):
         page.set_number("theta [deg]", 0.0, which=number)
         page.set_number("phi [deg]", 0.0, which=number)
-    handle = page.uppermost(blue(page.pixels()))
+    handle = page.uppermost(blue(page.settled()))
     page.tab.mouse.move(*handle)
+    page.tab.wait_for_timeout(500)  # the page has to see what is under the mouse before it is pressed
     page.tab.mouse.down()
     for step in range(1, 21):
         page.tab.mouse.move(handle[0], handle[1] + 6 * step)
-        page.tab.wait_for_timeout(20)
+        page.tab.wait_for_timeout(50)
     page.tab.mouse.up()
     words = page.tab.get_by_text("Target reached; the tip is 0.00")
     words.wait_for()
-    assert float(page.number("theta [deg]", 0).input_value()) > 0.0
+    assert float(page.number("theta [deg]", 2).input_value()) > 0.0
+    page.settled()
     page.keep("target")
 
 
@@ -78,10 +81,10 @@ def test_playback_scrubs(chromium):
         page = ViewedPage(chromium, address)
         time = page.number("time [s]")
         page.wait_for(lambda: float(time.input_value()) >= 1.5, "the end of the recording")
-        page.tab.wait_for_timeout(500)
-        end = page.pixels()
+        end = page.settled()
         page.keep("recording_end")
         page.set_number("time [s]", 0.0)
         page.wait_for(lambda: (orange(page.pixels()) ^ orange(end)).sum() > 0.2 * orange(end).sum(), "the beginning")
+        page.settled()
         page.keep("recording_begin")
         page.tab.close()

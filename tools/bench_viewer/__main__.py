@@ -35,7 +35,7 @@ def main() -> None:
     options = parser.parse_args()
     with domain_id() as domain:
         text = "\n\n".join([processor_time(domain, options.seconds), others(domain, options.seconds, options.turns)])
-    print(text)
+    print(text, flush=True)
     if all(value == parser.get_default(name) for name, value in vars(options).items()):
         head, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
         tail = rest.partition(END)[2]
@@ -81,6 +81,7 @@ def others(domain: int, seconds: float, turns: int) -> str:
         for _ in range(turns):
             for there in (False, True):
                 with viewer(file, arm_in_motion, domain) if there else ExitStack():
+                    arm_in_motion.probe.listen_until_quiet()
                     arm_in_motion.latencies.clear()
                     arm_in_motion.run(seconds)
                     arm_in_motion.probe.listen_until_quiet()

@@ -11,6 +11,8 @@ from continuum.arrays import Array
 from continuum.cable_colours import Colour
 
 _POINTS = 400
+_LEAP = 50.0
+"""What moves by so many steps at once was put elsewhere: its line begins anew."""
 
 
 class Trail:
@@ -33,12 +35,15 @@ class Trail:
 
     def follow(self, point: Array) -> None:
         """Go on to ``point`` (3,) [m]."""
-        if self._points and np.linalg.norm(point - self._points[-1]) < self._step:
+        way = np.linalg.norm(point - self._points[-1]) if self._points else 0.0
+        if self._points and way < self._step:
             return
+        if way > _LEAP * self._step:
+            self.clear()
         self._points.append(point.copy())
         if len(self._points) > 1:
-            way = np.array(self._points, dtype=np.float32)
-            self._line.points = np.stack([way[:-1], way[1:]], axis=1)
+            points = np.array(self._points, dtype=np.float32)
+            self._line.points = np.stack([points[:-1], points[1:]], axis=1)
             self._line.visible = True
 
     def clear(self) -> None:
