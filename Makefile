@@ -5,8 +5,8 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo bench-demo test reproduction bench-dynamics bench-ik bench-identification bench-discovery \
-  bench-inertial bench-link fuzz prototype check format lock clean
+.PHONY: help setup demo bench-demo test browser reproduction bench-dynamics bench-ik bench-identification bench-discovery \
+  bench-inertial bench-link bench-viewer fuzz prototype figures api check format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -14,14 +14,20 @@ help: ## list the targets
 setup: ## make .venv, install pinned versions, build the workspace; does nothing where nothing changed
 	@PYTHON="$(PYTHON)" sh tools/setup/run.sh
 
-demo: setup ## follow the thesis's helix with real nodes, results in out/demo
-	@$(IN_WORKSPACE) python3 -m tools.demo $(ARGS)
+demo: setup ## follow the thesis's helix with real nodes, results in out/demo; VIEW=1 shows it in a browser
+	@$(IN_WORKSPACE) python3 -m tools.demo $(if $(VIEW),--view) $(ARGS)
 
 bench-demo: setup ## emulated bench, bridge and simulated arm: pulled, released, recorded, diagnosed; results in out/bench_demo
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.bench_demo $(ARGS)
 
-test: check ## run the checks and every test (ARGS="-k name" are given to pytest)
+test: check browser ## run the checks and every test (ARGS="-k name" are given to pytest)
 	@$(IN_WORKSPACE) pytest $(ARGS)
+
+browser: setup ## Chromium and Playwright for the viewer's tests, into out/browser; what cannot be had is left out
+	@$(IN_WORKSPACE) test -d out/browser/extra/playwright || \
+	  python3 -m pip install --quiet --no-deps --upgrade --target out/browser/extra \
+	  -r tools/browser/requirements.txt || echo "Playwright cannot be installed: the browser tests are skipped"
+	@$(IN_WORKSPACE) python3 -m tools.browser
 
 reproduction: setup ## make the thesis's dynamic results again; overwrites docs/reproduction.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.reproduction $(ARGS)
@@ -52,8 +58,17 @@ bench-link: setup ## measure the bridge at an emulated bench (90 minutes); overw
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="continuum_hw_imu/test:test:$$PYTHONPATH" \
 	  python3 -m tools.bench_link $(ARGS)
 
+bench-viewer: setup ## processor time of the viewer, latency of others beside it (8 minutes); overwrites tables of docs/viewer.md
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_viewer $(ARGS)
+
 prototype: setup ## diagnose the real arm; overwrites docs/prototype.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.prototype $(ARGS)
+
+figures: reproduction prototype ## make every picture of docs/pictures again, and with two of them their pages (5 minutes)
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.figures $(ARGS)
+
+api: setup ## the library's reference from its docstrings, in out/api/index.html
+	@$(IN_WORKSPACE) python3 -m tools.api $(ARGS)
 
 check: setup ## style, lint and types, without the tests
 	@$(IN_WORKSPACE) ruff format --check --quiet && ruff check --quiet && mypy

@@ -23,5 +23,6 @@ setup(
             "create_continuum_robot = continuum_description.create_continuum_robot:main",
             "create_continuum_segment = continuum_description.create_continuum_segment:main",
         ],
+        "continuum.descriptions": ["urdf = continuum_description.robot:urdf_text"],
     },
 )

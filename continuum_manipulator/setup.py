@@ -23,6 +23,7 @@ setup(
             "dynamics = continuum_manipulator.dynamics_node:main",
             "cable_tangler = continuum_manipulator.cable_tangler_node:main",
             "markers = continuum_manipulator.markers_node:main",
+            "viewer = continuum_manipulator.viewer_node:main",
             "recorder = continuum_manipulator.recorder_node:main",
         ],
     },

@@ -4,12 +4,11 @@ import os
 import signal
 import subprocess
 import sys
-import uuid
 from pathlib import Path
 
+from harness.marked import Mark
 from harness.waiting import LONG, wait_until
 
-MARK = "CONTINUUM_TEST_MARK"
 ROOT = Path(__file__).resolve().parents[1]
 
 
@@ -25,11 +24,11 @@ class DemoProcess:
     def __init__(self, folder: Path, domain: int | str, **options: Path) -> None:
         words = [word for name, value in {"out": folder, **options}.items() for word in (f"--{name}", str(value))]
         self.folder = folder
-        self._mark = uuid.uuid4().hex
+        self._mark = Mark()
         self._process = subprocess.Popen(
             [sys.executable, "-m", "tools.demo", *words],
             cwd=ROOT,
-            env=os.environ | {"ROS_DOMAIN_ID": str(domain), MARK: self._mark, "COLUMNS": "80"},
+            env=os.environ | self._mark.environment | {"ROS_DOMAIN_ID": str(domain), "COLUMNS": "80"},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
@@ -44,17 +43,8 @@ class DemoProcess:
         self._process.communicate()
 
     def processes(self, name: str = "") -> list[int]:
-        """Numbers of its processes whose program is called so, its own among them; it gave them all its mark."""
-        found = []
-        for folder in Path("/proc").glob("[0-9]*"):
-            try:
-                marked = f"{MARK}={self._mark}".encode() in (folder / "environ").read_bytes()
-                words = (folder / "cmdline").read_bytes().decode(errors="replace").split("\0")
-            except OSError:  # ended meanwhile, or another's
-                continue
-            if marked and any(word.endswith(name) for word in words):
-                found.append(int(folder.name))
-        return found
+        """Numbers of its processes whose program is called so, its own among them."""
+        return self._mark.processes(name)
 
     def wait_for_node_line(self, text: str) -> None:
         """Wait until a node has said ``text``."""

@@ -28,8 +28,8 @@ PLAIN_PYTHON = {  # what a module is called in package.xml (rosdep's keys)
     "serial": "python3-serial",
     "yaml": "python3-yaml",
 }
-WITHOUT_KEY = {"casadi", "rosbags"}  # plain Python that rosdep does not know: docs/dependencies.md
-ONLY_IN_TESTS = {"hypothesis", "mujoco", "pytest", "vqf", "yourdfpy"}
+WITHOUT_KEY = {"casadi", "rosbags", "trimesh", "viser", "yourdfpy"}  # unknown to rosdep: docs/dependencies.md
+ONLY_IN_TESTS = {"hypothesis", "mujoco", "pytest", "vqf"}
 
 each_package = pytest.mark.parametrize("package", PACKAGES)
 

@@ -62,6 +62,15 @@ def robot_urdf(arm: Arm, base_link: str = BASE_LINK) -> ElementTree.Element:
     return robot
 
 
+def urdf_text(arm: Arm) -> str:
+    """The arm as the text of a URDF: what the entry point ``continuum.descriptions`` offers.
+
+    Raises:
+        InvalidValueError: a section has a name that links cannot have.
+    """
+    return to_text(robot_urdf(arm))
+
+
 def to_text(robot: ElementTree.Element) -> str:
     """The document as indented text, the same for the same arm; it names no encoding, all of it is ASCII."""
     ElementTree.indent(robot)

@@ -14,8 +14,9 @@ from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from continuum.arrays import Array
+from continuum.cable_colours import Colour, cable_colour
+from continuum.kinematics.cable_lines import CableLine, cable_lines, curvature_arrows
 from continuum.parameter_spec import ParameterSpec
-from continuum_manipulator.cable_lines import CableLine, cable_lines, curvature_arrows
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
@@ -23,9 +24,6 @@ from continuum_manipulator.nodekit.qos import REPORT
 from continuum_manipulator.nodekit.stamps import NANOSECONDS
 from continuum_manipulator.section_joints import read_joints, read_names
 from continuum_manipulator.tip_targets import BASE_FRAME
-
-COLOURS = ((0.0, 0.0, 1.0), (0.0, 0.6, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-"""Of a section's first, second, ... cable, then again from the first: blue, green, red, black as in Fig. 14."""
 
 ARROW_COLOUR = (0.6, 0.0, 0.8)
 
@@ -102,7 +100,7 @@ class MarkersNode(CheckedNode):
         return [self._cable_marker(i, line, stamp) for i, line in enumerate(cable_lines(w, self.arm))]
 
     def _cable_marker(self, number: int, line: CableLine, stamp: Time) -> Marker:
-        marker = _marker("cables", number, Marker.LINE_STRIP, COLOURS[line.colour_index % len(COLOURS)], stamp)
+        marker = _marker("cables", number, Marker.LINE_STRIP, cable_colour(line.colour_index), stamp)
         marker.scale.x = self.values["line_width"] * (0.5 if line.passing else 1.0)
         marker.points = _points(line.points)
         return marker
@@ -122,7 +120,7 @@ class MarkersNode(CheckedNode):
         return markers
 
 
-def _marker(namespace: str, number: int, kind: int, colour: tuple[float, float, float], stamp: Time) -> Marker:
+def _marker(namespace: str, number: int, kind: int, colour: Colour, stamp: Time) -> Marker:
     red, green, blue = colour
     marker = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD)
     marker.header = Header(stamp=stamp, frame_id=BASE_FRAME)

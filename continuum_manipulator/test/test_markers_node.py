@@ -9,8 +9,8 @@ from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import Marker, MarkerArray
 
-from continuum_manipulator.cable_lines import cable_lines
-from continuum_manipulator.markers import COLOURS
+from continuum.cable_colours import cable_colour
+from continuum.kinematics.cable_lines import cable_lines
 from continuum_manipulator.nodekit.qos import REPORT
 
 pytestmark = pytest.mark.ros
@@ -40,7 +40,7 @@ def test_markers_show_cables_and_curvature(probe):
         points = [(point.x, point.y, point.z) for point in marker.points]
         np.testing.assert_allclose(points, line.points, atol=1e-12)
         np.testing.assert_allclose(
-            [marker.color.r, marker.color.g, marker.color.b], COLOURS[line.colour_index], atol=1e-6
+            [marker.color.r, marker.color.g, marker.color.b], cable_colour(line.colour_index), atol=1e-6
         )
     own, passing = (
         {m.scale.x for m, line in zip(cables[0].markers, lines, strict=True) if line.passing is p}

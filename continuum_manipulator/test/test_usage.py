@@ -10,7 +10,7 @@ from ament_index_python.packages import get_package_prefix
 from continuum.arm import SECTION_PARAMETERS
 from continuum_manipulator.nodekit.usage import usage
 
-NODES = ("section", "robot", "dynamics", "cable_tangler", "markers", "recorder")
+NODES = ("section", "robot", "dynamics", "cable_tangler", "markers", "recorder", "viewer")
 
 
 @pytest.mark.parametrize("word", ["--help", "-h"])

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
@@ -16,6 +18,7 @@ from continuum.parameter_file import flattened, read_parameter_file
 from tools.demo.domain import domain_for_demo
 from tools.demo.folder import claimed
 from tools.demo.nodes import run_nodes
+from tools.demo.viewer import viewed
 from trajectory_generator.from_parameters import trajectory_from_mapping
 
 
@@ -31,11 +34,12 @@ def main(arguments: list[str] | None = None) -> int:
         "--arm", type=Path, default=arm, metavar="ARM.yaml", help="three sections; default: %(default)s"
     )
     parser.add_argument("--out", type=Path, default=Path("out/demo"), metavar="FOLDER", help="default: %(default)s")
+    parser.add_argument("--view", action="store_true", help="show the arm in a browser, as with make demo VIEW=1")
     options = parser.parse_args(arguments)
     try:
         if (options.arm, options.trajectory) == (arm, trajectory):
             print("The helix of thesis 4.1, and an arm of three sections of Table 1's modules: all of it within reach.")
-        return run_demo(options.trajectory, options.arm, options.out)
+        return run_demo(options.trajectory, options.arm, options.out, options.view)
     except ContinuumError as error:
         print(f"demo: {error}", file=sys.stderr)
         return 1
@@ -46,7 +50,7 @@ def main(arguments: list[str] | None = None) -> int:
         raise
 
 
-def run_demo(trajectory_file: Path, arm_file: Path, out: Path) -> int:
+def run_demo(trajectory_file: Path, arm_file: Path, out: Path, view: bool = False) -> int:
     """Let the arm follow the trajectory, and leave recording, table and picture in ``out``.
 
     Returns:
@@ -64,9 +68,12 @@ def run_demo(trajectory_file: Path, arm_file: Path, out: Path) -> int:
         f"results go to {out}/."
     )
     with claimed(out), domain_for_demo() as domain:
-        finished = run_nodes(trajectory_file, arm_file, out, domain, len(times))
+        with viewed(arm_file, out, domain) if view else nullcontext():
+            finished = run_nodes(trajectory_file, arm_file, out, domain, len(times))
         if not finished:
             print(f"demo: not every pose became a cable state; see {out}/nodes.log", file=sys.stderr)
         words = ["report", out / "recording", "--arm", arm_file, "--out", out, "--expected", len(times)]
         status = continuum([str(word) for word in words])
+    if view:
+        print(f"to see it again: continuum view {out}/recording --arm {os.path.relpath(arm_file)}")
     return 0 if finished and status == 0 else 1

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tools.demo.errors import DemoError
 
-RESULTS = ("recording", "nodes.log", "cable_states.csv", "cables.png")
+RESULTS = ("recording", "nodes.log", "viewer.log", "cable_states.csv", "cables.png")
 
 
 @contextmanager

@@ -12,6 +12,7 @@ from continuum.cli.progress import told
 from tools.prototype.account import account
 from tools.prototype.page import page
 from tools.prototype.picture import draw
+from tools.small_png import shrink
 
 
 def main() -> None:
@@ -24,8 +25,10 @@ def main() -> None:
     options = parser.parse_args()
     with told() as tell:
         found = account(tell, options.processes, options.seed)
-    (options.out / "pictures").mkdir(parents=True, exist_ok=True)
-    draw(found, options.out / "pictures" / "prototype.png")
+    picture = options.out / "pictures" / "prototype.png"
+    picture.parent.mkdir(parents=True, exist_ok=True)
+    draw(found, picture)
+    shrink(picture)
     (options.out / "prototype.md").write_text(page(found), encoding="utf-8")
     print(f"{found.verdict['verdict'].upper()}\n\n{found.words}\n\nwritten: {options.out / 'prototype.md'}")
 

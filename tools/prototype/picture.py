@@ -18,9 +18,9 @@ def draw(told: Account, path: Path) -> None:
     panels = figure.subplots(1, told.recording.n_joints, sharex=True)
     lines = [
         ("measured", told.recording.theta, _MEASURED, 3.0),
-        ("the thesis's parameters", min(told.thesis, key=lambda one: one.position).theta, _THESIS, 1.2),
-        ("refitted", min(told.refitted, key=lambda one: one.position).theta, _REFITTED, 1.2),
-        ("extended", told.extended.theta if told.extended else None, _EXTENDED, 1.2),
+        ("simulated: the thesis's parameters", min(told.thesis, key=lambda one: one.position).theta, _THESIS, 1.2),
+        ("the same parameters, refitted", min(told.refitted, key=lambda one: one.position).theta, _REFITTED, 1.2),
+        ("with what the discovery adds", told.extended.theta if told.extended else None, _EXTENDED, 1.2),
     ]
     for joint, panel in enumerate(panels):
         for name, theta, color, width in lines:

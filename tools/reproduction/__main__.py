@@ -14,6 +14,7 @@ from tools.reproduction.bend import bend_by_one_cable
 from tools.reproduction.figures import draw_bend, draw_release
 from tools.reproduction.page import page
 from tools.reproduction.release import over_all, prototype, reproduce_release
+from tools.small_png import shrink
 
 NOT_PRINTED = tuple(("center_of_mass", 1e-3 * mm) for mm in (13.5, 25.0)) + tuple(
     ("friction_slope", slope) for slope in (100.0, 1000.0)
@@ -33,9 +34,12 @@ def main() -> None:
     release, bend = reproduce_release(prototype()), bend_by_one_cable()
     otherwise = {change: reproduce_release(prototype(**dict([change]))) for change in NOT_PRINTED}
     as_released = bend_by_one_cable(float(np.abs(release.published.theta[0]).sum()))
-    (folder / "pictures").mkdir(parents=True, exist_ok=True)
-    draw_release(release, folder / "pictures" / "reproduction_release.png")
-    draw_bend(bend, folder / "pictures" / "reproduction_bend.png")
+    pictures = folder / "pictures"
+    pictures.mkdir(parents=True, exist_ok=True)
+    draw_release(release, pictures / "reproduction_release.png")
+    draw_bend(bend, pictures / "reproduction_bend.png")
+    for name in ("reproduction_release.png", "reproduction_bend.png"):
+        shrink(pictures / name)
     (folder / "reproduction.md").write_text(page(release, otherwise, bend, as_released), encoding="utf-8")
     for name, run in (("from rest", release.from_rest), ("initial rates free", release.thrown)):
         each = release.distance(run)

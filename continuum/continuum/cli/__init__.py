@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 
-from continuum.cli import diagnose, import_dot, info, report, simulate, solve
+from continuum.cli import diagnose, import_dot, info, report, simulate, solve, view
 from continuum.cli.negative_numbers import written_out
 from continuum.errors import ContinuumError
 
@@ -14,6 +14,7 @@ _NEXT_STEPS = """\
 what you can do next:
   continuum info ARM.yaml                      lengths, cables and bend limits of an arm
   continuum solve ARM.yaml 0.15 0 0.20         bring the tip to a point; bends and cable lengths of the answer
+  continuum view ARM.yaml                      move it in the browser; a recording is played
   continuum simulate --release 90 --picture X.png   let go of an arm that is bent by 90 degrees
   continuum import-dot 1.csv 2.csv 3.csv 4.csv 5.csv --out run_1.csv ..   joint angles of exported sensor data
   continuum diagnose run_1.csv run_2.csv       what the simulation gets wrong about recordings, and why
@@ -53,7 +54,7 @@ def _run(arguments: list[str]) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (info, solve, simulate, import_dot, diagnose, report):
+    for command in (info, solve, simulate, import_dot, diagnose, report, view):
         command.add_to(commands)
     options = parser.parse_args(written_out(arguments))
     try:

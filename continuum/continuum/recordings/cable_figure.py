@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+from continuum.cable_colours import cable_colour
 from continuum.recordings.arm_recording import ArmRecording
 from continuum.recordings.kinematic_report import central_differences
 
-_COLOURS = ("#1f4fd8", "#1a8f3c", "#d02020", "#202020", "#b07800", "#7a2fb0", "#0090a0", "#c04080")
 _STYLES = ("-", "--", ":", "-.")
 _DOTS = 60  # finite differences shown per cable; all of them would hide the lines
 
@@ -27,7 +27,7 @@ def write_cable_figure(recording: ArmRecording, path: str | Path) -> None:
     for i, section in enumerate(recording.arm.sections):
         for j in range(len(section.cable_azimuths)):
             line = {
-                "color": _COLOURS[j % len(_COLOURS)],
+                "color": cable_colour(j),
                 "linestyle": _STYLES[i % len(_STYLES)],
                 "label": f"section {i + 1}, cable {j + 1}",
             }

@@ -88,7 +88,7 @@ class CheckedNode(Node):
         specs = self.parameter_specs(given)
         refuse_unknown(given, specs, self.HAS_ARM)
         if self.HAS_ARM:
-            self.arm = declare_arm(self, given)
+            self.arm = declare_arm(self, given, self.default_arm())
         self.values: dict[str, Value] = declare_parameters(self, specs, given)
         self.finished = False
         self.diagnostics = Diagnostics(self)
@@ -104,6 +104,11 @@ class CheckedNode(Node):
     def parameter_specs(cls, given: Mapping[str, object]) -> tuple[ParameterSpec, ...]:  # noqa: ARG003
         """The node's own parameters; to be overridden where some depend on what is given."""
         return cls.PARAMETERS
+
+    @classmethod
+    def default_arm(cls) -> Arm | None:
+        """The arm where no parameter says one; to be overridden by nodes that can do without being told."""
+        return None
 
     @classmethod
     def all_parameter_specs(cls) -> tuple[ParameterSpec, ...]:

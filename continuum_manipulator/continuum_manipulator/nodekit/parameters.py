@@ -61,13 +61,15 @@ def declare_parameters(node: Node, specs: Iterable[ParameterSpec], given: Mappin
     return values
 
 
-def declare_arm(node: Node, given: Mapping[str, object]) -> Arm:
-    """Build the arm from the parameters ``arm.*`` and declare them, defaults included.
+def declare_arm(node: Node, given: Mapping[str, object], default: Arm | None = None) -> Arm:
+    """Build the arm from the parameters ``arm.*`` and declare them, defaults included; ``default`` if there are none.
 
     Raises:
         InvalidValueError: no arm is given, or one of its parameters is missing, unknown or out of range.
     """
     block = _nested({name: value for name, value in given.items() if _is_of_arm(name)}).get("arm")
+    if block is None and default is not None:
+        block = arm_to_mapping(default)
     if not isinstance(block, Mapping):
         raise InvalidValueError(
             "arm", block, "a block arm.sections, arm.<section>.n_joints, ..., as in a file given by --params-file"

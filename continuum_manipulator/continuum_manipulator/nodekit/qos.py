@@ -14,6 +14,14 @@ STREAM = QoSProfile(
 
 The depth bridges a stall of some ten seconds of a reader that hears three writers of 120 Hz."""
 
+NEWEST = QoSProfile(
+    reliability=QoSReliabilityPolicy.BEST_EFFORT,
+    durability=QoSDurabilityPolicy.VOLATILE,
+    history=QoSHistoryPolicy.KEEP_LAST,
+    depth=1,
+)
+"""For who only looks: no writer keeps or sends anything twice for its sake."""
+
 REPORT = QoSProfile(
     reliability=QoSReliabilityPolicy.RELIABLE,
     durability=QoSDurabilityPolicy.VOLATILE,

@@ -5,10 +5,10 @@ import pytest
 from harness import ARM_FILE
 
 from continuum.arm import load_arm
+from continuum.kinematics.cable_lines import cable_lines, curvature_arrows
 from continuum.kinematics.chain import section_tip_poses
 from continuum.kinematics.configuration import arc_length, bend, curvature
 from continuum.kinematics.routing import tangle
-from continuum_manipulator.cable_lines import cable_lines, curvature_arrows
 
 ARM = load_arm(ARM_FILE)
 POSTURES = [np.zeros((3, 2)), np.random.default_rng(1).uniform(-1.5, 1.5, (3, 2))]

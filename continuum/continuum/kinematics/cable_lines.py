@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from continuum.arm import Arm
+from continuum.arm import Arm, Section
 from continuum.arrays import Array
 from continuum.kinematics.cables.hole_points import hole_points
 from continuum.kinematics.chain import section_base_rotations, section_tip_poses
@@ -58,16 +58,20 @@ def curvature_arrows(w: Array, arm: Arm, metres_per_radian: float, longest_radiu
     rotations, origins = _section_bases(w, arm)
     arrows: list[Array | None] = []
     for i, section in enumerate(arm.sections):
-        theta = bend(w[i])
-        kappa = curvature(theta, section)
-        if kappa * longest_radius <= 1.0:
-            arrows.append(None)
-            continue
-        u, v = w[i]
-        centre = np.array([v, -u, 0.0]) / (theta * kappa)
-        tip = centre + metres_per_radian * np.array([u, v, 0.0])
-        arrows.append(np.stack([centre, tip]) @ rotations[i].T + origins[i])
+        arrow = section_arrow(w[i], section, metres_per_radian, longest_radius)
+        arrows.append(None if arrow is None else arrow @ rotations[i].T + origins[i])
     return arrows
+
+
+def section_arrow(w: Array, section: Section, metres_per_radian: float, longest_radius: float) -> Array | None:
+    """The arrow of one section at ``w`` (2,) [rad] in its own base frame, (2, 3) [m]; else as `curvature_arrows`."""
+    theta = bend(w)
+    kappa = curvature(theta, section)
+    if kappa * longest_radius <= 1.0:
+        return None
+    u, v = w
+    centre = np.array([v, -u, 0.0]) / (theta * kappa)
+    return np.stack([centre, centre + metres_per_radian * np.array([u, v, 0.0])])
 
 
 def _section_bases(w: Array, arm: Arm) -> tuple[Array, Array]:

@@ -1,0 +1,67 @@
+"""`continuum view`: an arm in the browser, moved by sliders, by a target that is dragged, or by a recording."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from continuum.arm import Arm, load_arm
+
+if TYPE_CHECKING:
+    from continuum.viewer.seen import Source
+
+
+def add_to(commands: Any) -> None:
+    """Add this subcommand to the parser's."""
+    parser = commands.add_parser(
+        "view", help="see an arm or a recording in the browser", description=__doc__,
+        epilog="What nodes do is shown by: ros2 run continuum_manipulator viewer",
+    )  # fmt: skip
+    parser.add_argument(
+        "what", metavar="ARM.yaml|RECORDING", nargs="?",
+        help="arm to move; or what to play: the folder of a rosbag2 recording, or a CSV table of joint angles",
+    )  # fmt: skip
+    parser.add_argument(
+        "--arm", metavar="ARM.yaml", help="arm of the recording; default: modules of the prototype, as many as it has"
+    )
+    parser.add_argument("--host", default="127.0.0.1", help="address to serve on; default %(default)s, this host alone")
+    parser.add_argument("--port", type=int, default=8080, help="0 for any that is free; default %(default)s")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Serve the page until Ctrl-C."""
+    # Here, so that the other commands need neither viser nor the time to load it.
+    from continuum.viewer.page import Page
+
+    arm, source = _shown(options)
+    stop = threading.Event()
+    page = Page(arm, source, options.host, options.port)
+    signal.signal(signal.SIGTERM, lambda *_: stop.set())
+    print(f"open {page.address} in a browser; Ctrl-C ends it", flush=True)
+    try:
+        page.run(stop)
+    except KeyboardInterrupt:
+        print()
+    finally:
+        page.close()
+    return 0
+
+
+def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
+    from continuum.viewer.hands import Hands
+    from continuum.viewer.playback import Playback
+    from continuum.viewer.tracks import read_tracks
+    from continuum.viewer.usual_arm import arm_of_joints, usual_arm
+
+    what = options.what
+    if what is None or Path(what).suffix in (".yaml", ".yml"):
+        file = options.arm if what is None else what
+        arm = usual_arm() if file is None else load_arm(file)
+        return arm, Hands(arm)
+    tracks = read_tracks(what)
+    arm = arm_of_joints(tracks.joints.names) if options.arm is None else load_arm(options.arm)
+    return arm, Playback(tracks, Path(what).name)

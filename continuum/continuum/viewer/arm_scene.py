@@ -1,0 +1,172 @@
+"""One arm in the scene: links, cables and the sections' rotation vectors, sent anew only where they moved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+from yourdfpy import URDF
+
+from continuum.arm import Arm
+from continuum.arrays import Array
+from continuum.kinematics.cable_lines import section_arrow
+from continuum.viewer.cable_holes import CableHoles
+from continuum.viewer.link_poses import LinkPoses
+from continuum.viewer.link_shapes import link_shapes
+from continuum.viewer.screen_colours import linear_light
+from continuum.viewer.section_angles import configuration_of_joints
+
+_ARROW_COLOUR = (150, 0, 200)
+_GHOST_COLOUR = (70, 130, 200)
+_GHOST_OPACITY = 0.3
+_CABLE = 0.09
+"""Thickness of a cable's line, of the radius of the first section's holes; half of it where it only passes."""
+
+_ARROW_LENGTH = 0.25
+"""Length of a rotation vector for a bend of 1 rad, of the arm's length."""
+
+_STRAIGHT = 10.0
+"""Radius of curvature, in lengths of the arm, beyond which a section counts as straight."""
+
+
+class ArmLinks:
+    """The links of an arm in the scene.
+
+    Args:
+        server: of the page.
+        name: of its nodes in the scene.
+        description: of the arm.
+        ghost: translucent, in one colour.
+
+    Attributes:
+        chain: poses its links.
+        poses: of the links as they were shown last, (n_links, 4, 4) [m].
+    """
+
+    def __init__(self, server: viser.ViserServer, name: str, description: URDF, ghost: bool = False) -> None:
+        self.chain = LinkPoses(description)
+        self._angles = np.zeros(len(self.chain.joints))
+        self.poses = self.chain.poses(self._angles)
+        self._frame = server.scene.add_frame(name, show_axes=False)
+        shapes = link_shapes(description, self.chain.links)
+        turns, places = self._placed()
+        self._meshes = [
+            (
+                shape.links,
+                server.scene.add_batched_meshes_simple(
+                    f"{name}/shape_{i}",
+                    shape.vertices,
+                    shape.faces,
+                    batched_wxyzs=turns[shape.links],
+                    batched_positions=places[shape.links],
+                    batched_colors=_GHOST_COLOUR if ghost else linear_light(shape.colours),
+                    opacity=_GHOST_OPACITY if ghost else None,
+                    flat_shading=True,
+                    lod="off",
+                    cast_shadow=False,
+                    receive_shadow=False,
+                ),
+            )
+            for i, shape in enumerate(shapes)
+        ]
+
+    @property
+    def visible(self) -> bool:
+        return self._frame.visible
+
+    @visible.setter
+    def visible(self, visible: bool) -> None:
+        self._frame.visible = visible
+
+    def show(self, joints: Mapping[str, float]) -> bool:
+        """Put the links where the angles [rad] of the named joints say; False where that is where they are."""
+        angles = self.chain.angles(joints)
+        if np.array_equal(angles, self._angles):
+            return False
+        self._angles = angles
+        self.poses = self.chain.poses(angles)
+        turns, places = self._placed()
+        for links, mesh in self._meshes:
+            mesh.batched_wxyzs = turns[links]
+            mesh.batched_positions = places[links]
+        return True
+
+    def _placed(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Quaternions (n_links, 4), real part first, and positions (n_links, 3) [m]."""
+        turns = Rotation.from_matrix(self.poses[:, :3, :3]).as_quat(scalar_first=True)
+        return turns.astype(np.float32), self.poses[:, :3, 3].astype(np.float32)
+
+
+class ArmScene:
+    """An arm with its cables and rotation vectors.
+
+    Args:
+        server: of the page.
+        arm: the arm.
+        description: of the arm.
+
+    Attributes:
+        links: its links.
+    """
+
+    def __init__(self, server: viser.ViserServer, arm: Arm, description: URDF) -> None:
+        self._arm = arm
+        self.links = ArmLinks(server, "/arm", description)
+        names = self.links.chain.links
+        self._bases = [names.index(section.base_frame) for section in arm.sections]
+        self._tip = names.index(arm.sections[-1].tip_frame)
+        self._cables = []
+        for kind, thickness in (("own", _CABLE), ("passing", 0.5 * _CABLE)):
+            holes = CableHoles(arm, names, passing=kind == "passing")
+            if len(holes.colours):
+                lines = server.scene.add_line_segments(
+                    f"/cables/{kind}", holes.pieces(self.links.poses), linear_light(holes.colours),
+                    thickness=thickness * arm.sections[0].a,
+                )  # fmt: skip
+                self._cables.append((holes, lines))
+        radius = 0.004 * arm.length
+        self._arrows = server.scene.add_arrows(
+            "/rotation_vectors", np.zeros((arm.n_sections, 2, 3)), _ARROW_COLOUR,
+            shaft_radius=radius, head_radius=2.5 * radius, head_length=6 * radius, visible=False,
+        )  # fmt: skip
+
+    def cable_lengths(self) -> dict[str, float]:
+        """Lengths [m] of the cables as they are shown, by name."""
+        lengths = dict.fromkeys(self._arm.cable_names, 0.0)
+        for holes, lines in self._cables:
+            ends = lines.points.astype(float)
+            pieces = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+            for name, length in zip(holes.cables.tolist(), pieces.tolist(), strict=True):
+                lengths[name] += length
+        return lengths
+
+    @property
+    def tip(self) -> Array:
+        """Where the tip is shown, (3,) [m]."""
+        tip: Array = self.links.poses[self._tip, :3, 3]
+        return tip
+
+    def show(self, joints: Mapping[str, float]) -> bool:
+        """Move everything to the angles [rad] of the named joints; False where nothing moved."""
+        if not self.links.show(joints):
+            return False
+        for holes, lines in self._cables:
+            lines.points = holes.pieces(self.links.poses).astype(np.float32)
+        arrows = self._rotation_vectors(joints)
+        if arrows:
+            self._arrows.points = np.array(arrows, dtype=np.float32)
+        self._arrows.visible = bool(arrows)
+        return True
+
+    def _rotation_vectors(self, joints: Mapping[str, float]) -> list[Array]:
+        w = configuration_of_joints(joints, self._arm)
+        arrows = []
+        for i, section in enumerate(self._arm.sections):
+            arrow = section_arrow(w[i], section, _ARROW_LENGTH * self._arm.length, _STRAIGHT * self._arm.length)
+            if arrow is not None:
+                base = self.links.poses[self._bases[i]]
+                arrows.append(arrow @ base[:3, :3].T + base[:3, 3])
+        return arrows

@@ -1,0 +1,38 @@
+"""Where things stand on the page: the scene, what moves the arm on its right, what is measured on its left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import viser
+
+_WIDTH = 300
+"""Of the panel on the left [pixels]."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A served page.
+
+    Attributes:
+        server: of the page.
+        move: what moves the arm.
+        cables: plots.
+        status: statuses.
+    """
+
+    server: viser.ViserServer
+    move: viser.GuiFolderHandle
+    cables: viser.GuiTabHandle
+    status: viser.GuiTabHandle
+
+
+def layout_of(server: viser.ViserServer) -> Layout:
+    """Make the panels."""
+    server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="medium")
+    server.gui.set_panel_label("continuum")
+    panel = server.gui.add_panel()
+    cables, status = panel.add_tab("Cables"), panel.add_tab("Status")
+    panel.dock_left()
+    panel.set_width(_WIDTH)
+    return Layout(server, server.gui.add_folder("Arm"), cables, status)

@@ -1,0 +1,94 @@
+"""Where an arm's links are: the chain of its description, posed by the angles of joints that are named."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+from yourdfpy import URDF, Joint
+
+from continuum.arrays import Array
+from continuum.errors import InvalidValueError
+
+
+class LinkPoses:
+    """Forward kinematics of a description whose joints turn or are fixed.
+
+    A joint that mimics another follows it unless it has an angle of its own: five bending joints, say, may differ.
+
+    Args:
+        description: of the arm.
+
+    Attributes:
+        links: names of the links, each after its parent.
+        joints: names of the joints that turn.
+
+    Raises:
+        InvalidValueError: a joint of another type.
+    """
+
+    def __init__(self, description: URDF) -> None:
+        order = _parents_first(description)
+        self.links = [root_link(description), *(joint.child for joint in order)]
+        self.joints = [joint.name for joint in order if joint.type != "fixed"]
+        for joint in order:
+            if joint.type not in ("fixed", "revolute", "continuous"):
+                raise InvalidValueError(f"type of joint {joint.name}", joint.type, "fixed, revolute or continuous")
+        number = {link: i for i, link in enumerate(self.links)}
+        turning = {name: i for i, name in enumerate(self.joints)}
+        self._parents = [number[joint.parent] for joint in order]
+        self._origins = np.array([np.eye(4) if joint.origin is None else joint.origin for joint in order])
+        self._turns = np.flatnonzero([joint.type != "fixed" for joint in order])
+        self._axes = np.array([joint.axis for joint in order if joint.type != "fixed"]).reshape(-1, 3)
+        self._followers = [
+            (turning[joint.name], turning[joint.mimic.joint], joint.mimic.multiplier or 1.0, joint.mimic.offset or 0.0)
+            for joint in order
+            if joint.mimic is not None
+        ]
+
+    def angles(self, named: Mapping[str, float]) -> Array:
+        """Angles (n_joints,) [rad] of all joints; of those that nobody names and that follow none, 0."""
+        angles = np.array([named.get(name, np.nan) for name in self.joints])
+        for joint, leader, multiplier, offset in self._followers:
+            if np.isnan(angles[joint]):
+                angles[joint] = multiplier * np.nan_to_num(angles[leader]) + offset
+        known: Array = np.nan_to_num(angles)
+        return known
+
+    def poses(self, angles: Array) -> Array:
+        """Poses (n_links, 4, 4) [m] in the base link at ``angles`` (n_joints,) [rad]."""
+        steps = self._origins.copy()
+        turns = Rotation.from_rotvec(angles[:, None] * self._axes).as_matrix()
+        steps[self._turns, :3, :3] = steps[self._turns, :3, :3] @ turns
+        poses = np.empty((len(self.links), 4, 4))
+        poses[0] = np.eye(4)
+        for i, (parent, step) in enumerate(zip(self._parents, steps, strict=True), start=1):
+            np.matmul(poses[parent], step, out=poses[i])
+        return poses
+
+
+def root_link(description: URDF) -> str:
+    """Name of the link that no joint carries.
+
+    Raises:
+        InvalidValueError: there is none, or more than one.
+    """
+    carried = {joint.child for joint in description.robot.joints}
+    roots = [link.name for link in description.robot.links if link.name not in carried]
+    if len(roots) != 1:
+        raise InvalidValueError("links that no joint carries", roots, "one")
+    return str(roots[0])
+
+
+def _parents_first(description: URDF) -> list[Joint]:
+    """The joints, each after the one that carries its parent link."""
+    waiting, known, order = list(description.robot.joints), {root_link(description)}, []
+    while waiting:
+        ready = [joint for joint in waiting if joint.parent in known]
+        if not ready:
+            raise InvalidValueError("joints of the description", [joint.name for joint in waiting], "one tree")
+        order += ready
+        known |= {joint.child for joint in ready}
+        waiting = [joint for joint in waiting if joint.child not in known]
+    return order

@@ -1,0 +1,110 @@
+"""Controls of a posture: phi and theta of each section, and a target to drag that the tip follows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import viser
+
+from continuum.arm import Arm
+from continuum.arrays import Array
+from continuum.kinematics.chain import arm_pose
+from continuum.kinematics.configuration import allen_from_jones, jones_from_allen
+from continuum.kinematics.ik_result import IkResult, IkStatus
+from continuum.kinematics.ik_target import Target
+from continuum.kinematics.inverse_kinematics import InverseKinematics
+from continuum.viewer.layout import Layout
+
+_WORDS = {
+    IkStatus.SOLVED: "reached",
+    IkStatus.LIMIT_REACHED: "a bend limit keeps the tip away",
+    IkStatus.UNREACHABLE: "out of reach",
+    IkStatus.NO_CONVERGENCE: "not found",
+}
+_MOVED = 1e-7
+"""A target or slider that moved by less did not move [m, deg]."""
+
+
+@dataclass(frozen=True)
+class _Sliders:
+    phi: viser.GuiSliderHandle[float]
+    theta: viser.GuiSliderHandle[float]
+
+
+class PostureControls:
+    """Sliders and a target, looked at once for each frame: whichever was moved last leads, the other follows.
+
+    Args:
+        layout: of the page.
+        arm: the arm.
+
+    Attributes:
+        w: the posture wanted (n_sections, 2) [rad].
+        target: where the tip was dragged to (3,) [m].
+    """
+
+    def __init__(self, layout: Layout, arm: Arm) -> None:
+        self._arm = arm
+        self._solver = InverseKinematics(arm, objective="near_start")
+        self.w = np.zeros((arm.n_sections, 2))
+        self.target = arm_pose(self.w, arm)[:3, 3]
+        gui = layout.server.gui
+        with layout.move:
+            self._sliders = []
+            for section in arm.sections:
+                with gui.add_folder(section.name.replace("_", " ")):
+                    limit = math.degrees(section.bend_limit)
+                    theta = gui.add_slider("theta [deg]", 0.0, limit, 0.1, 0.0, hint="bend of the section")
+                    phi = gui.add_slider("phi [deg]", -180.0, 180.0, 0.1, 0.0, hint="towards which it bends")
+                    self._sliders.append(_Sliders(phi, theta))
+            self._answer = gui.add_markdown("Drag the target, or move a slider.")
+        self._gizmo = layout.server.scene.add_transform_controls(
+            "/target", scale=0.14 * arm.length, disable_rotations=True, depth_test=False, position=self.target
+        )
+        self._set = self._read()
+
+    def follow(self) -> bool:
+        """Take in what the user moved; True if anything was."""
+        place, angles = np.array(self._gizmo.position, dtype=float), self._read()
+        if np.abs(place - self.target).max() > _MOVED:
+            self.target = place
+            result = self._solver.solve(Target(place), start=self.w)
+            self.w = result.configuration
+            self._write()
+            self._say(result)
+            return True
+        if np.abs(angles - self._set).max() > _MOVED:
+            self._set = angles
+            self.w = allen_from_jones(*np.radians(angles).T)
+            self._place(arm_pose(self.w, self._arm)[:3, 3])
+            self._answer.content = "The target follows the sliders."
+            return True
+        return False
+
+    def show(self, w: Array) -> None:
+        """Let sliders and target follow ``w`` (n_sections, 2) [rad]: of an arm that somebody else moves."""
+        if np.abs(w - self.w).max() > _MOVED:
+            self.w = w
+            self._write()
+            self._place(arm_pose(w, self._arm)[:3, 3])
+
+    def _place(self, point: Array) -> None:
+        self.target = point
+        self._gizmo.position = point
+
+    def _read(self) -> Array:
+        """Phi and theta as the sliders show them, (n_sections, 2) [deg]."""
+        return np.array([[sliders.phi.value, sliders.theta.value] for sliders in self._sliders], dtype=float)
+
+    def _write(self) -> None:
+        for sliders, phi, theta in zip(self._sliders, *np.degrees(jones_from_allen(self.w)), strict=True):
+            sliders.phi.value = float(phi)
+            sliders.theta.value = float(np.clip(theta, sliders.theta.min, sliders.theta.max))
+        self._set = self._read()
+
+    def _say(self, result: IkResult) -> None:
+        self._answer.content = (
+            f"Target {_WORDS[result.status]}; the tip is {1e3 * result.distance:.3f} mm away from it."
+        )

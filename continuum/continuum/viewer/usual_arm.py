@@ -1,0 +1,33 @@
+"""The arm that is meant where no file names one: modules of the thesis's Table 1."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from continuum.arm import Arm, Section
+from continuum.errors import InvalidValueError
+from continuum.joint_names import theta_joints
+
+_B, _A = 0.01925, 0.032
+_MODULES = 5
+
+
+def usual_arm(n_sections: int = 3) -> Arm:
+    """Sections of five modules, each a twelfth of a turn on from the one before."""
+    twists = [0.0] + [math.pi / 6] * (n_sections - 1)
+    return Arm(tuple(Section(f"section_{i}", _MODULES, _B, _A, twist=twist) for i, twist in enumerate(twists, start=1)))
+
+
+def arm_of_joints(joints: Iterable[str]) -> Arm:
+    """Sections of such modules, without twist, that have the joints of these names.
+
+    Raises:
+        InvalidValueError: no joint is a section's first.
+    """
+    names, ending = list(joints), theta_joints("", 1)[0]
+    sections = [name.removesuffix(ending) for name in names if name.endswith(ending)]
+    if not sections:
+        raise InvalidValueError("joints", names, f"bending joints, with names that end with {ending} ..")
+    counts = [sum(name in names for name in theta_joints(section, len(names))) for section in sections]
+    return Arm(tuple(Section(section, n, _B, _A) for section, n in zip(sections, counts, strict=True)))

@@ -1,0 +1,95 @@
+"""The arm as the viewer draws it stands where the kinematics says, and its cables are as long as they are."""
+
+import numpy as np
+import pytest
+from harness import ARM_FILE
+from hypothesis import given
+from hypothesis import strategies as st
+
+from continuum.arm import load_arm
+from continuum.errors import InvalidValueError
+from continuum.kinematics.cable_lines import cable_lines
+from continuum.kinematics.chain import arm_pose, section_tip_poses
+from continuum.kinematics.routing import tangle
+from continuum.viewer.cable_holes import CableHoles
+from continuum.viewer.description import arm_description
+from continuum.viewer.link_poses import LinkPoses
+from continuum.viewer.link_shapes import link_shapes
+from continuum.viewer.section_angles import configuration_of_joints, joints_of
+from continuum.viewer.usual_arm import arm_of_joints, usual_arm
+
+EXACT = 1e-12
+
+
+def posture(n_sections, seed=0):
+    return np.random.default_rng(seed).uniform(-1.2, 1.2, (n_sections, 2))
+
+
+@pytest.mark.parametrize("n", [1, 3, 10])
+def test_links_stand_where_the_kinematics_says(n):
+    arm, w = usual_arm(n), posture(n)
+    chain = LinkPoses(arm_description(arm))
+    poses = chain.poses(chain.angles(joints_of(w, arm)))
+    tips = poses[[chain.links.index(section.tip_frame) for section in arm.sections]]
+    np.testing.assert_allclose(tips, section_tip_poses(w, arm), atol=EXACT)
+
+
+def test_a_joint_with_an_angle_of_its_own_follows_none():
+    """A real arm's joints are bent differently: in a plane, angles add up."""
+    arm = usual_arm(1)
+    (section,) = arm.sections
+    chain = LinkPoses(arm_description(arm))
+    bends = [0.1, 0.3, -0.2, 0.25, 0.05]
+    tip = chain.poses(chain.angles(dict(zip(section.theta_joints, bends, strict=True))))[-1]
+    turned = np.cumsum(bends)
+    way = section.b * (np.array([0.0, 1.0]) + 2 * np.array([np.sin(turned), np.cos(turned)]).T.sum(axis=0))
+    np.testing.assert_allclose(tip[[0, 2], 3], way - section.b * np.array([np.sin(turned[-1]), np.cos(turned[-1])]))
+    assert tip[1, 3] == pytest.approx(0.0, abs=EXACT)
+
+
+@pytest.mark.parametrize("n", [1, 3, 10])
+def test_cables_are_the_lines_of_the_markers(n):
+    arm, w = usual_arm(n), posture(n, seed=1)
+    chain = LinkPoses(arm_description(arm))
+    poses = chain.poses(chain.angles(joints_of(w, arm)))
+    lengths = dict.fromkeys(arm.cable_names, 0.0)
+    for passing in (False, True):
+        holes = CableHoles(arm, chain.links, passing)
+        pieces = holes.pieces(poses)
+        lines = [line for line in cable_lines(w, arm) if line.passing is passing]
+        wanted = [pair for line in lines for pair in zip(line.points, line.points[1:], strict=False)]
+        np.testing.assert_allclose(pieces, np.array(wanted).reshape(-1, 2, 3), atol=EXACT)
+        for name, piece in zip(holes.cables, pieces, strict=True):
+            lengths[name] += np.linalg.norm(piece[1] - piece[0])
+    np.testing.assert_allclose(list(lengths.values()), tangle(w, arm), rtol=EXACT)
+
+
+@pytest.mark.parametrize("n", [1, 3, 10])
+def test_equal_shapes_are_sent_once(n):
+    chain = LinkPoses(description := arm_description(usual_arm(n)))
+    shapes = link_shapes(description, chain.links)
+    assert len(shapes) == len(
+        link_shapes(arm_description(usual_arm(2)), LinkPoses(arm_description(usual_arm(2))).links)
+    )
+    seen = {chain.links[i] for shape in shapes for i in shape.links}
+    assert seen == set(chain.links) - {section.base_frame for section in usual_arm(n).sections}
+
+
+@given(st.lists(st.tuples(st.floats(-3.1, 3.1), st.floats(1e-6, 3.0)), min_size=1, max_size=10))
+def test_joints_and_configurations_are_two_ways_to_say_the_same(sections):
+    arm = usual_arm(len(sections))
+    w = np.array([[-theta * np.sin(phi), theta * np.cos(phi)] for phi, theta in sections])
+    np.testing.assert_allclose(configuration_of_joints(joints_of(w, arm), arm), w, atol=1e-9)
+
+
+def test_usual_arm_is_the_one_of_three_sections():
+    np.testing.assert_allclose(arm_pose(posture(3), usual_arm()), arm_pose(posture(3), load_arm(ARM_FILE)), atol=EXACT)
+    assert usual_arm().cable_names == load_arm(ARM_FILE).cable_names
+
+
+def test_an_arm_is_known_by_its_joints():
+    arm = usual_arm(2)
+    found = arm_of_joints(name for section in arm.sections for name in section.theta_joints)
+    assert [(s.name, s.n_joints) for s in found.sections] == [(s.name, s.n_joints) for s in arm.sections]
+    with pytest.raises(InvalidValueError, match="bending joints"):
+        arm_of_joints(["elbow"])

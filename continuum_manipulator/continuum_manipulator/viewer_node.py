@@ -1,0 +1,15 @@
+"""The executable ``viewer``."""
+
+import os
+
+from continuum_manipulator.nodekit.run import run
+
+GIVES_WAY = 10
+"""By so much the process is nicer than others: who only looks keeps nobody from working."""
+
+
+def main() -> int:
+    os.nice(GIVES_WAY)
+    # The inverse kinematics solves small systems: two BLAS threads only disturb others. Read when NumPy is imported.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    return run("continuum_manipulator.viewer:ViewerNode")

@@ -1,0 +1,1 @@
+"""What the viewer costs, and what it costs others."""

@@ -1,0 +1,67 @@
+"""The viewer as a process, somebody who looks, and the processor time that it takes."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from harness import NodeProcess, ended_in_any_case
+
+from tools.bench_viewer.moving_arm import MovingArm
+
+SETTLING = 5.0
+"""Time given to a viewer that has just started, and to who looks at it [s]."""
+
+
+@dataclass(frozen=True)
+class Load:
+    """Of one process over a time.
+
+    Attributes:
+        core: share of one core.
+        frames: a second [Hz].
+    """
+
+    core: float
+    frames: float
+
+
+@contextmanager
+def viewer(arm_file: Path, moving: MovingArm, domain: int, looked_at: bool = True) -> Iterator[NodeProcess]:
+    """A viewer on a free port; the arm moves on meanwhile."""
+    node = NodeProcess("continuum_manipulator", "viewer", domain, files=(arm_file,), parameters={"port": 0})
+    with ended_in_any_case(node):
+        moving.probe.wait_for_report("viewer")
+        address = moving.probe.report("viewer")["address"]
+        looker = subprocess.Popen([sys.executable, "-m", "tools.bench_viewer.looker", address]) if looked_at else None
+        try:
+            moving.run(SETTLING)
+            yield node
+        finally:
+            if looker is not None:
+                looker.kill()
+                looker.wait()
+            node.stop()
+
+
+def measured_load(node: NodeProcess, moving: MovingArm, duration: float) -> Load:
+    """Of the viewer while the arm moves for so long [s]."""
+    moving.probe.wait_for_report("viewer")
+    frames, used, begin = moving.probe.count("viewer", "frames"), _processor_time(node), time.monotonic()
+    moving.run(duration)
+    moving.probe.wait_for_report("viewer")
+    lasted = time.monotonic() - begin
+    used, frames = _processor_time(node) - used, moving.probe.count("viewer", "frames") - frames
+    return Load(used / lasted, frames / lasted)
+
+
+def _processor_time(node: NodeProcess) -> float:
+    """Since its start [s]."""
+    fields = Path(f"/proc/{node.process.pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")

@@ -1,0 +1,36 @@
+"""The viewer beside a demo that was asked for it; the demo goes on without it where it cannot start."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from tools.demo.nodes import launched
+
+PATIENCE = 30.0
+"""For so long its address is waited for [s]."""
+
+_ADDRESS = re.compile(r"open (http://\S+) in a browser")
+
+
+@contextmanager
+def viewed(arm_file: Path, out: Path, domain: int) -> Iterator[None]:
+    """A viewer on a free port of this host, until the end of the block; its address is printed."""
+    log_file = out / "viewer.log"
+    command = ["ros2", "run", "continuum_manipulator", "viewer", "--ros-args", "--params-file", str(arm_file.resolve())]
+    with (
+        log_file.open("w", encoding="utf-8") as log,
+        launched([*command, "-p", "port:=0"], domain, log.fileno()) as process,
+    ):
+        deadline, address = time.monotonic() + PATIENCE, None
+        while address is None and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.1)
+            address = _ADDRESS.search(log_file.read_text(encoding="utf-8", errors="replace"))
+        if address is None:
+            print(f"The viewer did not start, see {log_file}; the demo goes on without it.", flush=True)
+        else:
+            print(f"See it in a browser: {address[1]}", flush=True)
+        yield
