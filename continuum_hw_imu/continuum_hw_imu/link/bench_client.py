@@ -218,8 +218,8 @@ class BenchClient:
     def _note(self, frame: Frame, now: float) -> Heard | None:
         """Keep what a frame says; None where it is not to be handed on."""
         with self._news:
-            if isinstance(frame.message, Hello) and self.hello is not None and frame.message.boot != self.hello.boot:
-                self._forget()
+            if isinstance(frame.message, Hello) and self.hello is not None and frame.message != self.hello:
+                self._forget()  # another start, or other sensors, places or limits than it had told
             arrival = self.arrivals.take(frame.sequence)
             if arrival is Arrival.REPEATED:
                 return None
