@@ -198,6 +198,20 @@ def test_a_bench_that_begins_anew_unheard_is_asked_who_it_is_and_no_old_angle_is
     assert all(published.imus)
 
 
+@pytest.mark.parametrize("back", [0.1, 1.0, 1.9])
+def test_a_clock_that_is_set_back_loses_the_angles(back):
+    """Samples that seem to be earlier would be passed over, and the turn in them with them."""
+    published = Published()
+    published.measure(120)
+    bench = published.bench
+    published.joints.clear()
+    bench.now -= back
+    published.measure(1, link_rates=[0.5] * N)
+    bench.client.ask_who(1e9)
+    published.measure(round(60 * back) + 60, link_rates=[0.5] * N)  # never at rest
+    assert not published.joints
+
+
 def test_what_the_estimator_passes_over_is_withheld():
     published = Published()
     published.measure(60)
