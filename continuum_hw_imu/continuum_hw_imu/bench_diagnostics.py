@@ -123,7 +123,9 @@ class BenchDiagnostics:
         if client is None or watch is None or hello is None:
             return self._status(subject, [(STALE, NOT_CONFIGURED if client is None else "no bench")], {})
         missing, clipped = int(watch.missing[k]), int(watch.clipped[k])
-        at = next(i for i, sensor in enumerate(hello.sensors) if sensor.link == k + 1)
+        at = next((i for i, sensor in enumerate(hello.sensors) if sensor.link == k + 1), None)
+        if at is None:  # another bench has said who it is just now
+            return self._status(subject, [(STALE, "no bench")], {})
         status = client.conversation.status
         battery = status.batteries[at] if status is not None and at < len(status.batteries) else None
         rate = self._samples[k].rate(watch.samples - missing, time.monotonic())

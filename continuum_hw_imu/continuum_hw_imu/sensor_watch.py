@@ -18,7 +18,7 @@ from continuum_hw_imu.link.heard import Heard
 from continuum_hw_imu.protocol.device_time import MICROSECONDS
 from continuum_hw_imu.protocol.messages import Hello, ImuFrame
 
-KEPT = 20.0
+KEPT = 60.0
 """Samples of so many seconds are kept."""
 
 
@@ -51,6 +51,7 @@ class SensorWatch:
         self.heard = np.zeros(len(hello.sensors), dtype=bool)
         self.estimate: AngleEstimate | None = None
         self.steps = steps
+        self._zeroed: float | None = None  # the arm was straight and at rest then, by the samples' times [s]
         self._use(steps)
 
     def take(self, heard: Heard, frame: ImuFrame) -> ImuSample:
@@ -80,22 +81,34 @@ class SensorWatch:
         Raises:
             MeasurementError: the arm moved, or there are too few samples.
         """
-        self._step(CalibrationSteps.with_bias, rest_time)
+        self._step(CalibrationSteps.with_bias, self._latest(rest_time))
 
     def find_zero(self, rest_time: float) -> None:
         """As `find_bias`."""
-        self._step(CalibrationSteps.with_zero, rest_time)
+        rest = self._latest(rest_time)
+        self._step(CalibrationSteps.with_zero, rest)
+        self._zeroed = float(rest.times[-1])
 
     def find_axes(self) -> None:
-        """From all samples that are kept.
+        """From all samples since the zero was found.
+
+        To which side the arm turns first can only be told of a motion that is known from its beginning on: one that
+        was cut anywhere else may begin with the way back, and would turn the sign of all angles.
 
         Raises:
-            MeasurementError: the axes cannot be found from them.
+            MeasurementError: the axes cannot be found from them, or it is too long since the zero was found.
         """
-        self._step(CalibrationSteps.with_axis, KEPT)
+        kept = self._latest(KEPT)
+        begin = self._zeroed
+        if self.steps.bias is not None and (begin is None or begin < kept.times[0]):
+            raise MeasurementError(
+                f"the axes are found from the bend after ~/zero, which has to be less than {KEPT:g} s ago; "
+                "call it once more while the arm is straight, and then bend the arm"
+            )
+        self._step(CalibrationSteps.with_axis, kept if begin is None else kept.part(begin, kept.times[-1]))
 
-    def _step(self, step: Callable[[CalibrationSteps, ImuRecording], CalibrationSteps], duration: float) -> None:
-        steps = step(self.steps, self._latest(duration))
+    def _step(self, step: Callable[[CalibrationSteps, ImuRecording], CalibrationSteps], seen: ImuRecording) -> None:
+        steps = step(self.steps, seen)
         self._use(steps)
         self.steps = steps
 

@@ -92,6 +92,26 @@ def test_a_bench_that_lets_cables_go_for_ever_is_none():
     assert Published(hello=slow).streams.problem == "looped lets cables go in 60 s; allowed: up to 5 s"
 
 
+@pytest.mark.parametrize("word", ["command", "heartbeat"])
+def test_a_bench_that_pulls_on_for_long_without_a_word_is_none(word):
+    stubborn = replace(HELLO, limits=replace(HELLO.limits, **{f"{word}_timeout": 60.0}))
+    told = f"looped pulls on for 60 s without {word}s; allowed: up to 2 s"
+    assert Published(hello=stubborn).streams.problem == told
+
+
+def test_a_bench_that_tells_of_other_places_is_greeted_anew_whatever_its_boot():
+    """As firmware that names the sensors that it hears just now, or always the same number."""
+    published = Published()
+    published.measure(60)
+    published.joints.clear()
+    published.bench.say(replace(HELLO, sensors=HELLO.sensors[1:]))
+    assert "has sensors on the links 1, 2, 4, 5" in published.streams.problem
+    published.bench.say(replace(HELLO, sensors=tuple(reversed(HELLO.sensors))))
+    assert not published.streams.problem
+    published.measure(5)
+    assert not published.joints  # the arm has to rest anew, and readings are of other links now
+
+
 def test_a_missing_sensor_withholds_joint_states_and_its_own_data_alone():
     published = Published()
     published.measure(60)
@@ -176,6 +196,20 @@ def test_a_bench_that_begins_anew_unheard_is_asked_who_it_is_and_no_old_angle_is
     published.measure(5)
     assert not published.joints
     assert all(published.imus)
+
+
+@pytest.mark.parametrize("back", [0.1, 1.0, 1.9])
+def test_a_clock_that_is_set_back_loses_the_angles(back):
+    """Samples that seem to be earlier would be passed over, and the turn in them with them."""
+    published = Published()
+    published.measure(120)
+    bench = published.bench
+    published.joints.clear()
+    bench.now -= back
+    published.measure(1, link_rates=[0.5] * N)
+    bench.client.ask_who(1e9)
+    published.measure(round(60 * back) + 60, link_rates=[0.5] * N)  # never at rest
+    assert not published.joints
 
 
 def test_what_the_estimator_passes_over_is_withheld():

@@ -23,6 +23,7 @@ from continuum_hw_imu.protocol.messages import (
     Heartbeat,
     Hello,
     HelloRequest,
+    ImuFrame,
     LetGo,
     Message,
     Release,
@@ -218,13 +219,13 @@ class BenchClient:
     def _note(self, frame: Frame, now: float) -> Heard | None:
         """Keep what a frame says; None where it is not to be handed on."""
         with self._news:
-            if isinstance(frame.message, Hello) and self.hello is not None and frame.message.boot != self.hello.boot:
-                self._forget()
+            if isinstance(frame.message, Hello) and self.hello is not None and frame.message != self.hello:
+                self._forget()  # another start, or other sensors, places or limits than it had told
             arrival = self.arrivals.take(frame.sequence)
             if arrival is Arrival.REPEATED:
                 return None
             device_time = self._device_time.unwrapped(frame.time)
-            if device_time < self.conversation.newest - BEGAN_ANEW:  # it began anew, and its greeting was lost
+            if self._goes_back(frame.message, arrival, device_time):  # it began anew, and its greeting was lost
                 self._forget()
                 self._news.notify_all()
                 return None
@@ -239,6 +240,15 @@ class BenchClient:
                 return None
             host_time = self.clock.host_time(device_time)
             return Heard(frame.message, host_time, now, device_time, self.conversations)
+
+    def _goes_back(self, message: Message, arrival: Arrival, device_time: int) -> bool:
+        """Whether the device's clock does. Instants of sensors' frames never go back where their numbers go on."""
+        talk = self.conversation
+        back = device_time < talk.newest - BEGAN_ANEW
+        if isinstance(message, ImuFrame) and arrival is Arrival.NEW:
+            back = back or device_time < talk.measured
+            talk.measured = device_time
+        return back
 
     def _keep(self, message: Message) -> None:
         talk = self.conversation

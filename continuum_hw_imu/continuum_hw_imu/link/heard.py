@@ -36,12 +36,14 @@ class Conversation:
         hello: who it is; None until it said so.
         status: its latest.
         newest: device time of the newest frame, unwrapped [us].
+        measured: device time of the newest frame of the sensors [us].
         last: when the last good frame came, by `time.monotonic` [s].
     """
 
     hello: Hello | None = None
     status: Status | None = None
     newest: int = 0
+    measured: int = 0
     last: float = -math.inf
 
 
