@@ -19,6 +19,7 @@ setup(
         "console_scripts": [
             "bench_bridge = continuum_hw_imu.bench_bridge_node:main",
             "bench_emulator = continuum_hw_imu.emulator.command:main",
+            "bench_order = continuum_hw_imu.emulator.order_command:main",
         ],
     },
 )

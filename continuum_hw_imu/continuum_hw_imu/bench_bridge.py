@@ -20,7 +20,7 @@ from std_srvs.srv import Trigger
 from continuum.dynamics.model_file import load_model
 from continuum.errors import ContinuumError, InvalidValueError
 from continuum.inertial.calibration import save_calibration
-from continuum_hw_imu.bench_commander import ANSWER_TIME, BenchCommander
+from continuum_hw_imu.bench_commander import ANSWER_TIME, NO_HELLO, BenchCommander, BenchError
 from continuum_hw_imu.bench_diagnostics import BenchDiagnostics
 from continuum_hw_imu.bench_parameters import AUTOSTARTS, PARAMETERS, steps_from
 from continuum_hw_imu.bench_streams import BenchStreams
@@ -73,7 +73,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         section = str(self.values["section"])
         self._planar = PlanarArm(section, model)
         self._n_joints = model.n_joints
-        self._steps = steps_from(self.values["calibration"], model.n_joints)
+        self._steps = steps_from(self.values["calibration"], model.n_joints, self.values["keep_bias"])
         LifecycleNodeMixin.__init__(self)
         self._refuse_what_is_none()
         self._limits = tension_limits.limits_from(self.values)
@@ -129,11 +129,12 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         if client.link.is_open:
             client.wait_for(lambda: client.hello is not None, ANSWER_TIME)
         self._commander.misfit = self._streams.problem
-        problem = self._commander.line_problem()
+        problem = self._commander.line_problem() or ("" if client.hello else NO_HELLO)
         if problem:
             self._hang_up()
             self._refuse("configure", problem)
             return FAILED
+        self._commander.refused = ""
         hello, own = client.hello, self._limits
         most = min(hello.limits.max_tension, own.max_tension)
         self.get_logger().info(
@@ -190,6 +191,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._service_change_state.callback = change_if_possible
 
     def _refuse(self, transition: str, problem: str) -> None:
+        self._commander.refused = problem if transition == "configure" else ""
         self.diagnostics.warnings.note(f"cannot {transition}", problem)
 
     def _hang_up(self) -> None:
@@ -273,7 +275,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return f"found; the calibration is complete, and written to {file}"
 
     def _release(self) -> str:
-        _refuse_unless_done("release", self._commander.let_go())
+        _refuse_unless_done("the cables are not released", self._commander.let_go())
         return "all cables are slack"
 
     def _stop(self) -> str:
@@ -282,7 +284,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return "stopped, until ~/reset_stop; then the node has to be activated again"
 
     def _reset_stop(self) -> str:
-        _refuse_unless_done("reset of the stop", self._commander.reset_stop())
+        _refuse_unless_done("the stop holds on", self._commander.reset_stop())
         return "the stop is over; tension goes through after the node is activated"
 
     def close(self) -> None:
@@ -293,4 +295,4 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
 
 def _refuse_unless_done(what: str, problem: str) -> None:
     if problem:
-        raise InvalidValueError(what, problem, "only with a bench that carries it out")
+        raise BenchError(f"{what}: {problem}")

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 
 from continuum.dynamics.live.tension_follower import TensionLimits
+from continuum.errors import ContinuumError
 from continuum_hw_imu.link.bench_client import BenchClient
 from continuum_hw_imu.protocol.messages import GuardState, Result
 from continuum_hw_imu.tension_gate import TensionGate
@@ -24,6 +25,10 @@ NO_HELLO = "the port is open, but no bench says who it is"
 STOPPED = "stopped, until ~/reset_stop"
 
 
+class BenchError(ContinuumError):
+    """A bench did not do what it was asked."""
+
+
 class BenchCommander:
     """Without a client, until the port is opened.
 
@@ -36,6 +41,7 @@ class BenchCommander:
         gate: what goes through.
         client: the line to the bench, while it is kept up.
         misfit: why the bench at the other end is not the right one; empty where it is.
+        refused: why the port was not kept at the last attempt; empty where it was.
     """
 
     def __init__(self, limits: TensionLimits, n_cables: int, clock: Callable[[], float] = time.monotonic) -> None:
@@ -43,6 +49,7 @@ class BenchCommander:
         self.gate = TensionGate(limits, n_cables)
         self.client: BenchClient | None = None
         self.misfit = ""
+        self.refused = ""
 
     def line_problem(self) -> str:
         """What is wrong with the line; empty where frames come from a bench that fits."""

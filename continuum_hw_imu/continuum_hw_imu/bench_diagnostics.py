@@ -64,7 +64,9 @@ class BenchDiagnostics:
     def _link(self) -> DiagnosticStatus:
         client = self._commander.client
         if client is None:
-            return self._status("link", [(STALE, NOT_CONFIGURED)], {"port": self._port})
+            refused = self._commander.refused
+            why = (ERROR, refused) if refused else (STALE, NOT_CONFIGURED)
+            return self._status("link", [why], {"port": self._port})
         latency, now = self._streams.latency, time.monotonic()
         talk = client.conversation  # the reading thread may begin another at any time
         damage = {f"damaged: {kind}": count for kind, count in client.decoder.errors.copy().items()}
@@ -110,6 +112,7 @@ class BenchDiagnostics:
             complaints.append((WARN, f"samples come up to {1e3 * oldest:.0f} ms late"))
         if abs(clock.drift) > MOST_DRIFT:
             complaints.append((WARN, f"drifts by {1e6 * clock.drift:.0f} ppm; a quartz drifts less"))
+        complaints += self._unheard()
         values = {
             "drift [ppm]": f"{1e6 * clock.drift:.1f}",
             "age of the newest sample [ms]": f"{1e3 * age:.2f}",
@@ -159,6 +162,7 @@ class BenchDiagnostics:
             complaints.append((ERROR, "no samples"))
         elif not estimate.good.all():
             complaints.append((ERROR, "; ".join(dict.fromkeys(filter(None, estimate.why_not)))))
+        complaints += self._unheard()
         values: dict[str, object] = {"samples withheld": streams.withheld}
         if estimate is not None:
             values["error of the worst joint, as reckoned [deg]"] = f"{np.degrees(estimate.errors.max()):.2f}"
@@ -179,7 +183,7 @@ class BenchDiagnostics:
         refused = {
             f"answers: {result.name.lower()}": n for result, n in client.results.counts.copy().items() if result.value
         }
-        complaints += self._grown("tension", refused)
+        complaints += [*self._grown("tension", refused), *self._unheard()]
         values: dict[str, object] = {
             "node": "lets commands through" if self._commander.gate.is_open else "lets nothing through",
             "bench": status.state.name.lower(),
@@ -192,6 +196,10 @@ class BenchDiagnostics:
             values["set points [N]"] = ", ".join(f"{tension:.2f}" for tension in frame.set_points)
             values["measured [N]"] = ", ".join("?" if t is None else f"{t:.2f}" for t in frame.measured)
         return self._status("tension", complaints, values, status.state.name.lower().replace("_", " "))
+
+    def _unheard(self) -> list[Complaint]:
+        """What was heard last says nothing of now while the line is down."""
+        return [(STALE, f"as last heard: {problem}")] if (problem := self._commander.line_problem()) else []
 
     def _grown(self, subject: str, counts: dict[str, int]) -> Iterable[Complaint]:
         """A warning for each count that grew lately."""

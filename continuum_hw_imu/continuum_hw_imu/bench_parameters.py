@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from continuum.errors import InvalidValueError
@@ -25,6 +26,8 @@ PARAMETERS = (
                   default="section_1"),
     ParameterSpec("calibration", str, "file of the sensors' calibration, read at the start if it is there, and "
                   "written when a calibration is complete; none without", default=""),
+    ParameterSpec("keep_bias", bool, "take the file's bias as it is: for a node that begins again within minutes",
+                  default=False),
     ParameterSpec("rest_time", float, "time at rest that bias and zero are taken from", "s", 1.0, 15.0,
                   default=3.0),
     ParameterSpec("rate_noise", float, "noise of the angular rates, standard deviation", "rad/s", 0.0, 1.0,
@@ -36,16 +39,24 @@ PARAMETERS = (
 )  # fmt: skip
 
 
-def steps_from(file: str, n_joints: int) -> CalibrationSteps:
+def steps_from(file: str, n_joints: int, keep_bias: bool = False) -> CalibrationSteps:
     """What a calibration file says of the sensors of an arm; nothing where there is no file yet, or no name.
 
+    Axes and zero last as long as the sensors sit where they are. The bias is another one every day, and 0.1 degrees/s
+    of it would be 2 degrees in a release, told as good.
+
     Raises:
-        ContinuumError: it cannot be read, or is of another arm.
+        ContinuumError: it cannot be read, is of another arm, or there is no folder to write it to.
     """
-    if not file or not Path(file).exists():
+    if not file:
+        return CalibrationSteps()
+    if not Path(file).exists():
+        if not Path(file).absolute().parent.is_dir():
+            raise InvalidValueError("calibration", file, "a file in a folder that exists")
         return CalibrationSteps()
     calibration = load_calibration(file)
     if calibration.n_sensors != n_joints:
         allowed = f"{n_joints}, one for each joint of the model"
         raise InvalidValueError(f"number of sensors in {file}", calibration.n_sensors, allowed)
-    return CalibrationSteps.of(calibration)
+    steps = CalibrationSteps.of(calibration)
+    return steps if keep_bias else replace(steps, bias=None)

@@ -1,11 +1,14 @@
 """The node at an emulated bench while things go wrong: it says so, tells no wrong angle, and lets the cables go."""
 
 import signal
+import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
+from ament_index_python.packages import get_package_prefix
 from emulated_bench import CABLES, Bridge, Ears, bridge_at, emulated_bench
-from harness import Probe
+from harness import NodeProcess, Probe, ended_in_any_case
 from test_bench_bridge_node import angles_beside_truth
 
 from continuum_hw_imu.bench_bridge import AUTOSTART_PERIOD
@@ -62,7 +65,7 @@ def calibration(domain, ears, bench):
 def pulling(domain, ears, probe, bench, calibration):
     """A calibrated bridge, active, that pulls one cable by 8 N."""
     probe.wait_until(lambda: not bench.status["open"], "the port is free")
-    with bridge_at(ears, bench, domain, calibration=calibration, autostart="activate") as bridge:
+    with bridge_at(ears, bench, domain, calibration=calibration, keep_bias=True, autostart="activate") as bridge:
         bridge.wait_for_state("active")
         probe.wait_until(lambda: len(bridge.joints) > 5, lambda: f"joint states; {bridge.told('angles')}")
         pull(bridge)
@@ -110,6 +113,8 @@ def test_unplugging_ends_tension_and_streaming_resumes(pulling):
     pulling.wait_for_state("inactive")
     pulling.wait_for_level("link", "ERROR", "is not there")
     assert slack_time_after(bench, instant) <= LIMITS.slack_time + BUSY
+    for subject in ("angles", "clock", "tension"):
+        pulling.wait_for_level(subject, "STALE", "as last heard: ")
     answer = pulling.call("zero")
     assert not answer.success
     assert "is not there" in answer.message
@@ -212,10 +217,11 @@ def test_a_stop_at_the_bench_stops_the_node(pulling, domain, ears):
 def test_what_was_stopped_becomes_active_by_a_persons_word_alone(domain, ears, probe, bench, calibration):
     """Even a node that had yet to begin by itself when it was stopped."""
     probe.wait_until(lambda: not bench.status["open"], "the port is free")
-    bench.tell("unplug for=3")
-    with bridge_at(ears, bench, domain, calibration=calibration, autostart="activate") as bridge:
+    bench.tell("unplug for=1000")
+    with bridge_at(ears, bench, domain, calibration=calibration, keep_bias=True, autostart="activate") as bridge:
         bridge.node.wait_for_line("is not there")
         assert bridge.call("stop").success
+        bench.tell("clear")
         probe.wait_until(lambda: bench.status["port"], "the port's return")
         assert bridge.change("configure"), bridge.node.stderr
         assert bridge.call("reset_stop").success
@@ -225,10 +231,50 @@ def test_what_was_stopped_becomes_active_by_a_persons_word_alone(domain, ears, p
         assert bridge.node.stop() == 0
 
 
+def test_the_bias_of_a_file_is_of_another_day(domain, ears, probe, bench, calibration):
+    probe.wait_until(lambda: not bench.status["open"], "the port is free")
+    with bridge_at(ears, bench, domain, calibration=calibration) as bridge:
+        bridge.wait_for_level("angles", "ERROR", "not calibrated: no bias")
+        bridge.joints.clear()  # what the bridge before said may have come late
+        before = len(bridge.imus[0])
+        probe.wait_until(lambda: len(bridge.imus[0]) > before + 60, "data of the sensors")
+        assert not bridge.joints
+        bridge.wait_for_success("calibrate_bias")
+        probe.wait_until(lambda: len(bridge.joints) > 5, lambda: f"joint states; {bridge.told('angles')}")
+        assert_no_wrong_angle(bridge, bridge.joints)
+        assert bridge.node.stop() == 0
+
+
+def test_a_second_emulator_takes_nothing_from_the_first(domain, bench, tmp_path):
+    folder = bench.port.parent
+    for words, told in (
+        (("--link", bench.port), "is there already, and leads to /dev/pts/"),
+        (("--link", tmp_path / "other", "--control", folder / "control"), "is another emulator's, which runs"),
+    ):
+        again = NodeProcess("continuum_hw_imu", "bench_emulator", domain, arguments=tuple(map(str, words)))
+        with ended_in_any_case(again):
+            assert again.exit_code() == 2
+            assert told in again.stderr
+    assert bench.port.exists()
+    assert bench.status["port"]
+
+
+def test_orders_are_given_by_a_command(bench, capfd):
+    command = [Path(get_package_prefix("continuum_hw_imu")) / "lib/continuum_hw_imu/bench_order"]
+    control = ["--control", bench.port.parent / "control"]
+    assert subprocess.run([*command, *control, "clear", "status"], timeout=60).returncode == 0
+    assert '"set_points"' in capfd.readouterr().out
+    assert subprocess.run([*command, *control, "explode"], timeout=60).returncode == 1
+    assert subprocess.run([*command, "--control", "/nowhere", "status"], timeout=60).returncode == 2
+    assert capfd.readouterr().err.endswith("/nowhere: No such file or directory; does the emulator run?\n")
+
+
 def test_two_commanders_of_a_renamed_topic_are_refused(domain, ears, probe, bench, calibration):
     probe.wait_until(lambda: not bench.status["open"], "the port is free")
     elsewhere = ["--ros-args", "-r", "cable_tension_cmd:=pull"]
-    with bridge_at(ears, bench, domain, elsewhere, calibration=calibration, autostart="activate") as bridge:
+    with bridge_at(
+        ears, bench, domain, elsewhere, calibration=calibration, keep_bias=True, autostart="activate"
+    ) as bridge:
         bridge.wait_for_state("active")
         speakers = [probe.speaker(CableStates, "pull") for _ in range(2)]
         try:

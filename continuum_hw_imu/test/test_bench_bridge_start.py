@@ -39,6 +39,10 @@ BAD = {
         {"port": "/dev/null", "max_tension": 400.0},
         "max_tension is 400.0; allowed: up to 327.67 N",
     ),
+    "a calibration that could not be written": (
+        {"port": "/dev/null", "calibration": "/nowhere/sensors.yaml"},
+        "calibration is '/nowhere/sensors.yaml'; allowed: a file in a folder that exists",
+    ),
     "no model": ({"port": "/dev/null", "model": "nowhere.yaml"}, "nowhere.yaml: "),
     "a model in the place of a calibration": (
         {"port": "/dev/null", "calibration": __file__},
@@ -69,7 +73,7 @@ def test_without_a_bench_it_waits_says_why_once_and_ends_cleanly(domain, number,
     with Probe(domain) as probe, ended_in_any_case(bridge(domain, port=port)) as (node,):
         node.wait_for_line(f"cannot configure: {port} is not there")
         probe.wait_until(
-            lambda: probe.report("bench_bridge: link").get("level") == "STALE",
+            lambda: probe.report("bench_bridge: link").get("message") == f"{port} is not there",
             lambda: probe.report("bench_bridge: link"),
         )
         client = probe.node.create_client(GetState, "bench_bridge/get_state")

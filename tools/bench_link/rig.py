@@ -73,7 +73,7 @@ class Rig:
     def bridge(self, **parameters: object) -> Iterator[Bridge]:
         """A bridge with that calibration that is active, once its joint states come."""
         self.wait_for_free_port()
-        given = {"calibration": self.calibration, "autostart": "activate", **parameters}
+        given = {"calibration": self.calibration, "keep_bias": True, "autostart": "activate", **parameters}
         with bridge_at(self.ears, self.bench, self.domain, **given) as bridge:
             bridge.wait_for_state("active")
             self.wait_for_joints(bridge)

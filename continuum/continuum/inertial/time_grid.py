@@ -22,6 +22,7 @@ from continuum.inertial.imu_sample import Truths
 _BREAK = 1.5  # periods between readings: something is missing
 _SAME_PERIOD = 0.01
 _FEWEST = 4  # readings of a piece, for its spline
+_LONGEST_GRID = 20  # times the number of readings; more of them cannot be missing
 _SLACK = 0.02  # periods by which the grid may reach beyond a stream
 
 
@@ -69,6 +70,9 @@ def on_one_grid(streams: Sequence[Stream]) -> ImuRecording:
     if end - begin < _FEWEST * period:
         told = ", ".join(f"{s.name} {s.times[0]:.1f} to {s.times[-1]:.1f} s" for s in streams)
         raise MeasurementError(f"no time is common to all sensors ({told}): were they synchronised?")
+    rows, most = (end - begin) / period, _LONGEST_GRID * max(stream.times.size for stream in streams)
+    if rows > most:
+        raise MeasurementError(f"{rows:.3g} periods of {period:g} s between so few readings: their times are damaged")
     times = begin + period * np.arange(int((end - begin) / period + _SLACK) + 1)
     columns = [_on_grid(stream, times, period) for stream in streams]
     rates, forces, clipped, valid = (np.stack(block, axis=1) for block in zip(*columns, strict=True))

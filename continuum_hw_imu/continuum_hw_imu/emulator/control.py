@@ -23,6 +23,8 @@ class ControlSocket:
     def __init__(self, path: Path, handle: Callable[[str], str]) -> None:
         if len(str(path).encode()) > _LONGEST_PATH:
             raise FileError(path, f"is too long for a socket; allowed: {_LONGEST_PATH} bytes")
+        if path.is_socket():
+            _refuse_one_in_use(path)
         self._path, self._handle = path, handle
         self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
@@ -77,3 +79,13 @@ class ControlSocket:
         except OSError:  # it does not read its answers
             return False
         return bool(data) and len(rest) < _LONGEST_LINE
+
+
+def _refuse_one_in_use(path: Path) -> None:
+    """A socket that nobody listens at is left from one that was killed."""
+    with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
+        try:
+            probe.connect(str(path))
+        except ConnectionRefusedError:
+            return
+    raise FileError(path, "is another emulator's, which runs")

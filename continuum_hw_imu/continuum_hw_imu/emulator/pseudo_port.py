@@ -114,8 +114,9 @@ class PseudoPort:
     def _point_link(self) -> None:
         if self._link is None:
             return
-        if self._link.exists() and not self._link.is_symlink():
-            raise FileError(self._link, "is there already, and no link")
+        if self._link.exists():  # of a port that is gone it leads nowhere
+            what = f"leads to {self._link.resolve()}, which is in use" if self._link.is_symlink() else "is no link"
+            raise FileError(self._link, f"is there already, and {what}; give another --link, or end what made it")
         beside = self._link.with_name(f".{self._link.name}.{os.getpid()}")
         try:
             beside.unlink(missing_ok=True)
