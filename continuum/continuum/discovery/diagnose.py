@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from continuum.discovery.judgement import judge
 from continuum.discovery.question import Question
+from continuum.discovery.rows_asked_again import with_better_rows
 from continuum.discovery.search import Round, Tell, search, tell_nobody
 from continuum.discovery.trial import TOLERANCES
 from continuum.discovery.verdict import Verdict
@@ -68,9 +69,17 @@ def diagnose(
     driven = any(recording.is_driven for recording in dataset.recordings)
     asked = [name for name in effects or effect_names() if name not in present]
     tried = [name for name in asked if driven or not effect_named(name).needs_tension]
-    with workers(question, processes or os.cpu_count() or 1) as make:
+    n_workers = processes or os.cpu_count() or 1
+    with workers(question, n_workers) as make:
         baseline, rounds = search(make, tried, tell)
     verdict = judge(baseline, rounds)
+    tell("how tensions go on between rows, asked again", 1.0)
+    other = with_better_rows(question, verdict.best)
+    if other is not None:
+        question = other
+        with workers(question, n_workers) as make:
+            baseline, rounds = search(make, tried, tell)
+        verdict = judge(baseline, rounds)
     if verdict.best.status is FitStatus.NO_SIMULATION:
         raise InvalidValueError("model", verdict.best.status.value, "one that moves from the angles that were measured")
     return Diagnosis(question, tuple(rounds), verdict)

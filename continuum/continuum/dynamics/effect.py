@@ -36,6 +36,7 @@ class Effect:
         state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
             units; 0 where it is certain.
         needs_tension: whether only a cable that pulls can show it.
+        shifts_time: whether a little of it looks as if all tensions came later.
     """
 
     name: ClassVar[str]
@@ -46,6 +47,7 @@ class Effect:
     experiment: ClassVar[str] = ""
     state_spread: ClassVar[float] = 0.0
     needs_tension: ClassVar[bool] = False
+    shifts_time: ClassVar[bool] = False
 
     def n_states(self, n_joints: int) -> int:
         """Number of states that the effect adds."""

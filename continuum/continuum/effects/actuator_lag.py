@@ -25,6 +25,7 @@ class ActuatorLag(CableStates):
         "lag": Parameter("t_a", "s", 0.0, 1.0, False, "time constant of the motors", 0.0, 0.03)
     }
     needs_tension = True
+    shifts_time = True
     source = "Franklin, Powell and Emami-Naeini, Feedback Control of Dynamic Systems, ch. 3 (first-order lag)"
     in_words = "The motors pull later than they are told."
     looks_like = "Every answer to a change of pull comes late by the same time; what moves freely is as it should be."

@@ -23,6 +23,7 @@ class SensorDelay(Effect):
         "delay": Parameter("t_d", "s", 0.0, 0.2, False, "by which all sensors are late", 0.0, 0.01)
     }
     needs_tension = True
+    shifts_time = True
     source = "Nilsson and Handel, IEEE/ION PLANS 2010 (time synchronisation of sensor measurements)"
     in_words = "The sensors report late."
     looks_like = "All joints follow the model, shifted by the same time, and the more wrong the faster they move."

@@ -46,6 +46,16 @@ def with_likelier_rows(
     return tuple(_held(recording, strange[True] <= strange[False]) for recording in recordings)
 
 
+def jumps_tell(recordings: Sequence[Recording]) -> bool:
+    """Whether jumps of the tensions tell it, without any model."""
+    return any(_shares_before_jumps(recording) for recording in recordings)
+
+
+def turned(recording: Recording) -> Recording:
+    """The recording with its tensions the other way between rows."""
+    return recording if recording.tensions is None else _held(recording, not recording.tensions.held)
+
+
 def _shares_before_jumps(recording: Recording) -> list[float]:
     """Of every jump, which part of the change of acceleration came before its row; the fastest joints count most."""
     if recording.theta_rate is None or recording.tensions is None:

@@ -1,0 +1,36 @@
+"""How tensions go on between rows, asked again when causes are known.
+
+Tensions that are held where they are taken for linear, or the other way round, come half a row too early or too late:
+in smooth tensions that looks like late sensors or slow actuators, and a model that is still wrong elsewhere may tell
+the two ways apart wrongly at first. A cause that the other way makes needless is none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from continuum.discovery.evidence import explains_all, gain, is_adequate
+from continuum.discovery.question import Question
+from continuum.discovery.trial import Trial, fit_extension, judged
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.identification.tension_rows import jumps_tell, turned
+
+_ITERATIONS = 12
+
+
+def with_better_rows(question: Question, best: Trial) -> Question | None:
+    """The question with tensions the other way between rows, where that is better; None where it is not.
+
+    Args:
+        question: as it was asked.
+        best: trial that the search ended with.
+    """
+    driven = [recording for recording in question.recordings if recording.is_driven]
+    if not driven or jumps_tell(driven) or (not best.extension and is_adequate(best)):
+        return None
+    plain = tuple(addition for addition in best.extension if not effect_named(addition.effect).shifts_time)
+    other = replace(question, recordings=tuple(turned(recording) for recording in question.recordings))
+    trial = judged(plain, fit_extension(other, plain, best, _ITERATIONS))
+    if len(plain) < len(best.extension):
+        return other if explains_all(trial) or not gain(best, trial).is_distinct else None
+    return other if gain(trial, best).is_significant else None

@@ -1,0 +1,48 @@
+"""A delay of half a row is how tensions go on between rows, not a late sensor."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from identification_laws import BENDS, recorded, small_simulator, white_noise
+
+from continuum.discovery.candidate import Addition
+from continuum.discovery.question import Question
+from continuum.discovery.rows_asked_again import with_better_rows
+from continuum.discovery.trial import Trial, fit_extension, judged
+from continuum.dynamics.tensions import Tensions
+from continuum.identification.free import Free
+
+SIMULATOR = small_simulator()
+FREE = tuple(Free(name) for name in ("stiffness", "viscous_friction", "coulomb_friction"))
+TIMES = np.arange(0, 0.7, 1 / 120)
+SMOOTH = Tensions(TIMES, 6 * np.maximum([np.sin(14 * TIMES), -np.sin(14 * TIMES)], 0.0).T)
+DELAY = (Addition("sensor_delay"),)
+
+
+def asked(held: bool, truly_held: bool) -> Question:
+    random = np.random.default_rng(4)
+    truth = replace(SMOOTH, held=truly_held)
+    runs = [recorded(SIMULATOR, bend, random, tensions=truth) for bend in BENDS[:2]]
+    taken = tuple(replace(run, tensions=replace(SMOOTH, held=held)) for run in runs)
+    return Question(SIMULATOR.model, FREE, taken, white_noise())
+
+
+def fitted(question: Question, extension: tuple[Addition, ...]) -> Trial:
+    return judged(extension, fit_extension(question, extension))
+
+
+def test_a_late_sensor_that_other_rows_make_needless_is_none() -> None:
+    question = asked(held=False, truly_held=True)
+    best = fitted(question, DELAY)
+    assert best.amounts[-1] == pytest.approx(0.5 / 120, rel=0.2)
+    other = with_better_rows(question, best)
+    assert other is not None
+    assert all(run.tensions is not None and run.tensions.held for run in other.recordings)
+
+
+def test_rows_that_are_right_stay() -> None:
+    question = asked(held=True, truly_held=True)
+    assert with_better_rows(question, fitted(question, ())) is None
