@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 from browser import ViewedPage, headless_browser, view
 
-REAL_ARM = Path(__file__).resolve().parent.parent / "data" / "rep7" / "rep7_measured.csv"
+
+def swinging(file: Path) -> Path:
+    """A recording of five joints that swing for 1.6 s, and rest."""
+    times = np.arange(0.0, 1.6, 1 / 120)
+    angle = 18.0 * np.cos(10.0 * times) * np.exp(-3.0 * times)
+    header = ",".join(["t_s", *(f"q{i}_deg" for i in range(1, 6))])
+    np.savetxt(file, np.column_stack([times, *[angle] * 5]), delimiter=",", header=header, comments="")
+    return file
 
 
 @pytest.fixture(scope="module")
@@ -76,8 +83,8 @@ def test_a_dragged_target_is_reached(moved_by_hand):
     page.keep("target")
 
 
-def test_playback_scrubs(chromium):
-    with view(str(REAL_ARM)) as address:
+def test_playback_scrubs(chromium, tmp_path):
+    with view(str(swinging(tmp_path / "run.csv"))) as address:
         page = ViewedPage(chromium, address)
         time = page.number("time [s]")
         page.wait_for(lambda: float(time.input_value()) >= 1.5, "the end of the recording")
