@@ -84,3 +84,13 @@ def test_a_clock_that_went_back_lets_go():
     advanced(follower, 1000.0, 30)
     follower.forget_time()
     assert not np.any(advanced(follower, 3.0, 40)[-1])
+
+
+def test_a_slack_time_of_zero_is_at_once():
+    follower = TensionFollower(replace(LIMITS, slack_time=0.0), 2)
+    follower.command(np.array([5.0, 1.0]), 0.0)
+    advanced(follower, 0.0, 10)
+    follower.abandon()
+    np.testing.assert_array_equal(follower.move_on(10 * TICK, TICK).after, 0.0)
+    np.testing.assert_array_equal(follower.move_on(11 * TICK, TICK).after, 0.0)
+    assert follower.abandoned

@@ -24,6 +24,16 @@ def test_it_knows_who_is_there_and_forgets_it_with_the_line(bench):
     assert bench.client.conversations == first + 2
 
 
+def test_each_conversation_commands_by_a_word_of_its_own(bench):
+    """What is still under way from the one before commands nothing."""
+    words = []
+    for _ in range(3):
+        bench.client._begin()
+        bench.connect()
+        words.append(bench.client._token)
+    assert len(set(words)) == 3
+
+
 def test_it_asks_who_is_there_until_it_is_told(bench):
     bench.client._begin()
     bench.link.deaf = True

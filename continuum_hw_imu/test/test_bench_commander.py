@@ -67,6 +67,14 @@ def test_what_was_commanded_before_counts_no_more(bench, commander):
     assert bench.set_points == [0.0, 0.0]
 
 
+def test_a_bench_that_does_not_fit_is_not_pulled(bench, commander):
+    commander.misfit = "another arm's"
+    assert commander.begin() == "another arm's"
+    assert not commander.gate.is_open
+    assert not commander.gate.command([5.0, 0.0], bench.now)
+    assert not bench.client.commands
+
+
 def test_a_stop_holds_until_it_is_reset_at_both_ends(bench, commander):
     commander.begin()
     run(bench, commander, 0.3, [8.0, 0.0])

@@ -18,7 +18,7 @@ class TensionLimits:
         max_tension: of each cable [N].
         max_rate: of a commanded change [N/s].
         patience: time without a command after which the cables are let go [s].
-        slack_time: time in which they are then slack [s]: each tension falls linearly.
+        slack_time: time in which they are then slack [s]: each tension falls linearly; 0 for at once.
     """
 
     max_tension: float
@@ -64,7 +64,10 @@ class TensionFollower:
         if self.tight and not self.abandoned:
             self.abandoned = True
             self._goal = self._slack
-            self._rate = self.tension / self._limits.slack_time
+            if self._limits.slack_time > 0:
+                self._rate = self.tension / self._limits.slack_time
+            else:
+                self.tension = self._slack
 
     def forget_time(self) -> None:
         """The clock went back: who commanded has to do so again, or the cables are let go."""
