@@ -71,6 +71,11 @@ def test_runs_of_different_arms_are_no_dataset() -> None:
         Dataset(())
 
 
+def test_one_run_given_twice_is_no_dataset() -> None:
+    with pytest.raises(InvalidValueError, match="recordings is 'a and b'; allowed: different runs: these are one"):
+        Dataset((run("a", 0.3), run("c", 0.4), run("b", 0.3)))
+
+
 @pytest.mark.parametrize(
     ("times", "theta", "rate", "told"),
     [

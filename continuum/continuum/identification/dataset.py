@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -31,6 +32,9 @@ class Dataset:
                 raise InvalidValueError(
                     f"joints of {recording.name}", recording.n_joints, f"{self.recordings[0].n_joints} as in the others"
                 )
+        for one, other in combinations(self.recordings, 2):
+            if np.array_equal(one.theta, other.theta):
+                raise InvalidValueError("recordings", f"{one.name} and {other.name}", "different runs: these are one")
 
     @property
     def n_joints(self) -> int:

@@ -18,6 +18,7 @@ _MOST_BAD = 0.1  # of all rows
 _CLIPPED_ROWS = 3  # of the same extreme value one after the other
 _CLIPPED_STEP = 3  # units of the last digit, by which a signal jumps to its limit
 _LEAST_ANGLE = np.deg2rad(1.0)  # that a run must reach; sensors err by tenths of a degree
+_LEAST_MOTION = np.deg2rad(0.5)  # standard deviation of the joint that moves most
 _LARGEST_RATE, _LARGEST_TENSION = 200.0, 1e4  # rad/s, N; no arm of this kind has more
 _ALIKE = 0.5  # correlation of a joint's rate with the slope of its angle from which on their sizes are compared
 
@@ -156,6 +157,8 @@ def _refuse_units(samples: Samples) -> None:
             samples.path,
             f"has no joint angle above {np.degrees(largest):.2g} degrees: radians taken for degrees, or arm at rest?",
         )
+    if np.max(np.std(samples.theta, axis=0)) < _LEAST_MOTION:
+        raise FileError(samples.path, "is of an arm that does not move: nothing can be learnt from it")
     for block, limit, what in (
         (samples.rate, _LARGEST_RATE, "joint rate of {:.3g} rad/s: degrees taken for radians?"),
         (samples.pull, _LARGEST_TENSION, "tension of {:.3g} N: another unit?"),

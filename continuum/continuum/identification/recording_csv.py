@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from continuum.arrays import Array
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
+from continuum.identification.csv_layout import hint_of_cell, hint_of_row, problem_of_header
 from continuum.identification.recording import Recording
 from continuum.identification.recording_checks import Samples, repaired
 from continuum.recordings.motion_columns import ANGLE, RATE, TENSION, TIME, Quantity
@@ -62,14 +63,17 @@ def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:
     lines = [(number, row) for number, row in enumerate(cells, start=1) if any(row)]
     if not lines:
         raise FileError(path, "is empty")
-    header = lines[0][1]
+    first, header = lines[0]
+    if problem := problem_of_header(header):
+        raise FileError(path, f"row {first} {problem}")
     for name in header:
         if header.count(name) > 1:
             raise FileError(path, f"has the column {name!r} twice")
     table = np.full((len(lines) - 1, len(header)), np.nan)
     for row, (number, values) in zip(table, lines[1:], strict=True):
         if len(values) != len(header):
-            raise FileError(path, f"row {number} has {len(values)} cells, the header {len(header)}")
+            hint = hint_of_row(values, len(header))
+            raise FileError(path, f"row {number} has {len(values)} cells, the header {len(header)}{hint}")
         row[:] = [_number(path, number, column, value) for column, value in zip(header, values, strict=True)]
     return header, np.array([number for number, _ in lines[1:]], dtype=np.int64), table
 
@@ -80,7 +84,7 @@ def _number(path: Path, row: int, column: str, cell: str) -> float:
     try:
         return float(cell)
     except ValueError as error:
-        raise FileError(path, f"row {row}, column {column}: {cell!r} is no number") from error
+        raise FileError(path, f"row {row}, column {column}: {cell!r} is no number{hint_of_cell(cell)}") from error
 
 
 def _block(path: Path, columns: dict[str, Array], quantity: Quantity) -> Array | None:

@@ -73,7 +73,7 @@ def on_one_grid(streams: Sequence[Stream]) -> ImuRecording:
     rows, most = (end - begin) / period, _LONGEST_GRID * max(stream.times.size for stream in streams)
     if rows > most:
         raise MeasurementError(f"{rows:.3g} periods of {period:g} s between so few readings: their times are damaged")
-    times = begin + period * np.arange(int((end - begin) / period + _SLACK) + 1)
+    times = begin + period * np.arange(int(rows + _SLACK) + 1)
     columns = [_on_grid(stream, times, period) for stream in streams]
     rates, forces, clipped, valid = (np.stack(block, axis=1) for block in zip(*columns, strict=True))
     return ImuRecording(times, rates, forces, clipped, valid)
