@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +14,7 @@ from continuum.discovery.judgement import judge
 from continuum.discovery.search import search
 from continuum.discovery.trial import Trial
 from continuum.discovery.window_beginnings import with_beginnings_of
-from continuum.discovery.workers import Task
+from continuum.discovery.workers import FIRST_LOOK, LONG_LOOK, Task
 
 EFFECTS = ("tip_payload", "base_tilt", "quadratic_drag")
 
@@ -42,7 +42,7 @@ class Fits:
         if is_from_another and names in self._better:
             share = self._better[names]
         made = trial(*names, bad=share, seed=len(names))
-        return replace(made, extension=task.extension, cost=1000 * share)
+        return replace(made, extension=task.extension, cost=made.misfit / 2)
 
     def times(self, *names: str) -> int:
         return sum(tuple(a.effect for a in task.extension) == names for task in self.asked)
@@ -75,7 +75,7 @@ def test_luck_in_one_run_hides_no_effect_that_helps_in_all() -> None:
         if effects_of(task.extension) != ["tip_payload"]:
             return made
         first, *others = trial(bad=0.3).held_out  # as without any effect
-        return replace(made, held_out=(np.minimum(first, 0.5 * SIZE), *others), cost=150.0)
+        return replace(made, held_out=(np.minimum(first, 0.5 * SIZE), *others), cost=3200.0)
 
     fits.fitted = lucky  # type: ignore[method-assign]
     _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
@@ -119,6 +119,39 @@ def test_two_effects_are_found_and_the_first_is_sought_anew_beside_the_second() 
     assert rounds[-1].best is not rounds[-1].before
 
 
+def test_a_second_effect_that_is_small_beside_the_first_leaves_it_where_it_is() -> None:
+    both = ("tip_payload", "base_tilt")
+    fits = Fits({(): 0.6, ("tip_payload",): 0.1, ("base_tilt",): 0.6, both: 0.1})
+    fitted = fits.fitted
+
+    def a_little_better(task: Task) -> Trial:
+        made = fitted(task)
+        if effects_of(task.extension) != ["tip_payload", "base_tilt"]:
+            return made
+        return replace(made, held_out=tuple(0.97 * run for run in made.held_out), cost=0.97 * made.cost)
+
+    fits.fitted = a_little_better  # type: ignore[method-assign]
+    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+    assert [effects_of(one.best.extension) for one in rounds[:2]] == [["tip_payload"], ["tip_payload", "base_tilt"]]
+    assert rounds[1].best is not rounds[1].before
+    assert fits.times("base_tilt", "tip_payload") == 0
+
+
+def test_effects_are_looked_at_for_longer_where_first_looks_promise_nothing() -> None:
+    for hidden, longer in ((0.3, True), (0.0, False)):
+        fits = Fits({(): hidden, ("base_tilt",): 0.0})
+        fitted = fits.fitted
+
+        def in_vain(task: Task, fitted: Callable[[Task], Trial] = fitted) -> Trial:
+            first = task.is_look and task.iterations == FIRST_LOOK
+            return replace(fitted(replace(task, extension=())), extension=task.extension) if first else fitted(task)
+
+        fits.fitted = in_vain  # type: ignore[method-assign]
+        _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+        assert any(task.is_look and task.iterations == LONG_LOOK for task in fits.asked) == longer
+        assert (effects_of(rounds[0].best.extension) == ["base_tilt"]) == longer
+
+
 def test_a_first_effect_that_the_second_makes_needless_is_dropped() -> None:
     """The drag helped only as long as the payload was unknown."""
     late = {(): 0.5, ("quadratic_drag",): 0.2, ("tip_payload",): 0.4, ("quadratic_drag", "tip_payload"): 0.0}
@@ -142,7 +175,7 @@ def test_progress_goes_from_nothing_to_done() -> None:
     told: list[tuple[str, float]] = []
     search(Fits({(): 0.3, ("base_tilt",): 0.0}), EFFECTS, lambda what, part: told.append((what, part)))
     assert told[0][1] == 0.0
-    assert told[-1] == ("done", 1.0)
+    assert told[-1] == ("effects sought", 1.0)
     assert all(0 <= part <= 1 for _, part in told)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -63,9 +64,7 @@ def test_to_the_end_it_goes_where_the_data_tell_nothing() -> None:
     by_own = random.normal(size=(20, 300, 1))
     measured = random.normal(size=(20, 300)) + by_shared @ np.array([1.0, 1.0])
     evaluate, unknowns = _linear(by_shared, by_own, measured)
-    begun = Unknowns(
-        np.array([1.95, 0.05]), *(getattr(unknowns, n) for n in ("spread", "lower", "upper", "own", "own_spread"))
-    )
+    begun = replace(unknowns, shared=np.array([1.95, 0.05]))
     early = arrow_least_squares(evaluate, begun, 12)
     late = arrow_least_squares(evaluate, begun, 12, to_the_end=True)
     assert abs(early.shared[0] - 1.0) > 0.5  # it is not worth its while

@@ -14,6 +14,7 @@ from continuum.dynamics.tensions import Tensions
 from continuum.errors import InvalidValueError
 from continuum.identification.arrow_least_squares import FitStatus
 from continuum.identification.bootstrap import bootstrap, interval, moves_without
+from continuum.identification.drawn_models import drawn_models
 from continuum.identification.fisher import identifiability
 from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free
@@ -165,6 +166,17 @@ def test_draws_scatter_as_errors_do_and_around_the_answer() -> None:
     np.testing.assert_array_equal(draws, bootstrap(fitted, np.random.default_rng(0)))
     narrow, wide = (np.diff(interval(draws, level), axis=0) for level in (0.5, 0.95))
     assert np.all(narrow < wide)
+
+
+def test_models_are_drawn_from_what_the_data_leave_open() -> None:
+    fitted = fitted_releases(0)
+    models = list(drawn_models(fitted, np.random.default_rng(0), 400))
+    values = np.array([[model.values()[name][0] for name in TRUTH] for model in models])
+    np.testing.assert_allclose(values.std(axis=0), deviations(fitted), rtol=0.15)
+    middle = np.array([fitted.value(free) for free in FREE])
+    np.testing.assert_allclose((values.mean(axis=0) - middle) / deviations(fitted), 0.0, atol=0.2)
+    again = next(drawn_models(fitted, np.random.default_rng(0), 1))
+    assert again.values()["stiffness"][0] == values[0, 0]
 
 
 def test_moves_without_a_stretch_are_those_of_a_fit_without_its_windows() -> None:

@@ -62,24 +62,27 @@ def diagnose(
     ready = with_dry_friction(model)
     noise = estimate_noise(dataset.recordings, known)
     unknowns = tuple(baseline_unknowns(ready))
-    tell("how tensions go on between rows", 0.0)
+    driven = any(recording.is_driven for recording in dataset.recordings)
+    if driven:
+        tell("how tensions go on between rows", 0.0)
     recordings = with_likelier_rows(Simulator(ready, TOLERANCES), dataset.recordings, noise, unknowns)
     question = Question(ready, unknowns, recordings, noise)
     present = {active.effect.name for active in model.effects}
-    driven = any(recording.is_driven for recording in dataset.recordings)
     asked = [name for name in effects or effect_names() if name not in present]
     tried = [name for name in asked if driven or not effect_named(name).needs_tension]
-    n_workers = processes or os.cpu_count() or 1
-    with workers(question, n_workers) as make:
-        baseline, rounds = search(make, tried, tell)
-    verdict = judge(baseline, rounds)
-    tell("how tensions go on between rows, asked again", 1.0)
-    other = with_better_rows(question, verdict.best)
-    if other is not None:
-        question = other
-        with workers(question, n_workers) as make:
+
+    def answered(question: Question) -> tuple[list[Round], Verdict]:
+        with workers(question, processes or os.cpu_count() or 1) as make:
             baseline, rounds = search(make, tried, tell)
-        verdict = judge(baseline, rounds)
+        return rounds, judge(baseline, rounds)
+
+    rounds, verdict = answered(question)
+    if driven:
+        tell("how tensions go on between rows, asked again", 1.0)
+        other = with_better_rows(question, verdict.best)
+        if other is not None:
+            question = other
+            rounds, verdict = answered(question)
     if verdict.best.status is FitStatus.NO_SIMULATION:
         raise InvalidValueError("model", verdict.best.status.value, "one that moves from the angles that were measured")
     return Diagnosis(question, tuple(rounds), verdict)

@@ -80,8 +80,8 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
     """
     question, split = diagnosis.question, halves(diagnosis.question.recordings)
     baseline, best = diagnosis.verdict.baseline, diagnosis.verdict.best
-    before = held_out_scores(question, baseline, split)
-    after = held_out_scores(question, best, split) if best.extension else before
+    before = held_out_scores(question, baseline, split, random)
+    after = held_out_scores(question, best, split, random) if best.extension else before
     verdict = confirmed(diagnosis.verdict, before, after)
     after = after if verdict.extension else before
     fitted = fit_extension(question, verdict.extension, verdict.best, _ITERATIONS, to_the_end=True)

@@ -10,6 +10,10 @@ from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
 
+_VAGUE = (
+    " They leave much open, though: left to itself the simulation ends far from what was measured, and so it does with "
+    "other parameters that explain these data as well. More recordings, of other motions, would tell more."
+)
 _NOTICED = 0.02  # of the distance to the noise floor
 
 
@@ -20,12 +24,13 @@ def verdict_in_words(verdict: Verdict) -> str:
         case Kind.ADEQUATE:
             return (
                 "With its parameters refitted, the simulation explains these data as well as the sensors allow. "
-                "Nothing in them asks for a further effect."
+                "Nothing in them asks for a further effect." + (_VAGUE if verdict.vague else "")
             )
         case Kind.CAUSE:
             return (
                 f"{_what(verdict.causes)} "
                 f"With that in the simulation, what it leaves unexplained falls from {before} of the data to {after}."
+                + (" What is left there no effect that is known here explains." if verdict.nearly else "")
             )
         case Kind.AMBIGUOUS:
             return (

@@ -7,29 +7,37 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
-from continuum.discovery.measured_gain import RunScore, closed_gap, is_far, is_open
+from continuum.discovery.measured_gain import RunScore, closed_gap, is_far, is_open, is_vague
 from continuum.discovery.search import Round
 from continuum.discovery.trial import Trial
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
 
 _LEAST_CLOSED = 0.25  # of the distance to the noise floor
+_MOST_CLOSED = 0.8  # of it, where windows stay unexplained
+_MOST_LEFT = 1 / 3  # of the unexplained windows, where most is explained
+_OTHERS = 0.5  # of the best one's gain, beyond which another effect may be the one as well
 
 
 def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
     """What can be said.
 
-    Causes are the effects that were added round after round. They are named only where nothing is left that noise
-    does not explain; a model that is better and still wrong has an unknown cause, whatever helped it.
+    Causes are the effects that were added round after round. They are named where nothing is left that noise
+    does not explain; a model that is better and still wrong has an unknown cause, whatever helped it, unless it
+    explains nearly all and free runs confirm that.
     """
     added = [r for r in rounds if r.best is not r.before]
-    best = added[-1].best if added else baseline
-    share = unexplained(baseline), unexplained(best)
-    causes = tuple(_cause(r) for r in added)
-    if not (explains_all(best) if added else is_adequate(best)):
-        return Verdict(Kind.UNKNOWN, causes, (), baseline, best, share)
     if not added:
-        return Verdict(Kind.ADEQUATE, (), (), baseline, best, share)
+        share = unexplained(baseline), unexplained(baseline)
+        kind = Kind.ADEQUATE if is_adequate(baseline) else Kind.UNKNOWN
+        return Verdict(kind, (), (), baseline, baseline, share)
+    complete = explains_all(added[-1].best)
+    nearly = [] if complete else _those_that_explain_most(baseline, added)
+    added = nearly or added
+    best, causes = added[-1].best, tuple(_cause(r) for r in added)
+    share = unexplained(baseline), unexplained(best)
+    if not complete:
+        return Verdict(Kind.UNKNOWN, causes, (), baseline, best, share, nearly=bool(nearly))
     named = {cause.addition.effect for cause in causes}  # beside each other they are no alternatives
     rivals = tuple(rival for r in added for rival in _rivals(r) if rival.addition.effect not in named)
     if rivals:
@@ -38,15 +46,32 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
     return Verdict(Kind.CAUSE, causes, (), baseline, best, share)
 
 
+def _those_that_explain_most(baseline: Trial, added: Sequence[Round]) -> list[Round]:
+    """The first rounds, as few as explain most, where no other effect did nearly as well; none where there are none."""
+    enough = _MOST_LEFT * unexplained(baseline)
+    for count, one in enumerate(added, 1):
+        own = gain(one.best, one.before).log_likelihood
+        others = [trial for trial in one.leaders if trial.extension[-1].effect != one.best.extension[-1].effect]
+        if any(gain(trial, one.before).log_likelihood > _OTHERS * own for trial in others):
+            return []
+        if unexplained(one.best) <= enough:
+            return list(added[:count])
+    return []
+
+
 def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunScore]) -> Verdict:
     """The verdict, unless its model does not predict runs that were held out: then its cause is not the one.
 
     Windows as short as these are explained by what only looks like the cause, a free run is not. Where the model
     without it is adequate, nothing has to be explained, and that model it is; but no model is whose free runs end far
-    from what was measured.
+    from what was measured. What explains nearly all windows is the cause where free runs come nearly to the noise.
     """
+    if verdict.nearly and closed_gap(before, after) >= _MOST_CLOSED:
+        return replace(verdict, kind=Kind.CAUSE)
     if verdict.kind is Kind.ADEQUATE:
-        return replace(verdict, kind=Kind.UNKNOWN, predicts=False) if is_far(before) else verdict
+        if is_far(before):
+            return replace(verdict, kind=Kind.UNKNOWN, predicts=False)
+        return replace(verdict, vague=True) if is_vague(before) else verdict
     named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
     if not named or not is_open(before) or closed_gap(before, after) >= _LEAST_CLOSED:
         return verdict

@@ -15,22 +15,19 @@ from continuum.discovery.trial import Trial, fit_extension, judged
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.identification.tension_rows import jumps_tell, turned
 
-_ITERATIONS = 12
-
 
 def with_better_rows(question: Question, best: Trial) -> Question | None:
     """The question with tensions the other way between rows, where that is better; None where it is not.
 
     Args:
-        question: as it was asked.
+        question: as it was asked, of runs of which some are driven.
         best: trial that the search ended with.
     """
-    driven = [recording for recording in question.recordings if recording.is_driven]
-    if not driven or jumps_tell(driven) or (not best.extension and is_adequate(best)):
+    if jumps_tell(question.recordings) or (not best.extension and is_adequate(best)):
         return None
     plain = tuple(addition for addition in best.extension if not effect_named(addition.effect).shifts_time)
     other = replace(question, recordings=tuple(turned(recording) for recording in question.recordings))
-    trial = judged(plain, fit_extension(other, plain, best, _ITERATIONS))
+    trial = judged(plain, fit_extension(other, plain, best))
     if len(plain) < len(best.extension):
         return other if explains_all(trial) or not gain(best, trial).is_distinct else None
     return other if gain(trial, best).is_significant else None

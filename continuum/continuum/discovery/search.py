@@ -1,8 +1,8 @@
 """Round after round: try every effect on top of what was found, keep the best, until what is left is noise.
 
 A first look of a few iterations sorts out what does not help: friction makes the way to the best fit rugged, so that
-what the slopes promise counts as well as what was gained. What leads is fitted to all data, and what then contends is
-fitted to the end and found its joints.
+what the slopes promise counts as well as what was gained; where they promise little for the first effect, the look is a
+longer one. What leads is fitted to all data, and what then contends is fitted to the end and found its joints.
 """
 
 from __future__ import annotations
@@ -11,19 +11,21 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from continuum.discovery.candidate import Addition
-from continuum.discovery.evidence import explains_all, gain
+from continuum.discovery.candidate import Addition, Extension
+from continuum.discovery.evidence import explains_all, gain, is_adequate
 from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
 from continuum.discovery.window_beginnings import with_beginnings_of
-from continuum.discovery.workers import Make, Task, first_look
+from continuum.discovery.workers import FIRST_LOOK, LONG_LOOK, Make, Task, first_look
 
 _LEADERS = 5
 _LEADING = 0.35  # of the best one's hope
+_LITTLE = 0.1  # of what is left to explain: with no better hope, effects are looked at for longer
 _HOPELESS = 4.0  # log-likelihood on half of the runs
 _CONTENDING = 0.5  # of the best one's gain
 _LEADER_ITERATIONS, _ITERATIONS, _BASELINE_ITERATIONS = 8, 12, 10
 _ITERATIONS_ANEW = 4
+_MISLEADING = 0.1  # of the first effect's gain: a smaller second one has misled nobody
 _ROUNDS = 3
 
 
@@ -72,13 +74,19 @@ def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[
         rounds.append(_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}")))
         if len(rounds) == 1:
             baseline = rounds[0].before
-        if len(rounds) == 2 and rounds[-1].best is not rounds[-1].before:
+        if len(rounds) == 2 and _may_have_misled(rounds[1], rounds[0]):
             rounds = _first_anew(make, rounds[0], rounds[1], effects, partial(tell, "the first effect anew"))
         if rounds[-1].best is rounds[-1].before:
             break
         before = rounds[-1].best
-    tell("done", 1.0)
+    tell("effects sought", 1.0)
     return baseline, rounds
+
+
+def _may_have_misled(second: Round, first: Round) -> bool:
+    """Whether the second effect is so large beside the first that this one may have stood for it."""
+    gained = [gain(one.best, one.before).log_likelihood for one in (second, first)]
+    return second.best is not second.before and gained[0] > _MISLEADING * gained[1]
 
 
 def _first_anew(
@@ -97,12 +105,9 @@ def _first_anew(
 def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[float], None]) -> Round:
     known = {addition.effect for addition in before.extension}
     extensions = [before.extension, *((*before.extension, Addition(name)) for name in effects if name not in known)]
-    looks = []
-    for trial in make([first_look(extension, before) for extension in extensions]):
-        looks.append(trial)
-        tell(0.5 * len(looks) / len(extensions))
-    (without,) = [trial for trial in looks if trial.extension == before.extension]
-    looks = sorted((trial for trial in looks if trial is not without), key=_hoped_for)
+    without, looks = _looks(make, extensions, before, FIRST_LOOK, lambda part: tell(0.25 * part))
+    if not (before.extension or is_adequate(before)) and _is_little(looks, without):
+        without, looks = _looks(make, extensions, before, LONG_LOOK, lambda part: tell(0.25 + 0.25 * part))
     leading = [Task(look.extension, carried(look, before), _LEADER_ITERATIONS) for look in _leading(looks, without)]
     leaders = list(make(leading))
     tell(0.75)
@@ -114,6 +119,24 @@ def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[fl
     if ended and gain(ended[0], before).is_significant:
         before = _as_well_fitted(make, before, ended[0])
     return Round(before, tuple(looks), tuple(ended))
+
+
+def _looks(
+    make: Make, extensions: Sequence[Extension], before: Trial, iterations: int, tell: Callable[[float], None]
+) -> tuple[Trial, list[Trial]]:
+    """What became of the model as it was, and of every effect added to it, the most promising first."""
+    looks: list[Trial] = []
+    for trial in make([first_look(extension, before, iterations) for extension in extensions]):
+        looks.append(trial)
+        tell(len(looks) / len(extensions))
+    (without,) = [trial for trial in looks if trial.extension == before.extension]
+    return without, sorted((trial for trial in looks if trial is not without), key=_hoped_for)
+
+
+def _is_little(looks: Sequence[Trial], without: Trial) -> bool:
+    """Whether the best hope is little beside what is left to explain."""
+    left = without.cost - sum(float(run.sum()) for run in without.sizes) / 2
+    return bool(looks) and _hoped_for(without) - _hoped_for(looks[0]) < _LITTLE * left
 
 
 def _as_well_fitted(make: Make, before: Trial, best: Trial) -> Trial:

@@ -50,6 +50,10 @@ class Verdict:
         experiment: what to measure to tell alternatives apart, in words; empty where nothing is to be told apart.
         predicts: whether the best one's free runs come as near to what was held out as they should; if not, no cause is
             named, and no model is adequate.
+        nearly: whether the causes leave windows unexplained, and yet most are explained, and by no other effect. They
+            are UNKNOWN then, unless free runs confirm them.
+        vague: whether an ADEQUATE model's free runs end far from what was measured, as those of models do that the data
+            do not tell from it.
     """
 
     kind: Kind
@@ -60,6 +64,8 @@ class Verdict:
     unexplained: tuple[float, float]
     experiment: str = ""
     predicts: bool = True
+    nearly: bool = False
+    vague: bool = False
 
     @property
     def extension(self) -> Extension:

@@ -43,6 +43,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
             {"name": str(e.unknown), "value": e.value, "low": e.low, "high": e.high, "unit": e.unit}
             for e in found.estimates
         ],
+        "complete": not (unknown or verdict.nearly),
         "weakness": found.weakness,
         "notes": list(found.notes),
     }

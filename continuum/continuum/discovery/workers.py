@@ -16,7 +16,10 @@ from continuum.discovery.question import Question
 from continuum.discovery.some_runs import some_runs
 from continuum.discovery.trial import Trial, fit_extension, judged
 
-_FIRST_LOOK = 2  # iterations: what helps shows in what they gain and what the slopes promise then
+FIRST_LOOK = 2
+"""Iterations: what helps shows in what they gain and what the slopes promise then, ..."""
+LONG_LOOK = 6
+"""... but where joints stick and slip the first steps of all may be in vain."""
 _LOOK_STEPS = 3  # of each window's first state at each of them
 _MANY_RUNS = 3
 
@@ -40,9 +43,9 @@ class Task:
     is_look: bool = False
 
 
-def first_look(extension: Extension, near: Trial) -> Task:
+def first_look(extension: Extension, near: Trial, iterations: int = FIRST_LOOK) -> Task:
     """A few iterations on half of the runs."""
-    return Task(extension, near, _FIRST_LOOK, is_look=True)
+    return Task(extension, near, iterations, is_look=True)
 
 
 def make(question: Question, task: Task) -> Trial:

@@ -1,0 +1,90 @@
+"""What free runs of held-out recordings make of a verdict, on trials made by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from discovery_laws import a_round, trial
+from discovery_verdicts import BAD, GOOD, HALF, WORSE, found, judged, score, scores
+
+from continuum.discovery.evidence import gain
+from continuum.discovery.in_words import verdict_in_words
+from continuum.discovery.judgement import confirmed, judge
+from continuum.discovery.measured_gain import RunScore, closed_gap
+from continuum.discovery.verdict import Kind
+from continuum.discovery.verdict_json import as_mapping
+
+
+def test_the_part_of_the_gap_that_is_closed() -> None:
+    def runs(*positions: float) -> list[RunScore]:
+        return [score(f"run_{i}", position) for i, position in enumerate(positions)]
+
+    assert closed_gap(runs(0.45, 0.25), runs(0.05, 0.05)) == pytest.approx(1.0)
+    assert closed_gap(runs(0.45, 0.25), runs(0.25, 0.15)) == pytest.approx(0.5)
+    assert closed_gap(runs(0.45), runs(0.45)) == 0.0
+    assert closed_gap(runs(0.25), runs(0.45)) == pytest.approx(-1.0)
+    assert closed_gap(runs(0.05), runs(0.05)) == 0.0  # nothing to close
+    assert closed_gap(runs(np.inf, 0.25), runs(0.3, 0.25)) == pytest.approx(1 / 1.2)  # one could not be simulated
+    assert closed_gap(runs(0.06, 0.45), runs(0.12, 0.05)) > 0.9  # next to the floor a run has no say
+    assert closed_gap(runs(np.inf), runs(np.inf)) == 0.0
+    assert closed_gap(runs(0.25), runs(np.inf)) == -1.0
+
+
+def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
+    for kind, verdict in judged().items():
+        named = kind in (Kind.CAUSE, Kind.AMBIGUOUS)
+        if kind is Kind.ADEQUATE:
+            continue
+        assert confirmed(verdict, scores(0.45, 0.45), scores(0.05, 0.25)) is verdict
+        assert confirmed(verdict, scores(0.05, 0.04), scores(0.05, 0.05)) is verdict  # nothing to predict better
+        doubted = confirmed(verdict, scores(0.45, 0.45), scores(0.44, 0.40))
+        assert doubted.kind is (Kind.UNKNOWN if named else kind)
+        assert not (named and doubted.alternatives)
+        assert ("does not predict runs" in verdict_in_words(doubted)) == named
+    needless = judge(GOOD, [a_round(GOOD, trial("base_tilt", misfit=0.6, seed=3))])
+    assert needless.kind is Kind.CAUSE
+    assert confirmed(needless, scores(0.14), scores(0.13)).kind is Kind.ADEQUATE
+    assert confirmed(needless, scores(0.45), scores(0.44)).kind is Kind.UNKNOWN
+
+
+def test_no_model_is_adequate_whose_free_runs_end_far_from_what_was_measured() -> None:
+    verdict = judged()[Kind.ADEQUATE]
+    for near in (scores(0.05, 0.05), scores(0.09, 0.24)):
+        assert confirmed(verdict, near, near) is verdict
+    for far in (scores(0.05, 0.36), scores(0.05, np.inf)):
+        doubted = confirmed(verdict, far, far)
+        assert doubted.kind is Kind.UNKNOWN
+        assert "does not predict whole runs" in verdict_in_words(doubted)
+
+
+def test_what_explains_nearly_all_is_the_cause_where_free_runs_say_so() -> None:
+    most = trial("tip_payload", bad=0.08, seed=1)
+    verdict = judge(
+        BAD, [a_round(BAD, most, WORSE), a_round(most, trial("tip_payload", "base_tilt", bad=0.07, seed=3))]
+    )
+    assert verdict.kind is Kind.UNKNOWN
+    assert verdict.nearly
+    assert [str(cause.addition) for cause in verdict.causes] == ["tip_payload"]  # the second one is not needed for most
+    named = confirmed(verdict, scores(0.45, 0.45), scores(0.08, 0.10))
+    assert named.kind is Kind.CAUSE
+    assert "to 8 %. What is left there no effect" in verdict_in_words(named)
+    assert confirmed(verdict, scores(0.45, 0.45), scores(0.15, 0.15)).kind is Kind.UNKNOWN
+    assert as_mapping(found(named))["complete"] is False
+
+
+def test_what_explains_nearly_all_is_no_cause_beside_another_that_helps_as_well() -> None:
+    most, rival = (trial(name, bad=bad, seed=1) for name, bad in (("tip_payload", 0.08), ("base_tilt", 0.15)))
+    assert gain(rival, BAD).is_significant
+    assert not judge(BAD, [a_round(BAD, most, rival)]).nearly
+    assert not judge(BAD, [a_round(BAD, HALF, WORSE)]).nearly
+
+
+def test_as_far_as_models_go_apart_that_no_window_tells_apart_is_not_far() -> None:
+    verdict = judged()[Kind.ADEQUATE]
+    for spread, kind in ((0.1, Kind.UNKNOWN), (0.2, Kind.ADEQUATE)):
+        far = [replace(score("run_1", 0.36), spread=spread)]
+        found_now = confirmed(verdict, far, far)
+        assert found_now.kind is kind
+        assert ("They leave much open" in verdict_in_words(found_now)) == (kind is Kind.ADEQUATE)

@@ -1,0 +1,79 @@
+"""Verdicts in words and for machines, on trials made by hand."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from discovery_laws import a_round, trial
+from discovery_verdicts import BAD, found, judged, score
+
+from continuum.discovery.candidate import Addition
+from continuum.discovery.in_words import cost_in_words, verdict_in_words, worth_in_words
+from continuum.discovery.judgement import judge
+from continuum.discovery.verdict import Kind
+from continuum.discovery.verdict_json import as_mapping, write_json
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.errors import FileError
+
+
+def test_every_kind_in_words() -> None:
+    told = {kind: verdict_in_words(verdict) for kind, verdict in judged().items()}
+    assert "as well as the sensors allow" in told[Kind.ADEQUATE]
+    assert told[Kind.CAUSE].startswith(effect_named("tip_payload").in_words)
+    assert "from 30 % of the data to 0 %" in told[Kind.CAUSE]
+    assert "tip_payload, base_tilt" in told[Kind.AMBIGUOUS]
+    assert effect_named("base_tilt").experiment in told[Kind.AMBIGUOUS]
+    assert "no effect that is known here explains why. tip_payload helps, yet 15 %" in told[Kind.UNKNOWN]
+    assert "None even helps" in verdict_in_words(judge(BAD, []))
+    at_joints = trial(Addition("rest_angle", (0, 3)), seed=5)
+    assert "(joints 1, 4)" in verdict_in_words(judge(BAD, [a_round(BAD, at_joints)]))
+    for text in told.values():
+        assert 2 <= text.count(". ") + text.endswith(".") <= 6
+
+
+def test_what_a_simulation_costs_is_told_by_the_usual_run() -> None:
+    quick, slow = ([replace(score("run", 0.1), seconds=s) for s in seconds] for seconds in ((0.01, 9.0, 0.01), (0.03,)))
+    assert cost_in_words(quick, slow) == "simulating a run takes 30 ms instead of 10 ms"
+
+
+def test_what_an_extension_is_worth_may_be_less_than_nothing() -> None:
+    assert "closes 50 %" in worth_in_words(0.5)
+    assert worth_in_words(-0.01).endswith("no better")
+    assert "worse" in worth_in_words(-0.1)
+
+
+@pytest.mark.parametrize("kind", Kind)
+def test_every_kind_for_machines(kind: Kind, tmp_path: Path) -> None:
+    verdict = judged()[kind]
+    write_json(found(verdict), tmp_path / "verdict.json")
+    read = json.loads((tmp_path / "verdict.json").read_text(encoding="utf-8"))
+    assert read == as_mapping(found(verdict))
+    assert read["verdict"] == kind.value
+    named, empty = ("helps", "causes") if kind is Kind.UNKNOWN else ("causes", "helps")
+    assert [one["effect"] for one in read[named]] == [c.addition.effect for c in verdict.causes]
+    assert read[empty] == []
+    assert [one["effect"] for one in read["alternatives"]] == [c.addition.effect for c in verdict.alternatives]
+    for one in (*read[named], *read["alternatives"]):
+        assert 0 <= one["confidence"] <= 1
+        assert set(one["parameters"]) == set(effect_named(one["effect"]).parameters)
+        for entry in one["parameters"].values():
+            assert entry["low"] <= entry["value"] <= entry["high"]
+    assert read["nrmse_position"] == {"run_1": {"before": 0.4, "after": 0.1}, "run_2": {"before": None, "after": 0.2}}
+    assert read["nrmse_velocity"]["run_1"] == {"before": 0.8, "after": 0.2}
+    assert (read["weakness"], read["notes"]) == ("two recordings only", ["run_1: row 7 left out"])
+
+
+@pytest.mark.parametrize(("joints", "joint"), [((2,), 3), ((0, 3), None), (None, None)])
+def test_joints_for_machines_count_from_one(joints: tuple[int, ...] | None, joint: int | None) -> None:
+    verdict = judge(BAD, [a_round(BAD, trial(Addition("rest_angle", joints), seed=5))])
+    (cause,) = as_mapping(found(verdict))["causes"]
+    assert cause["joint"] == joint
+    assert cause["joints"] == (None if joints is None else [j + 1 for j in joints])
+
+
+def test_a_file_that_cannot_be_written(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match="cannot be written"):
+        write_json(found(judged()[Kind.CAUSE]), tmp_path)
