@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -16,7 +15,7 @@ import pytest
 from harness import wait_until
 from PIL import Image
 
-from tools.browser.place import EXTRA, chromium
+from tools.browser.place import EXTRA, chromium, environment
 
 PICTURES = Path(__file__).resolve().parent.parent / "out" / "test_artefacts" / "viewer"
 
@@ -41,11 +40,9 @@ def headless_browser() -> Iterator[Any]:
     try:
         from playwright.sync_api import sync_playwright
 
-        libraries = os.pathsep.join(map(str, program.libraries))
-        environment = dict(os.environ) | ({"LD_LIBRARY_PATH": libraries} if libraries else {})
         with sync_playwright() as driver:
             browser = driver.chromium.launch(
-                executable_path=program.path, args=list(_SWITCHES), env=environment, timeout=120_000
+                executable_path=program.path, args=list(_SWITCHES), env=environment(program), timeout=120_000
             )
             yield browser
             browser.close()
@@ -59,8 +56,8 @@ def view(*arguments: str) -> Iterator[str]:
     command = ["continuum", "view", *arguments, "--port", "0"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
-        line = process.stdout.readline()
-        assert line.startswith("open http"), line + process.stderr.read()
+        line = next((line for line in process.stdout if line.startswith("open http")), None)
+        assert line is not None, process.stderr.read()
         yield line.split()[1]
         process.terminate()
         assert process.wait(30) == 0

@@ -87,6 +87,7 @@ def test_playback_scrubs(chromium, tmp_path):
     with view(str(swinging(tmp_path / "run.csv"))) as address:
         page = ViewedPage(chromium, address)
         time = page.number("time [s]")
+        page.tab.get_by_label("Repeat").uncheck()
         page.wait_for(lambda: float(time.input_value()) >= 1.5, "the end of the recording")
         end = page.settled()
         page.keep("recording_end")

@@ -195,7 +195,9 @@ def _section_from_mapping(name: str, values: object) -> Section:
     try:
         return Section(name=name, **values)
     except InvalidValueError as error:
-        raise InvalidValueError(f"arm.{error.name}", error.value, error.allowed) from None
+        left_out = error.name in {f"{name}.{spec.name}" for spec in SECTION_PARAMETERS if spec.name not in values}
+        hint = "; it was left out, and this is its default: set it" if left_out else ""
+        raise InvalidValueError(f"arm.{error.name}", error.value, error.allowed + hint) from None
 
 
 def _refuse_unknown(where: str, mapping: Mapping[str, object], known: list[str]) -> None:

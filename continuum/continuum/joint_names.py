@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
+from collections.abc import Iterable
 
 from continuum.errors import InvalidValueError
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")  # it becomes a part of topic, frame and parameter names
+_BENDING = re.compile(r"(?P<section>\w+)_theta_[1-9]\d*")
 
 
 def check_section(name: object) -> None:
@@ -27,6 +30,11 @@ def phi_joint(section: str) -> str:
 def theta_joints(section: str, n_joints: int) -> tuple[str, ...]:
     """The bending joints from base to tip."""
     return tuple(f"{section}_theta_{k + 1}" for k in range(n_joints))
+
+
+def bending_joints(names: Iterable[str]) -> dict[str, int]:
+    """Number of bending joints among these names, by section; other joints do not count."""
+    return dict(Counter(match["section"] for match in map(_BENDING.fullmatch, names) if match))
 
 
 def phi_back_joint(section: str) -> str:

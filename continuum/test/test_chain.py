@@ -9,7 +9,7 @@ from continuum_laws.strategies import LAW, arms_and_postures
 from hypothesis import given
 
 from continuum.arm import Arm
-from continuum.kinematics.chain import arm_jacobian, arm_pose, section_base_rotations, section_tip_poses
+from continuum.kinematics.chain import arm_jacobian, arm_pose, section_base_rotations, section_bases, section_tip_poses
 from continuum.kinematics.configuration import jones_from_allen
 from continuum.kinematics.section import section_pose
 
@@ -29,8 +29,12 @@ def test_every_section_ends_where_its_links_do(drawn: tuple[Arm, np.ndarray]) ->
 @given(drawn=arms_and_postures())
 def test_base_frames_are_those_of_the_first_discs(drawn: tuple[Arm, np.ndarray]) -> None:
     arm, w = drawn
-    bases = [part[0][:3, :3] for part in arm_discs(*jones_from_allen(w), arm)]
+    first = np.array([part[0] for part in arm_discs(*jones_from_allen(w), arm)])
+    bases = first[:, :3, :3]
     np.testing.assert_allclose(section_base_rotations(section_tip_poses(w, arm), arm), bases, rtol=0, atol=1e-13)
+    rotations, origins = section_bases(w, arm)
+    np.testing.assert_allclose(rotations, bases, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(origins, first[:, :3, 3], rtol=0, atol=1e-13)
 
 
 @each_count

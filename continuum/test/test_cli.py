@@ -4,16 +4,18 @@ import os
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from command_line import CONFIG, THREE, Captured, code, refused, rows_of
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from recorded_runs import ARM, arm_file, run, tips, write
 
-from continuum.arm import load_arm
+from continuum.arm import Arm, arm_to_mapping, load_arm
 from continuum.cli import main
 from continuum.cli.tables import print_pairs
 from continuum.dynamics.model_path import model_path
@@ -205,9 +207,23 @@ def test_report_refuses(capsys: Captured, recording: str, arm: str, tmp_path: Pa
     assert "--expected is -1; allowed: a whole number >= 0" in refused(
         capsys, "report", recording, "--arm", arm, "--expected", -1
     )
-    assert "holds no section_3_phi; recorded with another arm?" in refused(capsys, "report", recording, "--arm", THREE)
     assert code("report", recording, "--arm", arm, "--out", in_the_way) == 2
     assert capsys.readouterr().err == f"continuum: {in_the_way}: cannot be written (File exists)\n"
+
+
+@pytest.mark.parametrize("command", ["report", "view"])
+def test_an_arm_of_which_a_recording_is_not_is_refused(
+    capsys: Captured, recording: str, arm: str, tmp_path: Path, command: str
+) -> None:
+    """Fewer sections, more sections, and sections of other lengths."""
+    of_both = [f"{section.name} ({section.n_joints} joints)" for section in ARM.sections]
+    told = f"{recording}: is of another arm: it has {', '.join(of_both)}; the arm file "
+    shorter, first = tmp_path / "arm.yaml", ARM.sections[0]
+    for sections in ((first,), (first, replace(ARM.sections[1], n_joints=4))):
+        shorter.write_text(yaml.safe_dump({"arm": arm_to_mapping(Arm(sections))}), encoding="utf-8")
+        words = ", ".join(f"{section.name} ({section.n_joints} joints)" for section in sections)
+        assert refused(capsys, command, recording, "--arm", shorter) == f"{told}{words}\n"
+    assert refused(capsys, command, recording, "--arm", THREE).startswith(told)
 
 
 def test_the_arm_of_the_recordings_is_read_back(arm: str) -> None:

@@ -1,7 +1,9 @@
 """Compiled functions are kept where they may be: beside their sources, in the user's folder, or nowhere."""
 
+import gc
 import importlib.util
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -21,8 +23,8 @@ def build(digest):
 
 
 @pytest.fixture
-def make(tmp_path: Path) -> Callable[[], Any]:
-    """Makes the entry point of a file as a new program would."""
+def make(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[], Any]:
+    """Makes the entry point of a file as a new program would, which has nothing of an earlier one."""
     file = tmp_path / "installed" / "doubling.py"
     file.parent.mkdir()
     file.write_text(SOURCE)
@@ -30,7 +32,9 @@ def make(tmp_path: Path) -> Callable[[], Any]:
     def fresh() -> Any:
         spec = importlib.util.spec_from_file_location("doubling", file)
         module = importlib.util.module_from_spec(spec)
+        monkeypatch.setitem(sys.modules, "doubling", module)
         spec.loader.exec_module(module)
+        gc.collect()
         return entry_point(module.build, sources_digest(file.parent))
 
     return fresh

@@ -1,20 +1,24 @@
-"""The page: its address, its controls and what they say, without a browser."""
-
-import csv
-import socket
+"""The page: its controls and what they say, without a browser."""
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+from viser._messages import ShareUrlRequest
 
-from continuum.errors import FileError, InvalidValueError
+from continuum.kinematics.cable_lines import section_arrow
 from continuum.kinematics.chain import arm_pose
+from continuum.kinematics.routing import tangle
 from continuum.viewer import status_table
 from continuum.viewer.hands import Hands
 from continuum.viewer.page import Page
+from continuum.viewer.plots import SPAN
 from continuum.viewer.remote_arm import RemoteArm
+from continuum.viewer.screen_colours import linear_light
 from continuum.viewer.section_angles import joints_of
-from continuum.viewer.seen import Status
-from continuum.viewer.tracks import Track, read_tracks
+from continuum.viewer.seen import Seen, Status
+from continuum.viewer.slider_value import end_in_degrees
 from continuum.viewer.usual_arm import usual_arm
 
 ARM = usual_arm(2)
@@ -31,21 +35,6 @@ def opened():
     yield open_page
     for page in pages:
         page.close()
-
-
-def test_port_that_is_taken_is_refused():
-    with socket.socket() as other:
-        other.bind(("127.0.0.1", 0))
-        other.listen()
-        port = other.getsockname()[1]
-        with pytest.raises(InvalidValueError, match=f"127.0.0.1:{port}"):
-            Page(ARM, Hands(ARM), port=port)
-
-
-@pytest.mark.parametrize(("host", "port"), [("198.51.100.1", 0), ("127.0.0.1", 65536), ("no such host", 0)])
-def test_address_that_is_none_of_this_machine_is_refused(host, port):
-    with pytest.raises(InvalidValueError, match="allowed"):
-        Page(ARM, Hands(ARM), host, port)
 
 
 def test_target_leads_the_sliders_and_sliders_the_target(opened):
@@ -73,7 +62,46 @@ def test_state_of_others_is_shown_and_nothing_asked_of_them(opened):
     np.testing.assert_allclose(page._scene.tip, arm_pose(w, ARM)[:3, 3], atol=1e-9)
     assert remote.target is None
     assert remote.posture is None
-    assert set(remote.tensions.wanted().values()) == {0.0}
+    assert not remote._controls._gizmo.visible
+    assert remote._controls._sliders[0].theta.disabled
+    assert remote.tensions.wanted() == {}
+
+
+def test_an_arm_that_nobody_told_of_is_pale_and_said_so(opened):
+    """What is drawn then is no state of it, so nothing is plotted either."""
+    remote = RemoteArm(ARM, 30.0)
+    page = opened(remote)
+    meshes = [mesh for _, mesh in page._scene.links._meshes]
+    page.draw()
+    assert remote._unheard.visible
+    assert max(mesh.opacity for mesh in meshes) < 1.0
+    assert page._plots._lengths.plot is None
+    page._plots._due = 0.0
+    remote.tell(joints=joints_of(np.full((2, 2), 0.1), ARM), time=1.0)
+    page.draw()
+    assert not remote._unheard.visible
+    assert {mesh.opacity for mesh in meshes} == {None}
+    assert page._plots._lengths.plot is not None
+
+
+def test_while_nothing_is_moved_the_page_says_that_first_comes_a_choice(opened):
+    remote = RemoteArm(ARM, 30.0)
+    page = opened(remote)
+    for choice, words in (("nothing", "Choose"), ("the target", "Drag"), ("nothing", "Choose")):
+        remote._leads._handle.value = choice
+        page.draw()
+        assert words in remote._controls._answer.content
+
+
+@given(st.floats(1e-3, np.pi))
+@example(np.pi)
+@example(1.2)
+@example(np.radians(70.0))
+@example(np.nextafter(np.radians(70.0), 0.0))
+def test_sliders_end_at_the_last_tenth_of_a_degree_within_the_limit(limit):
+    end = end_in_degrees(limit)
+    assert end == round(end, 1)
+    assert np.radians(end) <= limit < np.radians(end + 0.1 + 1e-9)
 
 
 def test_measured_arm_is_the_ghost_of_the_simulated_one(opened):
@@ -87,49 +115,158 @@ def test_measured_arm_is_the_ghost_of_the_simulated_one(opened):
 
 
 def test_cables_are_pulled_while_control_is_taken_and_slack_after(opened):
+    """Those alone whose tensions somebody says: a node refuses cables that it does not have."""
     remote = RemoteArm(ARM, 30.0)
-    opened(remote)
-    tensions, cable = remote.tensions, ARM.cable_names[0]
+    page = opened(remote)
+    tensions, (cable, other, *_) = remote.tensions, ARM.cable_names
+    page.draw()
+    assert not tensions._folder.visible
+    remote.tell(tensions={cable: 1.0, other: 2.0})
+    page.draw()
+    assert tensions._folder.visible
+    assert [name for name, slider in tensions._sliders.items() if slider.visible] == [cable, other]
     tensions._sliders[cable].value = 12.0
-    assert tensions.wanted()[cable] == 0.0
-    tensions._taken.value = True
+    assert tensions.wanted() == {cable: 0.0, other: 0.0}
+    tensions._taken._handle.value = True
     assert tensions.wanted()[cable] == 0.0  # what was set before does not pull at once
     tensions._sliders[cable].value = 12.0
-    assert tensions.wanted()[cable] == 12.0
-    remote.let_go()
+    assert tensions.wanted() == {cable: 12.0, other: 0.0}
+    for _ in range(2):
+        remote.let_go()  # no browser took it
     assert not tensions.taken
     assert tensions.wanted()[cable] == 0.0
+
+
+@pytest.mark.parametrize(("said", "meant"), [(1e9, 30.0), (-5.0, 0.0), (np.nan, 0.0), (np.inf, 0.0), (12, 12.0)])
+def test_no_browser_asks_for_more_than_a_slider_has(opened, said, meant):
+    remote = RemoteArm(ARM, 30.0)
+    page, cable = opened(remote), ARM.cable_names[0]
+    remote.tell(tensions={cable: 1.0})
+    page.draw()
+    remote.tensions._taken._handle.value = True
+    remote.tensions.wanted()
+    remote.tensions._sliders[cable].value = said
+    assert remote.tensions.wanted() == {cable: meant}
+
+
+@pytest.mark.parametrize("place", [(np.nan, 0.0, 0.1), (np.inf, 0.0, 0.0), (1e300, 0.0, 0.0), (0.0, -100.0, 0.0)])
+def test_a_target_that_no_mouse_drags_is_put_back(opened, place):
+    source = Hands(ARM)
+    page = opened(source)
+    page.draw()
+    before = page._scene.tip
+    source._controls._gizmo.position = np.array(place)
+    source._controls._sliders[0].theta.value = np.nan
+    page.draw()
+    np.testing.assert_allclose(page._scene.tip, before)
+    np.testing.assert_allclose(source._controls._gizmo.position, before)
+
+
+def test_no_browser_opens_a_way_from_outside(opened):
+    """The server of pages would, asked so, make itself known at a public address."""
+    server = opened(Hands(ARM))._server
+    assert ShareUrlRequest not in server._websock_server._incoming_handlers
+
+
+def test_plots_have_the_cables_alone_that_somebody_tells_of(opened):
+    """A number that is missing anywhere leaves the browser's plot empty."""
+    remote = RemoteArm(ARM, 30.0)
+    plots = opened(remote)._plots
+    own, others = ARM.sections[0].cable_names, ARM.sections[1].cable_names
+
+    def show(time, **what):
+        plots._due = 0.0
+        plots.show(Seen(time=time, **what))
+
+    show(0.0, lengths=dict.fromkeys(own, 0.2))
+    assert plots._tensions.plot is None
+    assert not plots._lengths.plot.visible  # one point is no line
+    show(1.0, lengths={own[0]: 0.2, own[2]: 0.3}, tensions={own[0]: 5.0, own[2]: 6.0})
+    for plot, values in ((plots._lengths.plot, ([200.0] * 1, [300.0])), (plots._tensions.plot, ([5.0], [6.0]))):
+        times, *lines = plot.data
+        assert len(plot.series) == 3
+        np.testing.assert_allclose(times[-1:], [0.0])
+        np.testing.assert_allclose([line[-1:] for line in lines], values)
+        assert np.isfinite(plot.data).all()
+    show(22.0, lengths=dict.fromkeys(own + others, 0.25))  # after a gap: no line over it
+    np.testing.assert_allclose(plots._lengths.plot.data, [[0.0], *[[250.0]] * len(own)])
+    assert plots._tensions.plot is None
+    plots._choice.value = "section 2"
+    show(23.0, lengths=dict.fromkeys(others, 0.1))
+    assert plots._lengths.plot.visible
+    np.testing.assert_allclose(plots._lengths.plot.data[0], [-1.0, 0.0])
+    np.testing.assert_allclose(plots._lengths.plot.data[1], [250.0, 100.0])
+    show(22.5, lengths=dict.fromkeys(others, 0.1))  # the time went back
+    assert len(plots._lengths.plot.data[0]) == 1
+
+
+def test_plots_reach_back_so_far_and_no_further(opened):
+    plots = opened(Hands(ARM))._plots
+    for time in range(60):
+        plots._due = 0.0
+        plots.show(Seen(time=float(time), lengths=dict.fromkeys(ARM.cable_names, 0.2)))
+    np.testing.assert_allclose(plots._lengths.plot.data[0], np.arange(-SPAN, 1.0))
+    assert len(plots._rows) == SPAN + 1
+
+
+def test_all_of_the_arm_moves_with_its_joints(opened):
+    remote = RemoteArm(ARM, 30.0)
+    page = opened(remote)
+    scene, w = page._scene, np.array([[0.0, 0.0], [0.5, 0.4]])
+    remote.tell(joints=joints_of(w, ARM))
+    page.draw()
+    for links, mesh in scene.links._meshes:
+        np.testing.assert_allclose(mesh.batched_positions, scene.links.poses[links, :3, 3], atol=1e-6)
+        turns = Rotation.from_quat(mesh.batched_wxyzs, scalar_first=True).as_matrix()
+        np.testing.assert_allclose(turns, scene.links.poses[links, :3, :3], atol=1e-6)
+    np.testing.assert_allclose(list(scene.cable_lengths().values()), tangle(w, ARM), atol=1e-6)
+    assert scene._arrows.visible
+    base = scene.links.poses[scene._bases[1]]
+    arrow = section_arrow(w[1], ARM.sections[1], 0.25 * ARM.length, 10.0 * ARM.length)
+    np.testing.assert_allclose(scene._arrows.points, [arrow @ base[:3, :3].T + base[:3, 3]], atol=1e-6)
+    remote.tell(joints=joints_of(0 * w, ARM))
+    page.draw()
+    assert not scene._arrows.visible
+    assert len(page._tip_trail._points) > 0
+
+
+def test_the_ghost_goes_with_the_simulated_arm(opened):
+    remote = RemoteArm(ARM, 30.0)
+    page = opened(remote)
+    angles = joints_of(np.full((2, 2), 0.2), ARM)
+    for simulated in (angles, {}, angles):
+        remote.tell(joints=angles, simulated=simulated)
+        page.draw()
+        assert page._ghost.visible == bool(simulated)
+
+
+def test_statuses_are_shown(opened):
+    remote = RemoteArm(ARM, 30.0)
+    page = opened(remote)
+    remote.tell(statuses=(Status("imu 3", 2, "silent"),))
+    page.draw()
+    assert "imu 3" in page._statuses._table.content
+    remote.tell(statuses=())
+    page.draw()
+    assert "Nobody" in page._statuses._table.content
+
+
+def test_a_target_out_of_reach_is_told(opened):
+    source = Hands(ARM)
+    page = opened(source)
+    source._controls._gizmo.position = np.array([0.0, 0.0, 2.0 * ARM.length])
+    page.draw()
+    assert "out of reach" in source._controls._answer.content
+
+
+def test_colours_of_points_are_shares_of_light():
+    np.testing.assert_array_equal(linear_light([0.0, 0.5, 1.0]), [0, 55, 255])
 
 
 def test_words_of_others_are_text():
     table = status_table._table([Status("<script>alert(1)</script>", 9, "a < b")])
     assert "<script>" not in table
     assert "a &lt; b" in table
-
-
-def test_values_hold_until_the_next():
-    track = Track(np.array([0.0, 1.0]), ("a",), np.array([[1.0], [2.0]]))
-    assert [track.at(t) for t in (-0.1, 0.0, 0.9, 1.0, 9.0)] == [{}, {"a": 1.0}, {"a": 1.0}, {"a": 2.0}, {"a": 2.0}]
-
-
-def test_table_of_joint_angles_is_a_recording(tmp_path):
-    path = tmp_path / "run.csv"
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(["t_s", "q1_deg", "q2_deg"])
-        writer.writerows([5.0 + 0.01 * k, k, -k] for k in range(50))
-    tracks = read_tracks(path)
-    assert tracks.duration == pytest.approx(0.49)
-    assert tracks.joints.at(0.1) == pytest.approx(
-        {"section_1_theta_1": np.radians(10.0), "section_1_theta_2": np.radians(-10.0)}
-    )
-
-
-def test_what_is_no_recording_is_told_in_one_line(tmp_path):
-    with pytest.raises(FileError, match="metadata"):
-        read_tracks(tmp_path)
-    with pytest.raises(FileError, match="cannot be read"):
-        read_tracks(tmp_path / "none.csv")
 
 
 def test_trail_begins_anew_after_a_leap(opened):

@@ -46,6 +46,7 @@ MAPS: dict[str, Case] = {  # the function, its arguments, and how many of their 
     "arm_pose": (partial(chain.arm_pose, arm=ARM), (W,), 2),
     "section_tip_poses": (partial(chain.section_tip_poses, arm=ARM), (W,), 2),
     "section_base_rotations": (partial(chain.section_base_rotations, arm=ARM), (chain.section_tip_poses(W, ARM),), 3),
+    "section_origins": (lambda w: chain.section_bases(w, ARM)[1], (W,), 2),
     "arm_jacobian": (partial(chain.arm_jacobian, arm=ARM), (W,), 2),
     "section_lengths": (partial(routing.section_lengths, arm=ARM, index=1), (ONE,), 1),
     "section_length_rates": (partial(routing.section_length_rates, arm=ARM, index=1), (ONE, ONE_RATE), 1),

@@ -3,13 +3,19 @@
 import re
 import shlex
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 import yaml
 
-from continuum.arm import SECTION_PARAMETERS
+from continuum.arm import SECTION_PARAMETERS, load_arm
+from continuum.dynamics.model_file import load_model
+from continuum.dynamics.planar.cables import cable_lengths as planar_lengths
+from continuum.kinematics.cables import cable_lengths
+from continuum.kinematics.configuration import allen_from_jones
 from continuum_description.robot import BASE_LINK
 from continuum_description.share import share_directory
 
@@ -24,6 +30,19 @@ def test_prototype_writes_table_1_out() -> None:
     assert section.keys() == expected.keys()
     for name, value in expected.items():
         assert section[name] == pytest.approx(value, rel=1e-12), name
+
+
+def test_planar_prototype_has_the_two_cables_of_the_dynamic_model() -> None:
+    """It is the prototype but for the numbers of its cables: 1 and 2 are as long as the model has them at any bend."""
+    (section,), (whole,) = (
+        load_arm(SHARE / "config" / f"{name}.yaml").sections for name in ("planar_prototype", "prototype")
+    )
+    assert sorted(section.cable_azimuths) == sorted(whole.cable_azimuths)
+    assert replace(section, cable_azimuths=whole.cable_azimuths) == whole
+    parameters = load_model("lamecc_prototype.yaml").parameters
+    for bend in (-1.2, 0.0, 0.7):
+        planar = planar_lengths(np.full(section.n_joints, bend / section.n_joints), parameters)
+        np.testing.assert_allclose(cable_lengths(allen_from_jones(0.0, bend), section)[:2], planar, rtol=1e-12)
 
 
 def launch_root() -> ElementTree.Element:

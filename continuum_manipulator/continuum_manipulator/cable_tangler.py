@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 
 from continuum.kinematics.routing import (
     cables_through,
@@ -18,6 +20,9 @@ from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.stamps import Loss, StampJoiner, nanoseconds, seconds
 from continuum_manipulator.section_number import checked_section
 from continuum_msgs.msg import CableStates
+
+PATIENCE = 10.0
+"""Seconds, by the machine's clock, after which the sections that nobody speaks for are told."""
 
 LOSSES = {
     Loss.INCOMPLETE: ("instants given up with a section missing", "no state of {sections}"),
@@ -45,8 +50,19 @@ class CableTanglerNode(CheckedNode):
         self.diagnostics.values["instants waiting for a section"] = lambda: self._instants.waiting
         self._publish_states = self.offer(CableStates, "cable_states")
         self._publish_commands = self.offer(CableStates, "section_cable_commands")
-        self.listen(CableStates, "section_cable_states", self._on_section)
+        self._heard: set[int] = set()
+        self._sections = self.listen(CableStates, "section_cable_states", self._on_section)
         self.listen(CableStates, "cable_commands", self._on_commands)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._patience_timer = self.create_timer(PATIENCE, self._tell_missing, clock=steady)
+
+    def _tell_missing(self) -> None:
+        """Once: a launch file made for another number of sections would go unnoticed until poses come."""
+        self.destroy_timer(self._patience_timer)
+        speakers, wanted = self._sections.get_publisher_count(), len(self._numbers)
+        if speakers < wanted and len(self._heard) < wanted:
+            detail = f"the arm has {wanted} sections, publishers on {self._sections.topic_name}: {speakers}"
+            self.diagnostics.warnings.note("sections without a node", detail)
 
     def _on_section(self, message: CableStates) -> None:
         number = checked_section(message.section, self.arm)
@@ -57,6 +73,7 @@ class CableTanglerNode(CheckedNode):
         messages.indices_of(self._through[number], message.name)
         messages.finite("position", message.position)
         messages.finite("velocity", message.velocity)
+        self._heard.add(number)
         instant = self._instants.add(number, nanoseconds(message.header.stamp), message)
         if instant is not None:
             self._tangle(instant)

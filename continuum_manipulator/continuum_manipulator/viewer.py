@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped
@@ -14,14 +15,20 @@ from rclpy.clock_type import ClockType
 from sensor_msgs.msg import JointState
 
 from continuum.arm import Arm
+from continuum.arrays import Array
+from continuum.errors import ContinuumError
 from continuum.parameter_spec import ParameterSpec
-from continuum.viewer.page import FRAME_RATE, HOST, PORT, Page
+from continuum.viewer.address import HOST, PORT
+from continuum.viewer.page import FRAME_RATE, Page
 from continuum.viewer.remote_arm import RemoteArm
 from continuum.viewer.seen import Status
 from continuum.viewer.usual_arm import usual_arm
 from continuum_manipulator.arm_joints import arm_joint_names, arm_joint_values
-from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.newest import Newest
+from continuum_manipulator.nodekit.checked_node import CheckedNode, CountedPublisher
 from continuum_manipulator.nodekit.qos import NEWEST, REPORT
+from continuum_manipulator.nodekit.stamps import nanoseconds
+from continuum_manipulator.sole_voice import SoleVoice
 from continuum_manipulator.tip_targets import BASE_FRAME, read_pose
 from continuum_manipulator.viewer_messages import read_angles, read_cables, read_statuses
 from continuum_msgs.msg import CableStates
@@ -34,14 +41,21 @@ MOST_STATUSES = 60
 SLACK_TIME = 0.5
 """For so long slack cables are commanded once control is given back [s]."""
 
+JOINTS, TARGETS, TENSIONS = "joint_states", "traj_pose", "cable_tension_cmd"
+"""Topics on which the page's user may speak."""
+
+
+class NotDrawnError(ContinuumError):
+    """The page is drawn no more."""
+
 
 class ViewerNode(CheckedNode):
     """``joint_states``, ``cable_states``, ``traj_pose`` and ``/diagnostics`` on a page for browsers.
 
     Of a simulated arm beside a measured one, ``simulated/joint_states`` are shown too, and the measured one as a
     ghost. Whoever looks may take control: a target that is dragged is published on ``traj_pose``, sliders of joints
-    on ``joint_states`` unless another node speaks there, sliders of tensions on ``cable_tension_cmd``. Without an arm
-    in the parameters, it is the one of three sections.
+    on ``joint_states``, sliders of tensions on ``cable_tension_cmd``; not while another node speaks there, and not
+    once that browser has left. Without an arm in the parameters, it is the one of three sections.
     """
 
     NAME = "viewer"
@@ -70,13 +84,16 @@ class ViewerNode(CheckedNode):
             "browsers": lambda: self._page.lookers,
             "frames": lambda: self._page.frames,
         }
-        self._publish_target = self.offer(PoseStamped, "traj_pose")
-        self._publish_joints = self.offer(JointState, "joint_states")
-        self._publish_tensions = self.offer(CableStates, "cable_tension_cmd")
-        self.listen(JointState, "joint_states", self._on_joints, NEWEST)
-        self.listen(JointState, f"{self.values['simulated']}/joint_states", self._on_simulated, NEWEST)
-        self.listen(CableStates, "cable_states", self._on_cables, NEWEST)
-        self.listen(PoseStamped, "traj_pose", self._on_target, NEWEST)
+        self._voices = {topic: SoleVoice() for topic in (JOINTS, TARGETS, TENSIONS)}
+        self._publish_target = self.offer(PoseStamped, TARGETS)
+        self._publish_joints = self.offer(JointState, JOINTS)
+        self._publish_tensions = self.offer(CableStates, TENSIONS)
+        self._newest = Newest[tuple[Callable[[Any], None], Any]]()
+        self._look(JointState, JOINTS, self._on_joints)
+        self._look(JointState, f"{self.values['simulated']}/joint_states", self._on_simulated)
+        self._look(CableStates, "cable_states", self._on_cables)
+        self._look(PoseStamped, TARGETS, self._on_target)
+        self.listen(CableStates, TENSIONS, lambda message: self._hear(TENSIONS, message), NEWEST)
         self.listen(DiagnosticArray, "/diagnostics", self._on_diagnostics, REPORT)
         self.create_timer(1.0 / FRAME_RATE, self._act, clock=Clock(clock_type=ClockType.STEADY_TIME))
         self._stop = threading.Event()
@@ -91,6 +108,17 @@ class ViewerNode(CheckedNode):
         self._drawing.join()
         self._page.close()
         super().close()
+
+    def _look(self, message_type: type, topic: str, handle: Callable[[Any], None]) -> None:
+        """Subscribe; of all messages about the same names between two frames the last one is looked at."""
+        checked = self.checked(topic, handle)
+
+        def keep(message: Any) -> None:
+            if topic in self._voices:
+                self._hear(topic, message)
+            self._newest.keep((topic, *getattr(message, "name", ())), (checked, message))
+
+        self.listen(message_type, topic, keep, NEWEST)
 
     def _on_joints(self, message: JointState) -> None:
         angles = {**self._remote.told.joints, **read_angles(message, self._known)}
@@ -119,31 +147,51 @@ class ViewerNode(CheckedNode):
         self._remote.tell(statuses=tuple(shown))
 
     def _act(self) -> None:
-        """Publish what whoever looks wants of the arm."""
-        if not self._page.lookers:
-            self._remote.let_go()
-        remote, stamp = self._remote, self.get_clock().now().to_msg()
+        """Look at what came, and publish what whoever looks wants of the arm.
+
+        Raises:
+            NotDrawnError: the page's thread has ended: what it shows, and asks for, is of the past.
+        """
+        if not self._drawing.is_alive():
+            raise NotDrawnError("the page is drawn no more, for the reason above")
+        for handle, message in self._newest.take():
+            handle(message)
+        remote = self._remote
+        remote.let_go()
         if remote.target is not None:
-            pose = PoseStamped()
-            pose.header.stamp, pose.header.frame_id = stamp, BASE_FRAME
-            point = pose.pose.position
-            point.x, point.y, point.z = remote.target.tolist()
-            self._publish_target(pose)
+            self._move_target(remote.target)
         if remote.posture is not None:
-            if self.count_publishers("joint_states") > 1:
-                self.diagnostics.warnings.note("joints not moved", "another node publishes joint_states")
-            else:
-                joints = JointState(name=self._joints, position=arm_joint_values(remote.posture, None, self.arm)[0])
-                joints.header.stamp = stamp
-                self._publish_joints(joints)
+            self._move_joints(remote.posture)
         if remote.tensions is not None:
             wanted, now = remote.tensions.wanted(), time.monotonic()
             if remote.tensions.taken:
                 self._pulled_until = now + SLACK_TIME
-            if now < self._pulled_until:
+            if wanted and now < self._pulled_until:
                 self._pull(wanted)
+
+    def _move_target(self, target: Array) -> None:
+        pose = PoseStamped()
+        pose.header.frame_id = BASE_FRAME
+        point = pose.pose.position
+        point.x, point.y, point.z = target.tolist()
+        self._say(TARGETS, self._publish_target, pose)
+
+    def _move_joints(self, w: Array) -> None:
+        message = JointState(name=self._joints, position=arm_joint_values(w, None, self.arm)[0])
+        self._say(JOINTS, self._publish_joints, message)
 
     def _pull(self, wanted: Mapping[str, float]) -> None:
         message = CableStates(section=CableStates.WHOLE_ARM, name=list(wanted), effort=list(wanted.values()))
+        self._say(TENSIONS, self._publish_tensions, message)
+
+    def _hear(self, topic: str, message: Any) -> None:
+        self._voices[topic].heard(nanoseconds(message.header.stamp), time.monotonic())
+
+    def _say(self, topic: str, publish: CountedPublisher, message: Any) -> None:
+        """Publish with a stamp, unless another node speaks there, which is told."""
+        if not self._voices[topic].is_free(time.monotonic()):
+            self.diagnostics.warnings.note(f"{topic} not from the page", "another node publishes them")
+            return
         message.header.stamp = self.get_clock().now().to_msg()
-        self._publish_tensions(message)
+        self._voices[topic].said(nanoseconds(message.header.stamp))
+        publish(message)

@@ -12,6 +12,7 @@ from arm_messages import cables, joint_state, pose, postures
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
 from harness import ARM_FILE, NodeProcess, Probe, ended_in_any_case, running
+from harness.waiting import LONG
 from sensor_msgs.msg import JointState
 
 from continuum_manipulator.nodekit.qos import REPORT
@@ -86,6 +87,11 @@ def test_a_browser_that_stalls_or_leaves_holds_nobody_up(probe):
             )
 
         probe.wait_until(went_on, lambda: f"frames and messages beside a browser that stalls: {probe.report('viewer')}")
+        probe.wait_until(
+            lambda: (joints(next(sent)), probe.count("viewer", "browsers") == 0)[1],
+            "the browser that stalls sent away, which may hold cables tight",
+            2 * LONG,
+        )
     finally:
         looker.kill()
         looker.wait()

@@ -20,7 +20,7 @@ from continuum.arm import Arm, arm_to_mapping
 from continuum.viewer.usual_arm import usual_arm
 from tools.bench_viewer.moving_arm import RATE, MovingArm
 from tools.bench_viewer.viewer_process import SETTLING, measured_load, viewer
-from tools.markdown import paragraph, table
+from tools.markdown import paragraph, replace_between, table
 
 PAGE = Path("docs/viewer.md")
 BEGIN, END = "<!-- made by `make bench-viewer` -->", "<!-- end -->"
@@ -37,9 +37,7 @@ def main() -> None:
         text = "\n\n".join([processor_time(domain, options.seconds), others(domain, options.seconds, options.turns)])
     print(text, flush=True)
     if all(value == parser.get_default(name) for name, value in vars(options).items()):
-        head, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
-        tail = rest.partition(END)[2]
-        PAGE.write_text(f"{head}{BEGIN}\n\n{text}\n\n{END}{tail}", encoding="utf-8")
+        replace_between(PAGE, BEGIN, END, text)
         print(f"written: {PAGE}")
 
 

@@ -13,7 +13,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.typing import Subprotocol
 
-_CAMERA = {
+CAMERA = {
     "type": "ViewerCameraMessage", "wxyz": (1.0, 0.0, 0.0, 0.0), "position": (1.0, 0.0, 0.0), "fov": 1.0,
     "near": 0.01, "far": 100.0, "image_height": 600, "image_width": 800, "look_at": (0.0, 0.0, 0.0),
     "up_direction": (0.0, 0.0, 1.0),
@@ -26,7 +26,7 @@ def main() -> None:
     address = sys.argv[1].replace("http", "ws")
     protocol = Subprotocol(f"viser-v{viser.__version__}")
     with connect(address, subprotocols=[protocol], compression=None, max_size=None) as socket:
-        socket.send(msgspec.msgpack.encode(_CAMERA))
+        socket.send(msgspec.msgpack.encode(CAMERA))
         try:
             for _ in socket:
                 pass

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,6 +11,7 @@ from pathlib import Path
 
 from harness import NodeProcess, ended_in_any_case
 
+from tools.bench_link.processes import core_share, usage
 from tools.bench_viewer.moving_arm import MovingArm
 
 SETTLING = 5.0
@@ -53,15 +52,9 @@ def viewer(arm_file: Path, moving: MovingArm, domain: int, looked_at: bool = Tru
 def measured_load(node: NodeProcess, moving: MovingArm, duration: float) -> Load:
     """Of the viewer while the arm moves for so long [s]."""
     moving.probe.wait_for_report("viewer")
-    frames, used, begin = moving.probe.count("viewer", "frames"), _processor_time(node), time.monotonic()
+    frames, before = moving.probe.count("viewer", "frames"), usage(node.process.pid)
     moving.run(duration)
     moving.probe.wait_for_report("viewer")
-    lasted = time.monotonic() - begin
-    used, frames = _processor_time(node) - used, moving.probe.count("viewer", "frames") - frames
-    return Load(used / lasted, frames / lasted)
-
-
-def _processor_time(node: NodeProcess) -> float:
-    """Since its start [s]."""
-    fields = Path(f"/proc/{node.process.pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    after = usage(node.process.pid)
+    frames = moving.probe.count("viewer", "frames") - frames
+    return Load(core_share(before, after), frames / (after.at - before.at))

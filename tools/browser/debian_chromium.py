@@ -20,13 +20,13 @@ class NoChromiumError(Exception):
     """Chromium cannot be had here; the message says why."""
 
 
-def fetch(status: Path = STATUS) -> None:
-    """Download and unpack; ``status`` tells which packages the machine has already.
+def fetch() -> None:
+    """Download and unpack what the machine has not already.
 
     Raises:
         NoChromiumError: no Debian, no network, or no such package.
     """
-    if not (shutil.which("apt-get") and shutil.which("dpkg") and status.is_file()):
+    if not (shutil.which("apt-get") and shutil.which("dpkg") and STATUS.is_file()):
         raise NoChromiumError("this is no Debian: no apt-get, no dpkg")
     state = FOLDER / "apt"
     for part in ("lists/partial", "archives/partial"):
@@ -36,7 +36,7 @@ def fetch(status: Path = STATUS) -> None:
         "Debug::NoLocking": "1",
         "Dir::State": str(state),
         "Dir::State::lists": str(state / "lists"),
-        "Dir::State::status": str(status),
+        "Dir::State::status": str(STATUS),
         "Dir::Cache": str(state),
         "Dir::Cache::archives": str(state / "archives"),
     }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,3 +38,9 @@ def chromium() -> Chromium | None:
     if not program.is_file():
         return None
     return Chromium(program, tuple(sorted({path.parent for path in ROOT.glob("**/*.so*")})))
+
+
+def environment(program: Chromium) -> dict[str, str]:
+    """In which the program finds its libraries."""
+    libraries = os.pathsep.join(map(str, program.libraries))
+    return dict(os.environ) | ({"LD_LIBRARY_PATH": libraries} if libraries else {})

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import argparse
 import signal
+import sys
 import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from continuum.arm import Arm, load_arm
+from continuum.errors import InvalidValueError
+from continuum.viewer.address import HOST, PORT
 
 if TYPE_CHECKING:
     from continuum.viewer.seen import Source
@@ -27,8 +30,8 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "--arm", metavar="ARM.yaml", help="arm of the recording; default: modules of the prototype, as many as it has"
     )
-    parser.add_argument("--host", default="127.0.0.1", help="address to serve on; default %(default)s, this host alone")
-    parser.add_argument("--port", type=int, default=8080, help="0 for any that is free; default %(default)s")
+    parser.add_argument("--host", default=HOST, help="address to serve on; default %(default)s, this host alone")
+    parser.add_argument("--port", type=int, default=PORT, help="0 for any that is free; default %(default)s")
     parser.set_defaults(run=run)
 
 
@@ -52,6 +55,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
+    from continuum.recordings.recorded_arm import check_joints
     from continuum.viewer.hands import Hands
     from continuum.viewer.playback import Playback
     from continuum.viewer.tracks import read_tracks
@@ -59,9 +63,17 @@ def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
 
     what = options.what
     if what is None or Path(what).suffix in (".yaml", ".yml"):
+        if what is not None and options.arm is not None:
+            raise InvalidValueError("--arm", options.arm, f"only beside a recording; {what} is an arm itself")
         file = options.arm if what is None else what
         arm = usual_arm() if file is None else load_arm(file)
         return arm, Hands(arm)
+    if sys.stdout.isatty():  # a refusal is one line, elsewhere
+        print(f"reading {what} ...", flush=True)
     tracks = read_tracks(what)
-    arm = arm_of_joints(tracks.joints.names) if options.arm is None else load_arm(options.arm)
+    if options.arm is None:
+        arm = arm_of_joints(tracks.joints.names)
+    else:
+        arm = load_arm(options.arm)
+        check_joints(what, tracks.joints.names, arm)
     return arm, Playback(tracks, Path(what).name)

@@ -9,7 +9,7 @@ import numpy as np
 from continuum.arm import Arm, Section
 from continuum.arrays import Array
 from continuum.kinematics.cables.hole_points import hole_points
-from continuum.kinematics.chain import section_base_rotations, section_tip_poses
+from continuum.kinematics.chain import section_bases
 from continuum.kinematics.configuration import bend, curvature
 from continuum.kinematics.routing import cables_through
 
@@ -35,7 +35,7 @@ class CableLine:
 
 def cable_lines(w: Array, arm: Arm) -> list[CableLine]:
     """All cables in all sections that they run through, at ``w`` (n_sections, 2) [rad]."""
-    rotations, origins = _section_bases(w, arm)
+    rotations, origins = section_bases(w, arm)
     colours = {name: j for section in arm.sections for j, name in enumerate(section.cable_names)}
     lines = []
     for i, section in enumerate(arm.sections):
@@ -55,7 +55,7 @@ def curvature_arrows(w: Array, arm: Arm, metres_per_radian: float, longest_radiu
         metres_per_radian: length of an arrow for each radian of bend.
         longest_radius: a section that is straighter than this radius of curvature [m] has no arrow: None.
     """
-    rotations, origins = _section_bases(w, arm)
+    rotations, origins = section_bases(w, arm)
     arrows: list[Array | None] = []
     for i, section in enumerate(arm.sections):
         arrow = section_arrow(w[i], section, metres_per_radian, longest_radius)
@@ -72,10 +72,3 @@ def section_arrow(w: Array, section: Section, metres_per_radian: float, longest_
     u, v = w
     centre = np.array([v, -u, 0.0]) / (theta * kappa)
     return np.stack([centre, centre + metres_per_radian * np.array([u, v, 0.0])])
-
-
-def _section_bases(w: Array, arm: Arm) -> tuple[Array, Array]:
-    """Rotations (n_sections, 3, 3) and origins (n_sections, 3) [m] of the sections' base frames in ``base_link``."""
-    tips = section_tip_poses(w, arm)
-    origins = np.concatenate([np.zeros((1, 3)), tips[:-1, :3, 3]])
-    return section_base_rotations(tips, arm), origins

@@ -14,6 +14,7 @@ from continuum.arrays import Array
 from continuum.kinematics.configuration import allen_from_jones
 from continuum.recordings.bag import Bag, stamp_ns
 from continuum.recordings.named_values import named_values
+from continuum.recordings.recorded_arm import check_joints
 
 Stamps = NDArray[np.int64]
 
@@ -84,6 +85,8 @@ def read_arm_recording(bag: Bag, arm: Arm) -> ArmRecording:
     """
     messages = {topic: list(bag.messages(topic, message_type)) for topic, message_type in TOPICS.items()}
     n_cables = len(arm.cable_names)
+    for names in {tuple(message.name) for message in messages["/joint_states"]}:
+        check_joints(bag.path, names, arm)
 
     def stream(topic: str, shape: tuple[int, ...], value_of: Callable[[Any], ArrayLike]) -> Stream:
         stamps, first = np.unique(_stamps(messages[topic]), return_index=True)

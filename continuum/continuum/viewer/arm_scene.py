@@ -21,7 +21,9 @@ from continuum.viewer.section_angles import configuration_of_joints
 
 _ARROW_COLOUR = (150, 0, 200)
 _GHOST_COLOUR = (70, 130, 200)
-_GHOST_OPACITY = 0.3
+_PALE = 0.3
+"""Opacity."""
+
 _CABLE = 0.09
 """Thickness of a cable's line, of the radius of the first section's holes; half of it where it only passes."""
 
@@ -51,6 +53,7 @@ class ArmLinks:
         self._angles = np.zeros(len(self.chain.joints))
         self.poses = self.chain.poses(self._angles)
         self._frame = server.scene.add_frame(name, show_axes=False)
+        self._pale = ghost
         shapes = link_shapes(description, self.chain.links)
         turns, places = self._placed()
         self._meshes = [
@@ -63,7 +66,7 @@ class ArmLinks:
                     batched_wxyzs=turns[shape.links],
                     batched_positions=places[shape.links],
                     batched_colors=_GHOST_COLOUR if ghost else linear_light(shape.colours),
-                    opacity=_GHOST_OPACITY if ghost else None,
+                    opacity=_PALE if ghost else None,
                     flat_shading=True,
                     lod="off",
                     cast_shadow=False,
@@ -80,6 +83,18 @@ class ArmLinks:
     @visible.setter
     def visible(self, visible: bool) -> None:
         self._frame.visible = visible
+
+    @property
+    def pale(self) -> bool:
+        """Whether they are translucent."""
+        return self._pale
+
+    @pale.setter
+    def pale(self, pale: bool) -> None:
+        if pale is not self._pale:
+            self._pale = pale
+            for _, mesh in self._meshes:
+                mesh.opacity = _PALE if pale else None
 
     def show(self, joints: Mapping[str, float]) -> bool:
         """Put the links where the angles [rad] of the named joints say; False where that is where they are."""

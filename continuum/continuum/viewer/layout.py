@@ -27,6 +27,11 @@ class Layout:
     status: viser.GuiTabHandle
 
 
+def spoken(name: str) -> str:
+    """A name of the arm's, as people read it."""
+    return name.replace("_", " ")
+
+
 def layout_of(server: viser.ViserServer) -> Layout:
     """Make the panels."""
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="medium")

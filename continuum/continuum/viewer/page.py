@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import socket
 import threading
 import time
 from contextlib import redirect_stdout
@@ -14,19 +13,16 @@ import viser
 
 from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.errors import InvalidValueError
+from continuum.viewer.address import HOST, PORT, check_address, url
 from continuum.viewer.arm_scene import ArmLinks, ArmScene
 from continuum.viewer.description import arm_description
+from continuum.viewer.door import keep_door
 from continuum.viewer.layout import layout_of
 from continuum.viewer.plots import CablePlots
 from continuum.viewer.seen import Seen, Source
 from continuum.viewer.status_table import StatusTable
 from continuum.viewer.trail import Trail
 
-HOST = "127.0.0.1"
-"""This host alone."""
-
-PORT = 8080
 FRAME_RATE = 30.0
 """Most frames a second."""
 
@@ -52,13 +48,14 @@ class Page:
     """
 
     def __init__(self, arm: Arm, source: Source, host: str = HOST, port: int = PORT) -> None:
-        _check_address(host, port)
+        check_address(host, port)
         self.frames = 0
         self._source = source
         self._arm = arm
         self._description = arm_description(arm)
         with redirect_stdout(io.StringIO()):  # it has a banner of its own
             self._server = viser.ViserServer(host=host, port=port, label="continuum", verbose=False)
+        keep_door(self._server, host)
         self._host = host
         layout = layout_of(self._server)
         self._set_up_view()
@@ -77,7 +74,7 @@ class Page:
     @property
     def address(self) -> str:
         """What to open in a browser."""
-        return f"http://{'localhost' if self._host in ('0.0.0.0', '::') else self._host}:{self._server.get_port()}"  # noqa: S104
+        return url(self._host, self._server.get_port())
 
     @property
     def lookers(self) -> int:
@@ -99,7 +96,8 @@ class Page:
         with self._server.atomic():
             self._draw_arms(seen)
             self._draw_target(seen.target)
-            self._plots.show(seen if seen.lengths else replace(seen, lengths=self._scene.cable_lengths()))
+            drawn = seen.has_posture and not seen.lengths
+            self._plots.show(replace(seen, lengths=self._scene.cable_lengths()) if drawn else seen)
             self._statuses.show(seen.statuses)
 
     def close(self) -> None:
@@ -108,6 +106,7 @@ class Page:
             self._server.stop()
 
     def _draw_arms(self, seen: Seen) -> None:
+        self._scene.links.pale = not seen.has_posture
         if self._scene.show(seen.simulated or seen.joints):
             self._tip_trail.follow(self._scene.tip)
         if seen.simulated and seen.joints:
@@ -140,18 +139,3 @@ class Page:
             "/ground", width=2.4 * length, height=2.4 * length, cell_size=cell, section_size=5 * cell,
             position=(0.0, 0.0, plane), shadow_opacity=0.0,
         )  # fmt: skip
-
-
-def _check_address(host: str, port: int) -> None:
-    """Refuse an address that nobody can listen on: the server itself would look for another port."""
-    if not 0 <= port <= 65535:
-        raise InvalidValueError("port", port, "a whole number from 0 to 65535, 0 for any that is free")
-    try:
-        family, kind, _, _, address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0]
-        with socket.socket(family, kind) as trial:
-            trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            trial.bind(address)
-    except OSError as error:
-        raise InvalidValueError(
-            "address", f"{host}:{port}", f"one of this machine's, and a port that is free ({error.strerror or error})"
-        ) from error

@@ -1,4 +1,4 @@
-"""A recording played on the page: play and pause, speed, and a slider over its time."""
+"""A recording played on the page: play and pause, again and again or once, speed, and a slider over its time."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _STEP = 0.01
 
 
 class Playback:
-    """Plays from the beginning as soon as somebody looks, and stops at the end.
+    """Plays from the beginning as soon as somebody looks, again and again unless "Repeat" is off.
 
     Args:
         tracks: of the recording.
@@ -37,6 +37,7 @@ class Playback:
         with layout.move:
             gui.add_markdown(f"`{self._name}`")
             self._plays: viser.GuiCheckboxHandle = gui.add_checkbox("Play", True)
+            self._repeats: viser.GuiCheckboxHandle = gui.add_checkbox("Repeat", True)
             self._speed = gui.add_dropdown("Speed", tuple(_SPEEDS), initial_value="1")
             self._slider: viser.GuiSliderHandle[float] = gui.add_slider("time [s]", 0.0, end, min(_STEP, end), 0.0)
         self._shown = self._slider.value
@@ -63,10 +64,10 @@ class Playback:
         elif self._plays.value:
             end = self._tracks.duration
             if self._time >= end and self._shown >= end:
-                self._time = 0.0  # play was pressed at the end
+                self._time = 0.0  # it is repeated, or play was pressed at the end
             else:
                 self._time = min(self._time + passed * _SPEEDS[self._speed.value], end)
-                if self._time >= end:
+                if self._time >= end and not self._repeats.value:
                     self._plays.value = False  # type: ignore[misc]
             self._slider.value = self._time  # type: ignore[misc]
         self._shown = self._slider.value

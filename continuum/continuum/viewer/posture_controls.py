@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +14,8 @@ from continuum.kinematics.configuration import allen_from_jones, jones_from_alle
 from continuum.kinematics.ik_result import IkResult, IkStatus
 from continuum.kinematics.ik_target import Target
 from continuum.kinematics.inverse_kinematics import InverseKinematics
-from continuum.viewer.layout import Layout
+from continuum.viewer.layout import Layout, spoken
+from continuum.viewer.slider_value import end_in_degrees, value_within
 
 _WORDS = {
     IkStatus.SOLVED: "reached",
@@ -23,6 +23,11 @@ _WORDS = {
     IkStatus.UNREACHABLE: "out of reach",
     IkStatus.NO_CONVERGENCE: "not found",
 }
+_FREE = "Drag the target, or move a slider."
+_BOUND = "Choose above what you move first."
+_FAR = 10.0
+"""A target further away than so many lengths of the arm was not dragged there."""
+
 _MOVED = 1e-7
 """A target or slider that moved by less did not move [m, deg]."""
 
@@ -54,20 +59,31 @@ class PostureControls:
         with layout.move:
             self._sliders = []
             for section in arm.sections:
-                with gui.add_folder(section.name.replace("_", " ")):
-                    limit = math.degrees(section.bend_limit)
-                    theta = gui.add_slider("theta [deg]", 0.0, limit, 0.1, 0.0, hint="bend of the section")
+                with gui.add_folder(spoken(section.name)):
+                    end = end_in_degrees(section.bend_limit)
+                    theta = gui.add_slider("theta [deg]", 0.0, end, 0.1, 0.0, hint="bend of the section")
                     phi = gui.add_slider("phi [deg]", -180.0, 180.0, 0.1, 0.0, hint="towards which it bends")
                     self._sliders.append(_Sliders(phi, theta))
-            self._answer = gui.add_markdown("Drag the target, or move a slider.")
+            self._answer = gui.add_markdown(_FREE)
         self._gizmo = layout.server.scene.add_transform_controls(
             "/target", scale=0.14 * arm.length, disable_rotations=True, depth_test=False, position=self.target
         )
         self._set = self._read()
 
+    def hand_over(self, to_user: bool) -> None:
+        """Let the page's user move the target and the sliders, or show them alone."""
+        if to_user is not self._gizmo.visible:
+            self._gizmo.visible = to_user
+            self._answer.content = _FREE if to_user else _BOUND
+        for sliders in self._sliders:
+            sliders.phi.disabled = sliders.theta.disabled = not to_user
+
     def follow(self) -> bool:
         """Take in what the user moved; True if anything was."""
         place, angles = np.array(self._gizmo.position, dtype=float), self._read()
+        if not np.abs(place).max() < _FAR * self._arm.length:  # also of what is no number
+            self._place(self.target)
+            return False
         if np.abs(place - self.target).max() > _MOVED:
             self.target = place
             result = self._solver.solve(Target(place), start=self.w)
@@ -95,8 +111,9 @@ class PostureControls:
         self._gizmo.position = point
 
     def _read(self) -> Array:
-        """Phi and theta as the sliders show them, (n_sections, 2) [deg]."""
-        return np.array([[sliders.phi.value, sliders.theta.value] for sliders in self._sliders], dtype=float)
+        """Phi and theta as the sliders show them, within limits whatever a browser says, (n_sections, 2) [deg]."""
+        shown = [[sliders.phi, sliders.theta] for sliders in self._sliders]
+        return np.array([[value_within(slider) for slider in pair] for pair in shown])
 
     def _write(self) -> None:
         for sliders, phi, theta in zip(self._sliders, *np.degrees(jones_from_allen(self.w)), strict=True):

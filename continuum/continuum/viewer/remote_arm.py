@@ -6,11 +6,17 @@ from dataclasses import replace
 
 from continuum.arm import Arm
 from continuum.arrays import Array
+from continuum.viewer.held import Held
 from continuum.viewer.layout import Layout
 from continuum.viewer.posture_controls import PostureControls
 from continuum.viewer.section_angles import configuration_of_joints
 from continuum.viewer.seen import Seen
 from continuum.viewer.tension_controls import TensionControls
+
+_NOTHING = "nothing"
+"""What the page's user moves unless another choice is made."""
+
+_UNHEARD = "No `joint_states` heard yet: the arm is drawn pale and straight, however it may stand."
 
 
 class RemoteArm:
@@ -45,17 +51,23 @@ class RemoteArm:
     def add_controls(self, layout: Layout) -> None:
         gui = layout.server.gui
         with layout.move:
-            self._leads = gui.add_dropdown(
-                "You move", ("nothing", "the target", "the joints"),
+            leads = gui.add_dropdown(
+                "You move", (_NOTHING, "the target", "the joints"),
                 hint="the target: poses for the inverse kinematics; the joints: in the place of a node that moves them",
             )  # fmt: skip
+            self._unheard = gui.add_markdown(_UNHEARD)
+        self._leads = Held(layout.server, leads, _NOTHING)
         self._controls = PostureControls(layout, self._arm)
         self.tensions = TensionControls(layout, self._arm.cable_names, self._most)
 
     def newest(self) -> Seen:
         seen = self._seen
         leads = self._leads.value
-        if leads == "nothing":
+        self._unheard.visible = not seen.has_posture
+        if self.tensions is not None:
+            self.tensions.offer(seen.tensions)
+        self._controls.hand_over(leads != _NOTHING)
+        if leads == _NOTHING:
             self.target = self.posture = None
             w = configuration_of_joints(seen.simulated or seen.joints, self._arm)
             self._controls.show(w)
@@ -66,9 +78,10 @@ class RemoteArm:
         return seen
 
     def let_go(self) -> None:
-        """Nobody looks any more: the user moves nothing."""
-        self.target = self.posture = None
-        if self.tensions is not None:
-            self.tensions.give_back()
-            if self._leads.value != "nothing":
-                self._leads.value = "nothing"  # type: ignore[misc]
+        """What was moved by a user who looks no more is nobody's."""
+        if self.tensions is None:
+            return
+        self.tensions.let_go()
+        self._leads.let_go()
+        if self._leads.value == _NOTHING:
+            self.target = self.posture = None

@@ -48,6 +48,11 @@ class Seen:
     target: Array | None = None
     statuses: tuple[Status, ...] = ()
 
+    @property
+    def has_posture(self) -> bool:
+        """Whether anybody has said how the arm stands."""
+        return bool(self.simulated or self.joints)
+
 
 class Source(Protocol):
     """Who says what is to be seen. It is asked once for each frame, and only while somebody looks."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -92,40 +92,48 @@ def _from_table(path: str | Path) -> Tracks:
 
 def _from_bag(path: str | Path) -> Tracks:
     with Bag(path) as bag:
-        joints = _read(bag, "/joint_states", lambda message: message.position)
+        (joints,) = _read(bag, "/joint_states", ("position",))
         if not joints.times.size:
             raise FileError(bag.path, "has no message on /joint_states")
         start = joints.times[0]
         tracks = [
             joints,
-            _read(bag, "/joint_states", lambda message: message.position, SIMULATED),
-            _read(bag, "/cable_states", lambda message: message.position),
-            _read(bag, "/cable_states", lambda message: message.effort),
+            *_read(bag, "/joint_states", ("position",), SIMULATED),
+            *_read(bag, "/cable_states", ("position", "effort")),
             _read_targets(bag),
         ]
     return Tracks(*(Track(track.times - start, track.names, track.values) for track in tracks))
 
 
-def _read(bag: Bag, topic: str, values_of: Callable[[Any], Sequence[float]], namespace: str = "") -> Track:
-    """Of the messages that have values; all must have the names of the first."""
+def _read(bag: Bag, topic: str, fields: Sequence[str], namespace: str = "") -> list[Track]:
+    """A track of each field, of the messages that have values in it; all must have the names of the first of these."""
     if namespace + topic not in bag.topics:
-        return NOTHING
-    messages = [one for one in bag.messages(namespace + topic, TOPICS[topic]) if len(values_of(one))]
-    if not messages:
-        return NOTHING
-    names = tuple(messages[0].name)
-    return _sorted(messages, names, [named_values(bag, one, np.asarray(values_of(one)), names) for one in messages])
+        return [NOTHING] * len(fields)
+    names: dict[str, tuple[str, ...]] = {}
+    times: dict[str, list[float]] = {field: [] for field in fields}
+    rows: dict[str, list[Array]] = {field: [] for field in fields}
+    for one in bag.messages(namespace + topic, TOPICS[topic]):
+        for field in fields:
+            values = np.asarray(getattr(one, field))
+            if len(values):
+                wanted = names.setdefault(field, tuple(one.name))
+                times[field].append(1e-9 * stamp_ns(one))
+                rows[field].append(named_values(bag, one, values, wanted))
+    return [_sorted(times[field], names[field], rows[field]) if field in names else NOTHING for field in fields]
 
 
 def _read_targets(bag: Bag) -> Track:
     if "/traj_pose" not in bag.topics:
         return NOTHING
-    messages = list(bag.messages("/traj_pose", TOPICS["/traj_pose"]))
-    points = [[getattr(one.pose.position, axis) for axis in "xyz"] for one in messages]
-    return _sorted(messages, tuple("xyz"), points) if messages else NOTHING
+    times, points = [], []
+    for one in bag.messages("/traj_pose", TOPICS["/traj_pose"]):
+        times.append(1e-9 * stamp_ns(one))
+        points.append([getattr(one.pose.position, axis) for axis in "xyz"])
+    if not np.isfinite(points).all():
+        raise FileError(bag.path, "has a message on /traj_pose whose position is not finite")
+    return _sorted(times, tuple("xyz"), points) if points else NOTHING
 
 
-def _sorted(messages: Sequence[Any], names: tuple[str, ...], values: Sequence[Any]) -> Track:
-    times = np.array([1e-9 * stamp_ns(one) for one in messages])
+def _sorted(times: Sequence[float], names: tuple[str, ...], values: Sequence[Any]) -> Track:
     order = np.argsort(times, kind="stable")
-    return Track(times[order], names, np.array(values, dtype=float)[order])
+    return Track(np.array(times)[order], names, np.array(values, dtype=float)[order])

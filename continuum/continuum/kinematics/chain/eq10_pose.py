@@ -59,3 +59,15 @@ def section_base_rotations(tip_poses: Array, arm: Arm) -> Array:
     before = np.concatenate([upright, tip_poses[..., :-1, :3, :3]], axis=-3)
     twists = np.array([section.twist for section in arm.sections])
     return matrix(turned_about_z(entries_of(before), np.cos(twists), np.sin(twists)))
+
+
+def section_bases(w: Array, arm: Arm) -> tuple[Array, Array]:
+    """Rotations (..., n_sections, 3, 3), twist included, and origins (..., n_sections, 3) [m] of the base frames.
+
+    Args:
+        w: (..., n_sections, 2) [rad].
+        arm: the arm.
+    """
+    tips = section_tip_poses(w, arm)
+    own = np.zeros_like(tips[..., :1, :3, 3])
+    return section_base_rotations(tips, arm), np.concatenate([own, tips[..., :-1, :3, 3]], axis=-2)

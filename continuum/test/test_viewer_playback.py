@@ -1,0 +1,146 @@
+"""A recording on the viewer's page: all of it that is to be seen, at the instant that the time slider says."""
+
+import csv
+
+import numpy as np
+import pytest
+import recorded_runs as runs
+
+from continuum.errors import FileError
+from continuum.kinematics.chain import arm_pose
+from continuum.viewer import playback
+from continuum.viewer.page import Page
+from continuum.viewer.section_angles import configuration_of_joints
+from continuum.viewer.tracks import Track, read_tracks
+
+SIMULATED = "/simulated/joint_states"
+BENT = np.array([[0.2, 0.1], [0.3, -0.1]])
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A run beside a simulated arm that stands still; tensions are told now and then; two messages changed places."""
+    topics = runs.run()
+    topics[SIMULATED] = [runs.joint_state(stamp, BENT) for stamp in runs.STAMPS]
+    names, tensions = list(runs.ARM.cable_names), np.arange(1.0, 1.0 + len(runs.ARM.cable_names))
+    tension = [
+        runs.message(runs.TYPES["/cable_states"], stamp, name=names, effort=tensions) for stamp in runs.STAMPS[::10]
+    ]
+    topics["/cable_states"] += tension
+    joints = topics["/joint_states"]
+    joints[30], joints[31] = joints[31], joints[30]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(runs.TYPES, SIMULATED, runs.TYPES["/joint_states"])
+        return runs.write(tmp_path_factory.mktemp("playback") / "run", topics)
+
+
+def test_all_of_a_recording_is_found(folder):
+    tracks = read_tracks(folder)
+    assert tracks.duration == pytest.approx((runs.N - 1) / runs.RATE, abs=1e-6)
+    w, row = runs.postures()[0], 30
+    now = (row + 0.5) / runs.RATE
+    np.testing.assert_allclose(configuration_of_joints(tracks.joints.at(now), runs.ARM), w[row], atol=1e-9)
+    np.testing.assert_allclose(configuration_of_joints(tracks.simulated.at(now), runs.ARM), BENT, atol=1e-9)
+    np.testing.assert_allclose(list(tracks.lengths.at(now).values()), runs.tangle(w[row], runs.ARM))
+    np.testing.assert_allclose(list(tracks.tensions.at(now).values()), 1.0 + np.arange(len(runs.ARM.cable_names)))
+    np.testing.assert_allclose(list(tracks.target.at(now).values()), runs.tips()[row])
+
+
+class Shown:
+    """The page of the recording, at a time of the machine that the test says."""
+
+    def __init__(self, folder, monkeypatch):
+        self._now = 100.0
+        monkeypatch.setattr(playback.time, "monotonic", lambda: self._now)
+        self.source = playback.Playback(read_tracks(folder), "run")
+        self.page = Page(runs.ARM, self.source, port=0)
+        self.page.draw()
+
+    def after(self, seconds):
+        """The slider's time then [s]."""
+        self._now += seconds
+        self.page.draw()
+        return self.source._slider.value
+
+
+@pytest.fixture
+def shown(folder, monkeypatch):
+    shown = Shown(folder, monkeypatch)
+    yield shown
+    shown.page.close()
+
+
+def test_what_was_recorded_is_shown(shown):
+    assert shown.after(0.305) == pytest.approx(0.305)
+    page, w = shown.page, runs.postures()[0][30]
+    np.testing.assert_allclose(page._scene.tip, arm_pose(BENT, runs.ARM)[:3, 3], atol=1e-6)
+    assert page._ghost.visible
+    np.testing.assert_allclose(page._ghost.poses[-1, :3, 3], arm_pose(w, runs.ARM)[:3, 3], atol=1e-6)
+    np.testing.assert_allclose(page._target.position, runs.tips()[30], atol=1e-6)
+    page._plots._due = 0.0
+    shown.after(0.0)
+    own = len(runs.ARM.sections[0].cable_names)
+    newest = np.array(page._plots._lengths.plot.data)[1:, -1]
+    np.testing.assert_allclose(newest, 1e3 * runs.tangle(w, runs.ARM)[:own])
+    np.testing.assert_allclose(np.array(page._plots._tensions.plot.data)[1:, -1], 1.0 + np.arange(own))
+
+
+def test_time_goes_as_fast_as_chosen_stops_at_the_end_and_begins_again(shown):
+    assert shown.after(0.1) == pytest.approx(0.1)
+    shown.source._speed.value = "1/4"
+    assert shown.after(0.4) == pytest.approx(0.2)
+    shown.source._plays.value = False
+    assert shown.after(9.0) == pytest.approx(0.2)
+    shown.source._plays.value, shown.source._repeats.value = True, False
+    assert shown.after(9.0) == pytest.approx(0.59)
+    assert not shown.source._plays.value
+    shown.source._plays.value = True
+    assert shown.after(0.1) == 0.0
+
+
+def test_it_is_played_again_and_again(shown):
+    for _ in range(2):
+        assert shown.after(9.0) == pytest.approx(0.59)
+        assert shown.source._plays.value
+        assert shown.after(0.1) == 0.0
+
+
+def test_the_slider_says_the_time(shown):
+    shown.source._plays.value = False
+    shown.source._slider.value = 0.405
+    shown.after(1.0)
+    ghost = shown.page._ghost.poses[-1, :3, 3]
+    np.testing.assert_allclose(ghost, arm_pose(runs.postures()[0][40], runs.ARM)[:3, 3], atol=1e-6)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_a_target_that_is_no_place_is_told(tmp_path, value):
+    topics = runs.run()
+    topics["/traj_pose"][3].pose.position.y = value
+    with pytest.raises(FileError, match="traj_pose"):
+        read_tracks(runs.write(tmp_path / "run", topics))
+
+
+def test_values_hold_until_the_next():
+    track = Track(np.array([0.0, 1.0]), ("a",), np.array([[1.0], [2.0]]))
+    assert [track.at(t) for t in (-0.1, 0.0, 0.9, 1.0, 9.0)] == [{}, {"a": 1.0}, {"a": 1.0}, {"a": 2.0}, {"a": 2.0}]
+
+
+def test_table_of_joint_angles_is_a_recording(tmp_path):
+    path = tmp_path / "run.csv"
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(["t_s", "q1_deg", "q2_deg"])
+        writer.writerows([5.0 + 0.01 * k, k, -k] for k in range(50))
+    tracks = read_tracks(path)
+    assert tracks.duration == pytest.approx(0.49)
+    assert tracks.joints.at(0.1) == pytest.approx(
+        {"section_1_theta_1": np.radians(10.0), "section_1_theta_2": np.radians(-10.0)}
+    )
+
+
+def test_what_is_no_recording_is_told_in_one_line(tmp_path):
+    with pytest.raises(FileError, match="metadata"):
+        read_tracks(tmp_path)
+    with pytest.raises(FileError, match="cannot be read"):
+        read_tracks(tmp_path / "none.csv")

@@ -1,0 +1,204 @@
+"""What the viewer's page asks of the arm, over DDS: published while the browser that asks is there, and nobody else."""
+
+import contextlib
+
+import numpy as np
+import pytest
+from arm_messages import ARM, cables, joint_state, pose, postures
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import PoseStamped
+from harness import NodeProcess, Probe, ended_in_any_case, running
+from harness.visitor import Visitor
+from sensor_msgs.msg import JointState
+
+from continuum.kinematics.chain import arm_pose
+from continuum.viewer.section_angles import configuration_of_joints
+from continuum_manipulator.nodekit.qos import REPORT
+from continuum_manipulator.nodekit.stamps import nanoseconds
+from continuum_msgs.msg import CableStates
+
+pytestmark = pytest.mark.ros
+
+CABLES = ["section_1_cable_1", "section_1_cable_2"]
+SLIDER = "section 1 cable 1 [N]"
+TAKE, LEAD = "Take control", "You move"
+
+
+class Bench:
+    """A viewer, and what it says."""
+
+    def __init__(self, probe, node):
+        self.probe, self.node = probe, node
+        self.tensions = probe.hear(CableStates, "cable_tension_cmd")
+        self.targets = probe.hear(PoseStamped, "traj_pose")
+        self.joints = probe.hear(JointState, "joint_states")
+        probe.wait_until(lambda: probe.report("viewer").get("address"), "the viewer")
+        self.address = probe.report("viewer")["address"]
+        self._say_cables = probe.speaker(CableStates, "cable_states").publish
+
+    def visitor(self):
+        return Visitor(self.address, self.address)
+
+    def wait(self, condition, what):
+        """Meanwhile somebody says the tensions of two cables."""
+
+        def met():
+            self._say_cables(CableStates(name=CABLES, effort=[1.0, 1.0]))
+            return condition()
+
+        self.probe.wait_until(met, what)
+
+    def pull(self, visitor, tension):
+        self.wait(lambda: self.probe.count("viewer", "received cable_states") > 0, "tensions heard")
+        self.tensions.clear()
+        visitor.put(TAKE, True)
+        self.wait(lambda: self.tensions and not any(self.tensions[-1].effort), "control, and nothing pulled")
+        visitor.put(SLIDER, tension)
+
+    def wait_for_tension(self, tension):
+        self.wait(lambda: self.tensions and self.tensions[-1].effort[0] == tension, f"{tension} N")
+
+    def wait_for_silence(self, heard):
+        def quiet():
+            before = len(heard)
+            self.probe.wait_for_report("viewer")
+            return len(heard) == before
+
+        self.wait(quiet, "silence")
+
+
+@pytest.fixture
+def bench(domain):
+    node = NodeProcess("continuum_manipulator", "viewer", domain, parameters={"port": 0, "max_tension": 30.0})
+    with running(node), Probe(domain) as probe:
+        yield Bench(probe, node)
+
+
+def test_cables_are_pulled_by_a_slider_and_slack_once_control_is_given_back(bench):
+    with bench.visitor() as visitor:
+        bench.pull(visitor, 12.0)
+        bench.wait_for_tension(12.0)
+        assert list(bench.tensions[-1].name) == CABLES
+        assert nanoseconds(bench.tensions[-1].header.stamp) > 0
+        visitor.put(SLIDER, 500.0)
+        bench.wait_for_tension(30.0)
+        visitor.put(TAKE, False)
+        bench.wait_for_tension(0.0)
+        bench.wait_for_silence(bench.tensions)
+    assert set(map(len, (bench.targets, bench.joints))) == {0}
+
+
+def test_cables_are_slack_once_the_browser_that_pulls_has_left_also_beside_another(bench):
+    with bench.visitor() as other, contextlib.ExitStack() as left:
+        puller = left.enter_context(bench.visitor())
+        bench.pull(puller, 12.0)
+        bench.wait_for_tension(12.0)
+        left.close()
+        bench.wait_for_tension(0.0)
+        bench.wait_for_silence(bench.tensions)
+        bench.pull(other, 5.0)
+        bench.wait_for_tension(5.0)
+
+
+def test_nobody_is_talked_over(bench):
+    """Another's tensions hold while it speaks; then those of the page."""
+    say = bench.probe.speaker(CableStates, "cable_tension_cmd").publish
+    with bench.visitor() as visitor:
+        bench.pull(visitor, 12.0)
+        bench.wait_for_tension(12.0)
+
+        counts = []
+
+        def silent():
+            say(cables(1, 0, CABLES, [0.1, 0.1]))
+            if report := bench.probe._reports.pop("viewer", None):
+                counts.append(report["published cable_tension_cmd"])
+            return len(counts) > 1 and counts[-1] == counts[-2]
+
+        bench.wait(silent, "the viewer silent")
+        heard = len(bench.tensions)
+        bench.wait(lambda: any(len(one.effort) for one in bench.tensions[heard:]), "the viewer's voice again")
+
+
+def test_a_dragged_target_and_joints_are_published(bench):
+    place = arm_pose(postures(1)[0][0] * 0.3, ARM)[:3, 3]
+    with bench.visitor() as visitor:
+        visitor.put(LEAD, "the target")
+        bench.wait(lambda: bench.targets, "a target")
+        visitor.drag(place)
+
+        def there():
+            point = bench.targets[-1].pose.position
+            return np.allclose([point.x, point.y, point.z], place)
+
+        bench.wait(there, "the target where it was dragged")
+        assert bench.targets[-1].header.frame_id == "base_link"
+        assert bench.joints == []
+        visitor.put(LEAD, "the joints")
+        visitor.put("theta [deg]", 40.0)
+
+        def bent():
+            if not bench.joints:
+                return False
+            w = configuration_of_joints(dict(zip(bench.joints[-1].name, bench.joints[-1].position, strict=True)), ARM)
+            return np.isclose(np.hypot(*w[0]), np.radians(40.0))
+
+        bench.wait(bent, "the joint states")
+    bench.wait_for_silence(bench.joints)
+    bench.wait_for_silence(bench.targets)
+
+
+def test_what_nodes_say_is_to_be_seen(bench):
+    """A simulated arm makes the measured one its ghost; who falls silent is told to be silent."""
+    say = [bench.probe.speaker(JointState, topic).publish for topic in ("joint_states", "simulated/joint_states")]
+    aim = bench.probe.speaker(PoseStamped, "traj_pose").publish
+    tell = bench.probe.speaker(DiagnosticArray, "/diagnostics", listeners=2, qos=REPORT).publish
+    tell(DiagnosticArray(status=[DiagnosticStatus(name="imu 3", message="well and good")]))
+    with bench.visitor() as visitor:
+
+        def seen(*names):
+            for publish, w in zip(say, postures(2)[0], strict=True):
+                publish(joint_state(1, w))
+            return visitor.shown.issuperset(names)
+
+        def words():
+            return " ".join(visitor.texts.values())
+
+        bench.wait(lambda: seen("/ghost"), "the ghost")
+        assert "/wanted" not in visitor.shown
+        bench.wait(lambda: (aim(pose(1, (0.1, 0.0, 0.2))), seen("/wanted"))[1], "the target")
+        bench.wait(lambda: "imu 3" in words() and "silent" in words(), words)
+
+
+def test_joints_that_a_node_moves_are_left_to_it(bench):
+    say = bench.probe.speaker(JointState, "joint_states").publish
+    w = postures(1)[0][0]
+    say(joint_state(1, w))
+    with bench.visitor() as visitor:
+        bench.wait(lambda: (say(joint_state(1, w)), bench.probe.count("viewer", "received joint_states"))[1], "heard")
+        visitor.put(LEAD, "the joints")
+        for _ in range(2):
+            bench.probe._reports.clear()
+            bench.wait(lambda: (say(joint_state(1, w)), bench.probe.report("viewer"))[1], "a report")
+        assert bench.probe.count("viewer", "published joint_states") == 0
+        assert "joint_states" in bench.probe.report("viewer")["message"]
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "null"])
+def test_a_page_of_another_site_has_no_say(bench, origin):
+    visitor = Visitor(bench.address, origin)
+    bench.wait(lambda: visitor.refusal, "refused")
+    assert visitor.refusal == "a page of another site"
+    bench.probe.wait_for_report("viewer")
+    assert bench.probe.count("viewer", "browsers") == 0
+
+
+def test_what_is_drawn_no_more_ends_the_node(domain):
+    """A made-up choice, which no browser makes, ends the drawing."""
+    node = NodeProcess("continuum_manipulator", "viewer", domain, name="mortal", parameters={"port": 0})
+    with ended_in_any_case(node), Probe(domain) as probe:
+        probe.wait_until(lambda: probe.report("mortal").get("address"), "the viewer")
+        with Visitor(probe.report("mortal")["address"]) as visitor:
+            visitor.put("Section", "section_99")
+            assert node.exit_code() == 1
+        assert node.stderr.strip().splitlines()[-1].startswith("viewer: error: the page is drawn no more")
