@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 
 def paragraph(*parts: str) -> str:
@@ -17,3 +18,10 @@ def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     if not lines:
         return "None."
     return "\n".join([f"| {' | '.join(head)} |", f"|{'---|' * len(head)}", *lines])
+
+
+def replace_between(page: Path, begin: str, end: str, text: str) -> None:
+    """Put a text between two lines of a page, in the place of what stands there."""
+    head, _, rest = page.read_text(encoding="utf-8").partition(begin)
+    tail = rest.partition(end)[2]
+    page.write_text(f"{head}{begin}\n\n{text}\n\n{end}{tail}", encoding="utf-8")

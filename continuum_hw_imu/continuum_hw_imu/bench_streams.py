@@ -10,6 +10,7 @@ from builtin_interfaces.msg import Time as TimeMessage
 from rclpy.clock import Clock
 from rclpy.time import Time
 
+from continuum.inertial.angle_estimator import AngleEstimate
 from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum.inertial.imu_sample import ImuSample
 from continuum_hw_imu.bench_fit import misfit
@@ -89,9 +90,9 @@ class BenchStreams:
             return
         match heard.message:
             case ImuFrame() as frame if len(frame.readings) == len(self._sensors):
-                sample = watch.take(heard, frame)
-                self._publish_joints(watch, heard)
-                self._publish_imus(sample, self._stamp(heard))
+                sample, stamp = watch.take(heard, frame), self._stamp(heard)
+                self._publish_joints(watch, heard, stamp)
+                self._publish_imus(sample, stamp)
             case TensionFrame() as frame if len(frame.set_points) == len(self._planar.cables):
                 self.tension = frame
                 self._publish_cables(watch, heard, frame)
@@ -113,15 +114,14 @@ class BenchStreams:
         instant, now = read_together(time.monotonic, lambda: self._clock.now().nanoseconds)
         return Time(nanoseconds=max(0, now - round((instant - heard.time) * NANOSECONDS))).to_msg()
 
-    def _publish_joints(self, watch: SensorWatch, heard: Heard) -> None:
+    def _publish_joints(self, watch: SensorWatch, heard: Heard, stamp: TimeMessage) -> None:
         self.age = heard.read - heard.time
         self.oldest = max(self.oldest, self.age)
-        estimate = watch.estimate
-        is_of_now = estimate is not None and abs(heard.device_time / MICROSECONDS - estimate.time) < SAME
-        if estimate is None or not is_of_now or not estimate.good.all():
+        estimate = _good_estimate(watch, heard, SAME)
+        if estimate is None:
             self.withheld += 1
             return
-        self._joints(self._planar.joint_state(self._stamp(heard), estimate.angles, estimate.rates))
+        self._joints(self._planar.joint_state(stamp, estimate.angles, estimate.rates))
         self.latency.note(time.monotonic() - heard.read)
 
     def _publish_imus(self, sample: ImuSample, stamp: TimeMessage) -> None:
@@ -136,11 +136,14 @@ class BenchStreams:
             tensions = np.array([])  # not known
         else:
             tensions = np.maximum(np.array(frame.measured, dtype=float), 0.0)
-        estimate = watch.estimate
-        known = (
-            estimate is not None
-            and bool(estimate.good.all())
-            and abs(heard.device_time / MICROSECONDS - estimate.time) <= FRESH
-        )
-        angles, rates = (estimate.angles, estimate.rates) if known else (None, None)
+        estimate = _good_estimate(watch, heard, FRESH)
+        angles, rates = (None, None) if estimate is None else (estimate.angles, estimate.rates)
         self._cables(self._planar.cable_states(self._stamp(heard), angles, rates, tensions))
+
+
+def _good_estimate(watch: SensorWatch, heard: Heard, within: float) -> AngleEstimate | None:
+    """The latest, where all of its angles are good and it is as old as what was heard, to within a time [s]."""
+    estimate = watch.estimate
+    if estimate is None or not estimate.good.all():
+        return None
+    return estimate if abs(heard.device_time / MICROSECONDS - estimate.time) <= within else None

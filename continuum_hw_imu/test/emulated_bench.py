@@ -1,6 +1,5 @@
 """An emulated bench as a process, told over its second channel what to do, and the node at its port."""
 
-import csv
 import json
 import socket
 import time
@@ -15,6 +14,7 @@ from lifecycle_msgs.srv import ChangeState, GetState
 from sensor_msgs.msg import Imu, JointState
 from std_srvs.srv import Trigger
 
+from continuum_hw_imu.emulator.truth_file import read_truth
 from continuum_manipulator.nodekit.qos import STREAM
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 from continuum_manipulator.nodekit.two_clocks import read_together
@@ -52,16 +52,8 @@ class EmulatedBench:
         return self.tell("status")
 
     def truth(self) -> dict[str, np.ndarray]:
-        """What really happened so far: angles (rows, n), set_points (rows, n_cables), time (rows,) by this machine."""
-        with self.truth_file.open(newline="") as file:
-            header, *rows = list(csv.reader(file))
-        table = np.array([row for row in rows if len(row) == len(header)], dtype=float)
-
-        def block(name: str) -> np.ndarray:
-            return table[:, [i for i, column in enumerate(header) if column.rpartition("_")[0] == name]]
-
-        blocks = {name: block(name) for name in ("theta", "theta_rate", "set_point", "tension")}
-        return {"time": table[:, header.index("monotonic_s")], **blocks}
+        """What really happened so far, as of `read_truth`."""
+        return read_truth(self.truth_file)
 
     def close(self) -> None:
         self._socket.close()

@@ -86,7 +86,7 @@ def go_on(bridge: Bridge, lasts: float) -> None:
 def slack_time_after(bench, instant: float) -> float:
     """How long after an instant of this machine's clock all set points are zero for good [s]."""
     truth = bench.truth()
-    tight = truth["time"][truth["set_point"].any(axis=1)]
+    tight = truth["monotonic_s"][truth["set_point"].any(axis=1)]
     return max(0.0, tight[-1] - instant)
 
 

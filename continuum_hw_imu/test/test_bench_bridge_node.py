@@ -69,8 +69,8 @@ def angles_beside_truth(bridge, joints):
     """Joint angles as published, and the true ones at their stamps, (n, n_joints) each [rad]."""
     truth = bridge.bench.truth()
     at = np.array([bridge.monotonic(message) for message in joints])
-    inside = (at > truth["time"][0]) & (at < truth["time"][-1])
-    real = np.stack([np.interp(at[inside], truth["time"], column) for column in truth["theta"].T], axis=1)
+    inside = (at > truth["monotonic_s"][0]) & (at < truth["monotonic_s"][-1])
+    real = np.stack([np.interp(at[inside], truth["monotonic_s"], column) for column in truth["theta"].T], axis=1)
     return np.array([message.position[1:-1] for message in joints])[inside], real
 
 
@@ -130,13 +130,13 @@ def test_no_tension_before_activation(bridge):
 
 
 def test_tension_follows_within_limits_and_lets_go_when_commands_stop(active):
-    bench, before = active.bench, len(active.bench.truth()["time"])
+    bench, before = active.bench, len(active.bench.truth()["monotonic_s"])
     active.pull([50.0, 2.0], lambda: bench.status["set_points"] == pytest.approx([MOST, 2.0], abs=0.01))
     active.node.wait_for_line(f"tension limited: {CABLES[0]}: 50 N commanded, max_tension is 12 N")
     last = bench.status["monotonic"]
     active.probe.wait_until(lambda: not np.any(bench.truth()["set_point"][-1]), "slack")
     truth = bench.truth()
-    time, pulled = truth["time"][before:], truth["set_point"][before:]
+    time, pulled = truth["monotonic_s"][before:], truth["set_point"][before:]
     assert pulled.max() <= MOST + 1e-6
     assert np.all(np.diff(pulled, axis=0) <= FASTEST / 60 * 2.5)  # set points of the node come 60 times a second
     slack = time[(time > last) & ~pulled.any(axis=1)][0]

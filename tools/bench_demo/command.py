@@ -58,7 +58,7 @@ def record_runs(port: str, out: Path) -> None:
     Raises:
         ContinuumError: a node died, or did not do what it was asked.
     """
-    with claimed(out, RESULTS), domain_for_demo() as domain:
+    with domain_for_demo() as domain, claimed(out, RESULTS):
         log_file = out / "nodes.log"
         with (
             log_file.open("w", encoding="utf-8") as log,

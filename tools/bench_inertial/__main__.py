@@ -31,7 +31,7 @@ from continuum.arrays import Array
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.recorded_angles import recorded_angles
-from tools.markdown import table
+from tools.markdown import replace_between, table
 
 PAGE = Path("docs/inertial.md")
 BEGIN, END = "<!-- made by `make bench-inertial` -->", "<!-- end -->"
@@ -48,9 +48,7 @@ def main() -> None:
     text = "\n\n".join([accuracy(motion, options.seeds), faults(motion, options.seeds), speed(motion)])
     print(text)
     if options.seeds == parser.get_default("seeds"):
-        head, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
-        tail = rest.partition(END)[2]
-        PAGE.write_text(f"{head}{BEGIN}\n\n{text}\n\n{END}{tail}", encoding="utf-8")
+        replace_between(PAGE, BEGIN, END, text)
         print(f"written: {PAGE}")
 
 

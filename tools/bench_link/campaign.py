@@ -13,7 +13,7 @@ from emulated_bench import Bridge
 
 from continuum.arrays import Array
 from tools.bench_link.ears import Sample, State
-from tools.bench_link.faults import CASES, LASTS, NO_DRIFT, orders
+from tools.bench_link.faults import LASTS, NO_DRIFT, orders
 from tools.bench_link.latency import load_sent
 from tools.bench_link.resumption import good_again
 from tools.bench_link.rig import RATE, Rig, rig
@@ -36,9 +36,6 @@ RIGHT = 1.5
 
 _FALLEN = "fell back to inactive, cables slack:"
 """The bridge's words before it says why."""
-
-ROUNDING = 0.01
-"""Of set points on the line [N]."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +83,7 @@ class _Course:
     fell_back: str
 
 
-def measure(folder: Path, cases: Sequence[tuple[str, ...]] = CASES) -> list[Case]:
+def measure(folder: Path, cases: Sequence[tuple[str, ...]]) -> list[Case]:
     """Run cases on one emulated bench, with one bridge."""
     limits = "--max-tension", str(MOST), "--max-rate", str(FASTEST)
     courses = []

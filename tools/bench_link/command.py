@@ -11,7 +11,7 @@ from typing import Any
 
 import tools.bench_link
 from tools.bench_link import campaign, closed_loop, deaths, soak
-from tools.bench_link.faults import CASES
+from tools.bench_link.faults import CASES, FAULTS
 from tools.bench_link.page import page
 from tools.bench_link.processes import take_niceness
 from tools.bench_link.results import keep, load, together
@@ -28,10 +28,11 @@ def main(arguments: list[str] | None = None) -> int:
     add("--repetitions", type=int, default=5, help="of each death; default %(default)s")
     add(
         "--faults",
-        nargs="*",
+        nargs="+",
+        choices=FAULTS,
         default=[],
         metavar="NAME",
-        help="of the campaign: cases of these only, beside those kept",
+        help="of the campaign: cases of these only, beside those kept: %(choices)s",
     )
     add("--soak-minutes", type=float, default=60.0, help="default %(default)g")
     add("--soak-rate", type=float, default=60.0, metavar="HZ", help="of the sensors then; default %(default)g")

@@ -9,10 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from emulated_bench import Bridge
 
 from continuum_hw_imu.protocol.messages import ReceiverLimits
-from tools.bench_link.rig import Rig, rig
+from tools.bench_link.rig import RATE, Rig, rig
 from tools.bench_link.truth import Truth, load_truth
 
 TENSION = 10.0
@@ -23,7 +22,7 @@ WATCHED = 2.0
 
 LIMITS = ReceiverLimits()
 
-TICK = 1 / 60
+TICK = 1 / RATE
 """Between two rows of the truth [s]."""
 
 
@@ -51,54 +50,66 @@ class Death:
         return self.begins + LIMITS.slack_time
 
 
-KINDS = {
-    "killed (SIGKILL)": 0.0,
-    "killed, and the closed port is not seen": LIMITS.heartbeat_timeout,
-    "hangs (SIGSTOP)": LIMITS.heartbeat_timeout,
-    "port unplugged": 0.0,
-}
-"""When the receiver begins to let go [s]: the port is seen to close, or the heartbeats stop."""
+@dataclass(frozen=True)
+class Kind:
+    """What happens.
+
+    Attributes:
+        name: in words.
+        begins: time until the receiver begins to let go at the latest [s]: the port is seen to close, or
+            heartbeats stop.
+        number: signal that the bridge is sent; None where the port is unplugged.
+        is_seen: whether the emulator notices that the port is closed.
+    """
+
+    name: str
+    begins: float
+    number: signal.Signals | None
+    is_seen: bool = True
+
+
+KINDS = (
+    Kind("killed (SIGKILL)", 0.0, signal.SIGKILL),
+    Kind("hangs (SIGSTOP)", LIMITS.heartbeat_timeout, signal.SIGSTOP),
+    Kind("port unplugged", 0.0, None),
+    Kind("killed, and the closed port is not seen", LIMITS.heartbeat_timeout, signal.SIGKILL, is_seen=False),
+)
 
 
 def measure(folder: Path, repetitions: int) -> list[Death]:
     """Each so many times, each time with a bridge that begins anew."""
-    seeing = [kind for kind in KINDS if "not seen" not in kind]
-    blind = [kind for kind in KINDS if "not seen" in kind]
-    return [
-        death
-        for hang_up, kinds in ((True, seeing), (False, blind))
-        for death in _measure_all(folder, hang_up, kinds, repetitions)
-    ]
+    return [death for is_seen in (True, False) for death in _measure_all(folder, is_seen, repetitions)]
 
 
-def _measure_all(folder: Path, hang_up: bool, kinds: list[str], repetitions: int) -> list[Death]:
-    instants: dict[str, list[tuple[float, float]]] = {kind: [] for kind in kinds}
-    with rig(folder, *([] if hang_up else ["--no-hang-up"])) as bench:
-        for kind in kinds:
-            for _ in range(repetitions):
-                with bench.bridge() as bridge:
-                    instants[kind].append((_end_it(bench, bridge, kind), os.getloadavg()[0]))
-            print(f"  {kind}", flush=True)
+def _measure_all(folder: Path, is_seen: bool, repetitions: int) -> list[Death]:
+    """Those of one emulator."""
+    instants: list[tuple[Kind, list[tuple[float, float]]]] = []
+    with rig(folder, *([] if is_seen else ["--no-hang-up"])) as bench:
+        for kind in KINDS:
+            if kind.is_seen is is_seen:
+                instants.append((kind, [_instant(bench, kind) for _ in range(repetitions)]))
+                print(f"  {kind.name}", flush=True)
     truth = load_truth(bench.truth_file)
-    return [evaluated(kind, found, truth) for kind, found in instants.items()]
+    return [evaluated(kind, found, truth) for kind, found in instants]
 
 
-def evaluated(kind: str, found: list[tuple[float, float]], truth: Truth) -> Death:
+def evaluated(kind: Kind, found: list[tuple[float, float]], truth: Truth) -> Death:
     """Beside the truth: instants [s] at which it happened, and the load then."""
     parts = [(truth.between(at - 1.0, at + WATCHED), at) for at, _ in found]
     times = [part.slack_after(at) for part, at in parts]
     begun = [part.let_go_after(at) for part, at in parts]
-    return Death(kind, KINDS[kind], times, begun, [load for _, load in found])
+    return Death(kind.name, kind.begins, times, begun, [load for _, load in found])
 
 
-def _end_it(bench: Rig, bridge: Bridge, kind: str) -> float:
-    """Pull, let it happen, and watch; the instant [s]."""
-    bridge.pull([TENSION, 0.0], lambda: bench.bench.status["set_points"][0] > TENSION - 0.1)
-    bench.drive(bridge, lambda _: np.array([TENSION, 0.0]), 0.2)
-    at = time.monotonic()
-    if kind.startswith("port"):
-        bench.bench.tell("unplug for=1.5")
-    else:
-        bridge.node.send(signal.SIGSTOP if kind.startswith("hangs") else signal.SIGKILL)
-    bench.drive(bridge, lambda _: np.array([TENSION, 0.0]), WATCHED)
-    return at
+def _instant(bench: Rig, kind: Kind) -> tuple[float, float]:
+    """Pull, let it happen, and watch; the instant [s], and the load then."""
+    with bench.bridge() as bridge:
+        bridge.pull([TENSION, 0.0], lambda: bench.bench.status["set_points"][0] > TENSION - 0.1)
+        bench.drive(bridge, lambda _: np.array([TENSION, 0.0]), 0.2)
+        at = time.monotonic()
+        if kind.number is None:
+            bench.bench.tell("unplug for=1.5")
+        else:
+            bridge.node.send(kind.number)
+        bench.drive(bridge, lambda _: np.array([TENSION, 0.0]), WATCHED)
+        return at, os.getloadavg()[0]

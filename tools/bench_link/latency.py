@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from continuum.arrays import Array
+from continuum_hw_imu.protocol.frame import WRAP_TIME
 from tools.bench_link.ears import State
 from tools.bench_link.truth import Truth
-
-WRAP = 1 << 32
 
 
 @dataclass(frozen=True)
@@ -37,7 +36,7 @@ class Delays:
 def load_sent(path: Path, truth: Truth) -> tuple[Array, Array]:
     """When each frame was written, and the instant that it tells of; of the monotonic clock, (frames,) each [s]."""
     table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
-    instants = dict(zip((truth.device.astype(np.int64) % WRAP).tolist(), truth.time.tolist(), strict=True))
+    instants = dict(zip((truth.device.astype(np.int64) % WRAP_TIME).tolist(), truth.time.tolist(), strict=True))
     told = np.array([instants[int(device)] for device in table[:, 1]])
     return table[:, 0], told
 

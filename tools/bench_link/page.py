@@ -50,7 +50,6 @@ def page(results: Results) -> str:
 
 
 def _closed(run: ClosedLoop) -> list[str]:
-    loads = [minute.load for minute in run.by_minute]
     return [
         "## Closed loop",
         paragraph(
@@ -62,9 +61,8 @@ def _closed(run: ClosedLoop) -> list[str]:
         ),
         paragraph(
             "Delays count from the instant at which the last byte of a frame was written to the port by the",
-            f"emulator. Load {min(loads, default=0.0):.1f} to {max(loads, default=0.0):.1f}. The bridge takes",
-            f"{run.bridge_share:.1%} of one core, the emulator {run.emulator_share:.1%}, which stood still for",
-            f"{run.skipped:.1f} s.",
+            f"emulator. Load {_loads(run)}. The bridge takes {run.bridge_share:.1%} of one core, the",
+            f"emulator {run.emulator_share:.1%}, which stood still for {run.skipped:.1f} s.",
         ),
         table(
             ("delay until joint states are [ms]", "median", "99 %", "largest"),
@@ -97,7 +95,7 @@ def _runs(runs: Sequence[ClosedLoop]) -> list[str]:
             [
                 (
                     f"{run.minutes:.1f}",
-                    " to ".join(f"{pick(minute.load for minute in run.by_minute):.1f}" for pick in (min, max)),
+                    _loads(run),
                     run.frames,
                     run.lost,
                     run.missing,
@@ -109,6 +107,12 @@ def _runs(runs: Sequence[ClosedLoop]) -> list[str]:
             ],
         ),
     ]
+
+
+def _loads(run: ClosedLoop) -> str:
+    """The least and the most of its whole minutes."""
+    loads = [minute.load for minute in run.by_minute]
+    return f"{min(loads):.1f} to {max(loads):.1f}" if loads else "unknown"
 
 
 def _campaign(cases: Sequence[Case]) -> list[str]:

@@ -23,7 +23,8 @@ RATE = 60.0
 COMMAND_PERIOD = 1 / 30
 """Between two tension commands [s]."""
 
-FILES = "port", "control", "sensors.yaml", "truth.csv", "sent.csv"
+CALIBRATION, SENT = "sensors.yaml", "sent.csv"
+FILES = "port", "control", "truth.csv", CALIBRATION, SENT
 """In the folder of a measurement."""
 
 Pull = Callable[[float], Array]
@@ -48,7 +49,7 @@ class Rig:
 
     @property
     def calibration(self) -> Path:
-        return self.folder / "sensors.yaml"
+        return self.folder / CALIBRATION
 
     @property
     def truth_file(self) -> Path:
@@ -56,7 +57,7 @@ class Rig:
 
     @property
     def sent_file(self) -> Path:
-        return self.folder / "sent.csv"
+        return self.folder / SENT
 
     def calibrate(self) -> None:
         """Leave the sensors' calibration in its file."""
@@ -107,9 +108,12 @@ def rig(folder: Path, *options: str) -> Iterator[Rig]:
     Raises:
         DemoError: another measurement uses the folder.
     """
-    with claimed(folder, FILES), domain_id() as domain, Probe(domain, "bench_link") as probe:
-        given = ("--sent", str(folder / "sent.csv"), *options)
-        with emulated_bench(domain, folder, *given) as bench:
-            found = Rig(domain, folder, bench, TimedEars(probe))
-            found.calibrate()
-            yield found
+    with (
+        claimed(folder, FILES),
+        domain_id() as domain,
+        Probe(domain, "bench_link") as probe,
+        emulated_bench(domain, folder, "--sent", str(folder / SENT), *options) as bench,
+    ):
+        found = Rig(domain, folder, bench, TimedEars(probe))
+        found.calibrate()
+        yield found

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from continuum.arrays import Array
+from continuum_hw_imu.emulator.truth_file import read_truth
 from continuum_hw_imu.protocol.messages import GuardState
 from tools.bench_link.ears import State
 
@@ -75,20 +76,9 @@ class Truth:
 
 def load_truth(path: Path) -> Truth:
     """Of a file that the emulator has closed."""
-    with path.open(encoding="utf-8") as file:
-        names = file.readline().strip().split(",")
-        table = np.loadtxt(file, delimiter=",", ndmin=2)
-
-    def block(name: str) -> Array:
-        return table[:, [i for i, column in enumerate(names) if column.rpartition("_")[0] == name]]
-
-    blocks = (block(name) for name in ("theta", "theta_rate", "set_point", "tension"))
-    return Truth(
-        table[:, names.index("device_time_us")],
-        table[:, names.index("monotonic_s")],
-        *blocks,
-        table[:, names.index("state")],
-    )
+    found = read_truth(path)
+    names = "device_time_us", "monotonic_s", "theta", "theta_rate", "set_point", "tension", "state"
+    return Truth(*(found[name] for name in names))
 
 
 def errors_of(states: Sequence[State], truth: Truth) -> tuple[Array, Array]:

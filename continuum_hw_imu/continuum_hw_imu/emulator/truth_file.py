@@ -9,9 +9,15 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+import numpy as np
+
+from continuum.arrays import Array
 from continuum.errors import FileError
-from continuum_hw_imu.emulator.bench import Bench
+
+if TYPE_CHECKING:  # who reads needs no emulator
+    from continuum_hw_imu.emulator.bench import Bench
 
 
 class TruthFile:
@@ -41,3 +47,18 @@ class TruthFile:
 
     def close(self) -> None:
         self._file.close()
+
+
+def read_truth(path: Path) -> dict[str, Array]:
+    """Columns by name, (rows,); numbered ones together by their name without number, as ``theta``, (rows, n_joints).
+
+    A row that is just being written is left out.
+    """
+    with path.open(newline="", encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    table = np.array([row for row in rows if len(row) == len(header)], dtype=float).reshape(-1, len(header))
+    found: dict[str, list[Array]] = {}
+    for name, column in zip(header, table.T, strict=True):
+        whole, _, number = name.rpartition("_")
+        found.setdefault(whole if number.isdigit() else name, []).append(column)
+    return {name: columns[0] if name in header else np.stack(columns, axis=1) for name, columns in found.items()}

@@ -233,6 +233,8 @@ class BenchClient:
             talk = self.conversation
             talk.last, talk.newest = now, max(talk.newest, device_time)
             overtaken = arrival is Arrival.LATE
+            if isinstance(frame.message, ImuFrame) and not overtaken:
+                talk.measured = device_time
             if not overtaken or isinstance(frame.message, Ack):  # an answer is one whenever it comes
                 self._keep(frame.message)
             self._news.notify_all()
@@ -244,11 +246,8 @@ class BenchClient:
     def _goes_back(self, message: Message, arrival: Arrival, device_time: int) -> bool:
         """Whether the device's clock does. Instants of sensors' frames never go back where their numbers go on."""
         talk = self.conversation
-        back = device_time < talk.newest - BEGAN_ANEW
-        if isinstance(message, ImuFrame) and arrival is Arrival.NEW:
-            back = back or device_time < talk.measured
-            talk.measured = device_time
-        return back
+        is_next_sample = isinstance(message, ImuFrame) and arrival is Arrival.NEW
+        return device_time < talk.newest - BEGAN_ANEW or (is_next_sample and device_time < talk.measured)
 
     def _keep(self, message: Message) -> None:
         talk = self.conversation

@@ -7,6 +7,7 @@ import pytest
 
 from tools.bench_link.campaign import Case, _Course, evaluated
 from tools.bench_link.closed_loop import ClosedLoop, Minute, by_minute
+from tools.bench_link.command import main
 from tools.bench_link.deaths import Death
 from tools.bench_link.ears import Sample, State
 from tools.bench_link.faults import CASES, FAULTS, orders
@@ -74,6 +75,17 @@ def test_the_page_tells_what_was_missed_and_leaves_out_what_was_not_run():
     assert "**missed**" not in page(ALL)
     assert "**missed**" in page(SPOILED["at rest"])
     assert "## Memory" not in page(replace(ALL, soak=None))
+
+
+def test_a_run_of_less_than_a_minute_has_its_page():
+    assert "Load unknown." in page(replace(ALL, closed=[replace(CLOSED, by_minute=[])]))
+
+
+@pytest.mark.parametrize("words", ["campaign --faults typo", "--faults lost campaign", "typo"])
+def test_faults_and_parts_that_there_are_not_are_refused(words, capsys):
+    with pytest.raises(SystemExit):
+        main(words.split())
+    assert capsys.readouterr().err.splitlines()[-1].startswith("make bench-link ARGS=...: error: ")
 
 
 def test_every_fault_stands_alone_and_beside_every_other():

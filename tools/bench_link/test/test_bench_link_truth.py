@@ -15,8 +15,7 @@ TIME = 100.0 + PERIOD * np.arange(240)
 
 def truth(angles=None, rates=None, set_points=None) -> Truth:
     none = np.zeros((len(TIME), 2))
-    blocks = (none if block is None else block for block in (angles, rates, set_points))
-    blocks = list(blocks)
+    blocks = [none if block is None else block for block in (angles, rates, set_points)]
     following = np.where(blocks[2][:, 0] == 5.0, GuardState.FOLLOWING, GuardState.LETTING_GO)
     return Truth(1e6 * (TIME - 100.0), TIME, *blocks, none, following)
 
