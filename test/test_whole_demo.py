@@ -4,6 +4,7 @@ import json
 import os
 import re
 import signal
+from contextlib import suppress
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -27,7 +28,7 @@ from continuum.recordings.kinematic_report import report_on
 from continuum_manipulator.nodekit.qos import STREAM
 from tools.demo import domain as demo_domain
 from tools.demo.errors import DemoError
-from tools.demo.folder import claimed
+from tools.demo.folder import PREVIOUS, claimed
 from trajectory_generator.from_parameters import trajectory_from_mapping
 
 pytestmark = pytest.mark.ros
@@ -252,18 +253,40 @@ def test_two_demos_share_no_domain(domain: int, monkeypatch: pytest.MonkeyPatch)
         assert again == domain
 
 
+def names_in(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
 def test_two_demos_share_no_folder(tmp_path: Path) -> None:
     (tmp_path / "out" / "recording").mkdir(parents=True)
     for name in ("recording/metadata.yaml", "nodes.log", "mine.txt"):
         (tmp_path / "out" / name).touch()
     with claimed(tmp_path / "out"):
-        assert [path.name for path in (tmp_path / "out").iterdir()] == ["mine.txt"]
+        assert names_in(tmp_path / "out") == {"mine.txt", PREVIOUS}
         (tmp_path / "out" / "nodes.log").touch()
         with pytest.raises(DemoError, match="another demo is writing"), claimed(tmp_path / "out"):
             pass
         assert (tmp_path / "out" / "nodes.log").exists()
     with claimed(tmp_path / "out"):
         pass
+
+
+def test_what_the_demo_before_left_is_kept_until_there_is_more(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table, before = tmp_path / "cable_states.csv", tmp_path / PREVIOUS / "cable_states.csv"
+    table.write_text("first")
+    for _ in range(2):  # the second finds what the first of them left unfinished
+        with suppress(KeyboardInterrupt), claimed(tmp_path):
+            (tmp_path / "recording").mkdir()
+            raise KeyboardInterrupt
+        assert before.read_text() == "first"
+        assert names_in(tmp_path) == {PREVIOUS, "recording"}
+        assert capsys.readouterr().err == f"what the demo before left is in {tmp_path / PREVIOUS}\n"
+    with claimed(tmp_path):
+        table.write_text("second")
+    assert (names_in(tmp_path), table.read_text()) == ({"cable_states.csv"}, "second")
+    assert capsys.readouterr().err == ""
 
 
 @pytest.mark.parametrize(

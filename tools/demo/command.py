@@ -67,7 +67,7 @@ def run_demo(trajectory_file: Path, arm_file: Path, out: Path, view: bool = Fals
         f"{times[-1]:.1f} s at {parameters['rate']:g} Hz; {arm.n_sections} sections, {1e3 * arm.length:.1f} mm long; "
         f"results go to {out}/."
     )
-    with claimed(out), domain_for_demo() as domain:
+    with domain_for_demo() as domain, claimed(out):
         with viewed(arm_file, out, domain) if view else nullcontext():
             finished = run_nodes(trajectory_file, arm_file, out, domain, len(times))
         if not finished:

@@ -1,10 +1,11 @@
-"""The folder for results: one demo at a time, and nothing left in it of the one before."""
+"""The folder for results: one demo at a time, and what the one before left is kept until there are new ones."""
 
 from __future__ import annotations
 
 import fcntl
 import os
 import shutil
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,10 +14,15 @@ from tools.demo.errors import DemoError
 
 RESULTS = ("recording", "nodes.log", "viewer.log", "cable_states.csv", "cables.png")
 
+PREVIOUS = "previous"
+"""Folder in that of the results, for those of an earlier demo while there are no others."""
+
 
 @contextmanager
 def claimed(folder: Path, results: Sequence[str] = RESULTS) -> Iterator[None]:
-    """Make ``folder`` and remove the ``results`` of an earlier demo from it; no other demo writes there meanwhile.
+    """Make ``folder`` and put the ``results`` of an earlier demo aside; no other demo writes there meanwhile.
+
+    What is aside is removed at the end of the block, but not where that is left by an error or an interrupt.
 
     Raises:
         DemoError: another demo does, or the folder cannot be made.
@@ -31,12 +37,29 @@ def claimed(folder: Path, results: Sequence[str] = RESULTS) -> Iterator[None]:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise DemoError(f"another demo is writing to {folder}; wait for its end, or give --out") from None
-        for name in results:
-            path = folder / name
-            if path.is_dir():
-                shutil.rmtree(path)
-            else:
-                path.unlink(missing_ok=True)
-        yield
+        aside, whole = _put_aside(folder, results), False
+        try:
+            yield
+            whole = True
+        finally:
+            if whole:
+                shutil.rmtree(aside, ignore_errors=True)
+            elif aside.exists():
+                print(f"what the demo before left is in {aside}", file=sys.stderr)
     finally:
         os.close(handle)
+
+
+def _put_aside(folder: Path, results: Sequence[str]) -> Path:
+    """Where they are then; if there are some already, of a whole demo, what an interrupted one left is removed."""
+    aside = folder / PREVIOUS
+    keep = not aside.exists()
+    for path in (folder / name for name in results):
+        if keep and path.exists():
+            aside.mkdir(exist_ok=True)
+            path.rename(aside / path.name)
+        elif path.is_dir():
+            shutil.rmtree(path)
+        else:
+            path.unlink(missing_ok=True)
+    return aside

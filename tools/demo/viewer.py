@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from continuum.errors import InvalidValueError
+from continuum.viewer.address import HOST, PORT, check_address
 from tools.demo.nodes import launched
 
 PATIENCE = 30.0
@@ -16,14 +18,23 @@ PATIENCE = 30.0
 _ADDRESS = re.compile(r"open (http://\S+) in a browser")
 
 
+def port() -> int:
+    """The viewer's usual one if it is free, else 0: any that is."""
+    try:
+        check_address(HOST, PORT)
+    except InvalidValueError:
+        return 0
+    return PORT
+
+
 @contextmanager
 def viewed(arm_file: Path, out: Path, domain: int) -> Iterator[None]:
-    """A viewer on a free port of this host, until the end of the block; its address is printed."""
+    """A viewer of this host, on its usual port or a free one, until the end of the block; its address is printed."""
     log_file = out / "viewer.log"
     command = ["ros2", "run", "continuum_manipulator", "viewer", "--ros-args", "--params-file", str(arm_file.resolve())]
     with (
         log_file.open("w", encoding="utf-8") as log,
-        launched([*command, "-p", "port:=0"], domain, log.fileno()) as process,
+        launched([*command, "-p", f"port:={port()}"], domain, log.fileno()) as process,
     ):
         deadline, address = time.monotonic() + PATIENCE, None
         while address is None and process.poll() is None and time.monotonic() < deadline:

@@ -18,13 +18,13 @@ ARM = ROOT / "continuum_description" / "config" / "three_sections.yaml"
 HELIX = ROOT / "trajectory_generator" / "config" / "helix.yaml"
 
 
-def helix_run(arm_file: Path = ARM, trajectory_file: Path = HELIX) -> ArmRecording:
+def helix_run() -> ArmRecording:
     """Let the arm follow the trajectory at its own rate; what the nodes would have recorded.
 
     Raises:
         ContinuumError: a file is not right.
     """
-    arm, parameters = load_arm(arm_file), flattened(read_parameter_file(trajectory_file))
+    arm, parameters = load_arm(ARM), flattened(read_parameter_file(HELIX))
     trajectory = trajectory_from_mapping(parameters)
     times = trajectory.times(parameters["rate"])
     sample, tracker = trajectory.sample(times), Tracker(arm)

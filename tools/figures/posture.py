@@ -9,7 +9,7 @@ import numpy as np
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.kinematics.cables.hole_points import hole_points
-from continuum.kinematics.chain import section_base_rotations, section_tip_poses
+from continuum.kinematics.chain import section_bases
 
 _RIM = np.linspace(0.0, 2.0 * np.pi, 33)
 _WIDER = 1.2  # a disc's rim beside the radius of its holes
@@ -27,9 +27,6 @@ def discs(w: Array, arm: Arm) -> Array:
 
 def _rings(w: Array, arm: Arm, wide: float) -> Iterator[Array]:
     """For each section, circles round its discs (n_joints + 1, n_rim, 3) [m], ``wide`` times as wide as its holes."""
-    tips = section_tip_poses(w, arm)
-    origins = np.concatenate([np.zeros((1, 3)), tips[:-1, :3, 3]])
-    rotations = section_base_rotations(tips, arm)
-    for section, bent, rotation, origin in zip(arm.sections, w, rotations, origins, strict=True):
+    for section, bent, rotation, origin in zip(arm.sections, w, *section_bases(w, arm), strict=True):
         holes = hole_points(bent, section, np.full(_RIM.size, wide * section.a), _RIM)
         yield np.swapaxes(holes, 0, 1) @ rotation.T + origin

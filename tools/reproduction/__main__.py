@@ -36,10 +36,11 @@ def main() -> None:
     as_released = bend_by_one_cable(float(np.abs(release.published.theta[0]).sum()))
     pictures = folder / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
-    draw_release(release, pictures / "reproduction_release.png")
-    draw_bend(bend, pictures / "reproduction_bend.png")
-    for name in ("reproduction_release.png", "reproduction_bend.png"):
-        shrink(pictures / name)
+    of_release, of_bend = (pictures / f"reproduction_{name}.png" for name in ("release", "bend"))
+    draw_release(release, of_release)
+    draw_bend(bend, of_bend)
+    for picture in (of_release, of_bend):
+        shrink(picture)
     (folder / "reproduction.md").write_text(page(release, otherwise, bend, as_released), encoding="utf-8")
     for name, run in (("from rest", release.from_rest), ("initial rates free", release.thrown)):
         each = release.distance(run)

@@ -97,9 +97,11 @@ class TrajectoryPublisherNode(CheckedNode):
         self.get_logger().info(f"trajectory of {self._messages.duration:.1f} s at {self._rate:g} Hz begins")
 
     def _who_is_missing(self) -> str:
-        counts = f"{self._publish_pose.subscribers} and {self._publish_twist.subscribers} subscriptions"
-        missing = self._watch.missing()
-        return f"{counts}, nodes missing: {', '.join(missing) or 'none'}"
+        wanted = self.values["subscribers"]
+        heard = {"traj_pose": self._publish_pose.subscribers, "traj_twist": self._publish_twist.subscribers}
+        missing = [f"{topic} has {n} of {wanted} subscriptions" for topic, n in heard.items() if n < wanted]
+        missing += [f"node {name} does not run" for name in self._watch.missing()]
+        return ", ".join(missing) or "all are there, but nodes or topics still come and go"
 
     def _publish_due(self) -> None:
         """Publish every instant whose time has come, to half a period."""
