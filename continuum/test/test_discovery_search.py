@@ -183,3 +183,24 @@ def test_an_effect_that_the_model_has_is_not_tried_twice() -> None:
     fits = Fits({(): 0.4, ("tip_payload",): 0.2})
     search(fits, EFFECTS, lambda _what, _part: None)
     assert all(len({a.effect for a in task.extension}) == len(task.extension) for task in fits.asked)
+
+
+def test_a_search_asks_whether_to_go_on_with_what_it_found() -> None:
+    fits = Fits({(): 0.5, ("tip_payload",): 0.3, ("tip_payload", "base_tilt"): 0.0})
+    asked: list[list[str]] = []
+
+    def after_one(best: Trial) -> bool:
+        asked.append(effects_of(best.extension))
+        return True
+
+    _, rounds = search(fits, EFFECTS, lambda _what, _part: None, after_one)
+    assert asked == [["tip_payload"]]
+    assert [effects_of(one.best.extension) for one in rounds] == [["tip_payload"]]
+
+
+def test_a_search_asks_where_nothing_helps_too() -> None:
+    asked: list[list[str]] = []
+    search(
+        Fits({(): 0.3}), EFFECTS, lambda _what, _part: None, lambda best: bool(asked.append(effects_of(best.extension)))
+    )
+    assert asked == [[]]

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from continuum.discovery.judgement import judge
 from continuum.discovery.question import Question
 from continuum.discovery.rows_asked_again import with_better_rows
-from continuum.discovery.search import Round, Tell, search, tell_nobody
-from continuum.discovery.trial import TOLERANCES
+from continuum.discovery.search import Round, Tell, search, tell_nobody, until_the_end
+from continuum.discovery.trial import TOLERANCES, Trial
 from continuum.discovery.verdict import Verdict
 from continuum.discovery.workers import workers
 from continuum.dynamics.effect_lookup import effect_named, effect_names
@@ -71,18 +71,26 @@ def diagnose(
     asked = [name for name in effects or effect_names() if name not in present]
     tried = [name for name in asked if driven or not effect_named(name).needs_tension]
 
-    def answered(question: Question) -> tuple[list[Round], Verdict]:
-        with workers(question, processes or os.cpu_count() or 1) as make:
-            baseline, rounds = search(make, tried, tell)
-        return rounds, judge(baseline, rounds)
-
-    rounds, verdict = answered(question)
-    if driven:
-        tell("how tensions go on between rows, asked again", 1.0)
-        other = with_better_rows(question, verdict.best)
-        if other is not None:
-            question = other
-            rounds, verdict = answered(question)
+    question, rounds, verdict = _answered(question, tried, processes or os.cpu_count() or 1, tell, driven)
     if verdict.best.status is FitStatus.NO_SIMULATION:
         raise InvalidValueError("model", verdict.best.status.value, "one that moves from the angles that were measured")
     return Diagnosis(question, tuple(rounds), verdict)
+
+
+def _answered(
+    question: Question, tried: Sequence[str], processes: int, tell: Tell, asks: bool
+) -> tuple[Question, list[Round], Verdict]:
+    """The question, with its tensions between rows the other way where a search's best is better so, and the answer."""
+    others: list[Question] = []
+
+    def is_other(best: Trial) -> bool:
+        tell("how tensions go on between rows, asked again", 1.0)
+        other = with_better_rows(question, best)
+        others.extend([] if other is None else [other])
+        return other is not None
+
+    with workers(question, processes) as make:
+        baseline, rounds = search(make, tried, tell, is_other if asks else until_the_end)
+    if others:
+        return _answered(others[0], tried, processes, tell, asks=False)
+    return question, rounds, judge(baseline, rounds)

@@ -1,8 +1,9 @@
-"""How tensions go on between rows, asked again when causes are known.
+"""How tensions go on between rows, asked again when a cause is known.
 
 Tensions that are held where they are taken for linear, or the other way round, come half a row too early or too late:
 in smooth tensions that looks like late sensors or slow actuators, and a model that is still wrong elsewhere may tell
-the two ways apart wrongly at first. A cause that the other way makes needless is none.
+the two ways apart wrongly at first. A cause that the other way makes needless is none; and with wrong rows further
+effects are sought in vain, so that a search that found something asks before it goes on.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ def with_better_rows(question: Question, best: Trial) -> Question | None:
 
     Args:
         question: as it was asked, of runs of which some are driven.
-        best: trial that the search ended with.
+        best: trial of a search that went so far.
     """
     if jumps_tell(question.recordings) or (not best.extension and is_adequate(best)):
         return None

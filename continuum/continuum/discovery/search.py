@@ -58,13 +58,23 @@ def tell_nobody(_what: str, _part: float) -> None:
     """Keep it to oneself."""
 
 
-def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[Round]]:
+type Until = Callable[[Trial], bool]
+"""Asked after a round, of the best trial so far, whether there is no use in going on."""
+
+
+def until_the_end(_best: Trial) -> bool:
+    """Go on."""
+    return False
+
+
+def search(make: Make, effects: Sequence[str], tell: Tell, until: Until = until_the_end) -> tuple[Trial, list[Round]]:
     """The baseline and the rounds, one for each effect that was found; a last one may have found nothing.
 
     Args:
         make: makes trials.
         effects: names to try.
         tell: told of progress.
+        until: asked after the first round and all that found something.
     """
     tell("refitting the model as it is", 0.0)
     (baseline,) = make([Task((), None, _BASELINE_ITERATIONS)])
@@ -76,7 +86,10 @@ def search(make: Make, effects: Sequence[str], tell: Tell) -> tuple[Trial, list[
             baseline = rounds[0].before
         if len(rounds) == 2 and _may_have_misled(rounds[1], rounds[0]):
             rounds = _first_anew(make, rounds[0], rounds[1], effects, partial(tell, "the first effect anew"))
-        if rounds[-1].best is rounds[-1].before:
+        nothing_found = rounds[-1].best is rounds[-1].before
+        if (len(rounds) == 1 or not nothing_found) and until(rounds[-1].best):
+            break
+        if nothing_found:
             break
         before = rounds[-1].best
     tell("effects sought", 1.0)
