@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from continuum.discovery.candidate import Addition, Extension
-from continuum.discovery.evidence import explains_all, gain, is_adequate
+from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
 from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
 from continuum.discovery.window_beginnings import with_beginnings_of
@@ -27,6 +27,7 @@ _LEADER_ITERATIONS, _ITERATIONS, _BASELINE_ITERATIONS = 8, 12, 10
 _ITERATIONS_ANEW = 4
 _MISLEADING = 0.1  # of the first effect's gain: a smaller second one has misled nobody
 _ROUNDS = 3
+_MUCH = 0.5  # of the windows that the baseline does not explain
 
 
 @dataclass(frozen=True)
@@ -74,26 +75,31 @@ def search(make: Make, effects: Sequence[str], tell: Tell, until: Until = until_
         make: makes trials.
         effects: names to try.
         tell: told of progress.
-        until: asked after the first round and all that found something.
+        until: asked after the first round, and after others that found something.
     """
     tell("refitting the model as it is", 0.0)
     (baseline,) = make([Task((), None, _BASELINE_ITERATIONS)])
     rounds: list[Round] = []
-    before = baseline
-    while len(rounds) < _ROUNDS and not (rounds and explains_all(before)):
+    before, asked = baseline, None
+    while True:
         rounds.append(_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}")))
         if len(rounds) == 1:
             baseline = rounds[0].before
         if len(rounds) == 2 and _may_have_misled(rounds[1], rounds[0]):
             rounds = _first_anew(make, rounds[0], rounds[1], effects, partial(tell, "the first effect anew"))
-        nothing_found = rounds[-1].best is rounds[-1].before
-        if (len(rounds) == 1 or not nothing_found) and until(rounds[-1].best):
+        best = rounds[-1].best
+        if best.extension != asked and until(best):
             break
-        if nothing_found:
+        if best is rounds[-1].before or explains_all(best) or len(rounds) == _ROUNDS or _is_in_vain(baseline, rounds):
             break
-        before = rounds[-1].best
+        before, asked = best, best.extension
     tell("effects sought", 1.0)
     return baseline, rounds
+
+
+def _is_in_vain(baseline: Trial, rounds: Sequence[Round]) -> bool:
+    """Whether two effects have left so much that a third one would hardly explain it all."""
+    return len(rounds) > 1 and unexplained(rounds[-1].best) > _MUCH * unexplained(baseline)
 
 
 def _may_have_misled(second: Round, first: Round) -> bool:

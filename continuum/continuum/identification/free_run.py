@@ -12,6 +12,7 @@ from continuum.identification.free import Free
 from continuum.identification.noise import Noise
 from continuum.identification.recording import Recording
 from continuum.identification.window_residual import WindowResidual
+from continuum.identification.windows import usual_length, window_rows
 
 _ITERATIONS = 6
 
@@ -42,7 +43,7 @@ def begun(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[F
         own: unknowns that the recording has for itself.
     """
     mine = [Free(unknown.name, unknown.joint, 0) for unknown in own]
-    fitted = fit(simulator, [recording], noise, mine, iterations=_ITERATIONS)
+    fitted = fit(simulator, [recording if mine else _first_window(recording)], noise, mine, iterations=_ITERATIONS)
     if not fitted.parts:
         return None
     whole = WindowResidual(simulator, recording, 0, noise, fitted.space, None)
@@ -53,3 +54,7 @@ def free_run(simulator: Simulator, recording: Recording, noise: Noise, own: tupl
     """What the sensors would read from its beginning on; arguments are those of `begun`."""
     run = begun(simulator, recording, noise, own)
     return None if run is None else run.simulate()
+
+
+def _first_window(recording: Recording) -> Recording:
+    return recording.rows(window_rows(recording, usual_length(recording))[0])
