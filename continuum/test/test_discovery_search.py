@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from discovery_laws import RUNS, SIZE, WINDOWS, trial
 
 from continuum.discovery.candidate import Extension
@@ -204,3 +205,10 @@ def test_a_search_asks_where_nothing_helps_too() -> None:
         Fits({(): 0.3}), EFFECTS, lambda _what, _part: None, lambda best: bool(asked.append(effects_of(best.extension)))
     )
     assert asked == [[]]
+
+
+@pytest.mark.parametrize(("left_by_two", "sought"), [(0.2, 3), (0.4, 2)])
+def test_a_third_effect_is_sought_where_two_left_little(left_by_two: float, sought: int) -> None:
+    shares = {(): 0.6, ("tip_payload",): 0.5, ("base_tilt",): 0.55, ("tip_payload", "base_tilt"): left_by_two}
+    _, rounds = search(Fits(shares | {EFFECTS: 0.0}), EFFECTS, lambda _what, _part: None)
+    assert len(rounds) == sought
