@@ -15,7 +15,7 @@ from continuum.discovery.pictures import evidence_picture, runs_picture, torque_
 from continuum.discovery.residual_torque import ResidualTorque
 from continuum.discovery.search import Round
 from continuum.discovery.structure_tests import StructureTest
-from continuum.errors import FileError
+from continuum.whole_file import write_whole
 
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
@@ -81,10 +81,7 @@ def write_report(
         _entangled(found),
     ]
     page = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(kind)}</title><style>{_STYLE}</style>'
-    try:
-        Path(path).write_text(page + "\n".join(body) + "</html>\n", encoding="utf-8")
-    except OSError as error:
-        raise FileError(path, f"cannot be written ({error})") from error
+    write_whole(path, page + "\n".join(body) + "</html>\n")
 
 
 def _worth(found: Findings) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 
 from continuum.discovery.findings import Estimate, Findings
 from continuum.discovery.verdict import Cause, Kind
-from continuum.errors import FileError
+from continuum.whole_file import write_whole
 
 
 def write_json(found: Findings, path: str | Path) -> None:
@@ -19,10 +19,7 @@ def write_json(found: Findings, path: str | Path) -> None:
     Raises:
         FileError: the file cannot be written.
     """
-    try:
-        Path(path).write_text(json.dumps(as_mapping(found), indent=2) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise FileError(path, f"cannot be written ({error})") from error
+    write_whole(path, json.dumps(as_mapping(found), indent=2) + "\n")
 
 
 def as_mapping(found: Findings) -> dict[str, Any]:

@@ -26,6 +26,7 @@ from continuum.dynamics.model_path import model_path
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
 from continuum.errors import FileError, InvalidValueError
 from continuum.parameter_file import read_parameter_file
+from continuum.whole_file import write_whole
 
 _ENTRY = "a mapping of value, unit and source"
 
@@ -85,10 +86,7 @@ def save_model(model: Model, path: str | Path) -> None:
         owner, _, key = name.rpartition(".")
         (effects[owner] if owner else parameters)[key] = entry
     written = {"n_joints": model.n_joints, "parameters": parameters, "effects": effects}
-    try:
-        Path(path).write_text(yaml.safe_dump(written, sort_keys=False), encoding="utf-8")
-    except OSError as error:
-        raise FileError(path, f"cannot be written ({error})") from error
+    write_whole(path, yaml.safe_dump(written, sort_keys=False))
 
 
 def _values(

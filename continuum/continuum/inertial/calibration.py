@@ -23,6 +23,7 @@ from continuum.errors import FileError, InvalidValueError
 from continuum.inertial.inclination import across_axis
 from continuum.number_checks import finite_of_shape
 from continuum.parameter_file import read_parameter_file
+from continuum.whole_file import write_whole
 
 _LARGEST_BIAS = np.radians(10.0)  # rad/s
 _UNIT = 1e-3  # by which a written unit vector may be off
@@ -112,8 +113,4 @@ def save_calibration(calibration: Calibration, path: str | Path) -> None:
     """
     rows = zip(calibration.bias, calibration.axis, calibration.zero, calibration.sources, strict=True)
     sensors = [dict(zip(_KEYS, (*(block.tolist() for block in row[:3]), row[3]), strict=True)) for row in rows]
-    text = yaml.safe_dump({"sensors": sensors}, sort_keys=False, default_flow_style=None, width=120)
-    try:
-        Path(path).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise FileError(path, f"cannot be written ({error.strerror or error})") from error
+    write_whole(path, yaml.safe_dump({"sensors": sensors}, sort_keys=False, default_flow_style=None, width=120))
