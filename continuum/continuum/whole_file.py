@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 from pathlib import Path
 
 from continuum.errors import FileError
+
+_NO_PLACE_BESIDE = (errno.EACCES, errno.EPERM, errno.EROFS, errno.EBUSY)
+"""A folder that one may not write to, or a file that is mounted by itself."""
 
 
 def write_whole(path: str | Path, text: str) -> None:
@@ -20,9 +24,20 @@ def write_whole(path: str | Path, text: str) -> None:
         if file.exists() and not file.is_file():
             file.write_text(text, encoding="utf-8")
         else:
-            _write_beside(file.resolve(), text)
+            _write_in_place(file.resolve(), text)
     except OSError as error:
         raise FileError(path, f"cannot be written ({error.strerror or error})") from error
+    except UnicodeError as error:
+        raise FileError(path, f"cannot be written ({error})") from error
+
+
+def _write_in_place(file: Path, text: str) -> None:
+    try:
+        _write_beside(file, text)
+    except OSError as error:
+        if error.errno not in _NO_PLACE_BESIDE or not file.exists():
+            raise
+        file.write_text(text, encoding="utf-8")
 
 
 def _write_beside(file: Path, text: str) -> None:

@@ -12,9 +12,11 @@ from discovery_verdicts import BAD, GOOD, HALF, WORSE, found, judged, score, sco
 from continuum.discovery.evidence import gain
 from continuum.discovery.in_words import verdict_in_words
 from continuum.discovery.judgement import confirmed, judge
-from continuum.discovery.measured_gain import RunScore, closed_gap
+from continuum.discovery.measured_gain import RunScore, closed_gap, spread_of
 from continuum.discovery.verdict import Kind
 from continuum.discovery.verdict_json import as_mapping
+from continuum.dynamics.reading import Reading
+from continuum.identification.recording import Recording
 
 
 def test_the_part_of_the_gap_that_is_closed() -> None:
@@ -47,6 +49,8 @@ def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
     assert needless.kind is Kind.CAUSE
     assert confirmed(needless, scores(0.14), scores(0.13)).kind is Kind.ADEQUATE
     assert confirmed(needless, scores(0.45), scores(0.44)).kind is Kind.UNKNOWN
+    far = [replace(score("run_1", 0.36), spread=0.2)]
+    assert confirmed(needless, far, far).vague
 
 
 def test_no_model_is_adequate_whose_free_runs_end_far_from_what_was_measured() -> None:
@@ -69,8 +73,14 @@ def test_what_explains_nearly_all_is_the_cause_where_free_runs_say_so() -> None:
     assert [str(cause.addition) for cause in verdict.causes] == ["tip_payload"]  # the second one is not needed for most
     named = confirmed(verdict, scores(0.45, 0.45), scores(0.08, 0.10))
     assert named.kind is Kind.CAUSE
-    assert "to 8 %. What is left there no effect" in verdict_in_words(named)
-    assert confirmed(verdict, scores(0.45, 0.45), scores(0.15, 0.15)).kind is Kind.UNKNOWN
+    assert "to 8 %, and that has another cause" in verdict_in_words(named)
+    for before, after in (
+        ((0.45, 0.45), (0.15, 0.15)),  # too far from the noise
+        ((5.0, 0.3, 0.3, 0.3), (0.1, 0.3, 0.3, 0.3)),  # one run does it all
+        ((np.inf, np.inf), (0.06, 0.06)),  # beside a model that cannot be simulated anything is better
+        ((0.45, 0.45, 0.052), (0.06, 0.06, 2.0)),  # a run ends far from what was measured
+    ):
+        assert confirmed(verdict, scores(*before), scores(*after)).kind is Kind.UNKNOWN
     assert as_mapping(found(named))["complete"] is False
 
 
@@ -88,3 +98,20 @@ def test_as_far_as_models_go_apart_that_no_window_tells_apart_is_not_far() -> No
         found_now = confirmed(verdict, far, far)
         assert found_now.kind is kind
         assert ("They leave much open" in verdict_in_words(found_now)) == (kind is Kind.ADEQUATE)
+
+
+def test_models_go_apart_by_what_was_measured_not_by_what_was_simulated() -> None:
+    """A joint that sticks in the simulation and hardly creeps is still as far off as it moved in the data."""
+    times = np.linspace(0, 1, 50)
+    moved = Recording("run", times, np.stack([0.4 * np.sin(6 * times), 0.2 * np.cos(6 * times)], axis=1))
+
+    def stuck(creep: float, angle: float) -> Reading:
+        theta = moved.theta.copy()
+        theta[:, 0] = angle + creep * times
+        return Reading(times, theta, 0 * theta, ())
+
+    others = [stuck(1e-6, np.deg2rad(0.05) * k) for k in range(8)]
+    found_spread = spread_of(stuck(1e-6, 0.0), others, moved)
+    assert 0 < found_spread < 0.02
+    assert spread_of(others[0], [*others[:2], None, stuck(0.0, 40.0)], moved) < 0.02  # one of them does not decide
+    assert spread_of(others[0], [None, None], moved) == 0.0

@@ -9,9 +9,11 @@ import pytest
 from identification_laws import BENDS, recorded, small_simulator, white_noise
 
 from continuum.discovery.candidate import Addition
+from continuum.discovery.evidence import is_adequate
 from continuum.discovery.question import Question
 from continuum.discovery.rows_asked_again import with_better_rows
 from continuum.discovery.trial import Trial, fit_extension, judged
+from continuum.discovery.workers import first_look, make
 from continuum.dynamics.tensions import Tensions
 from continuum.identification.free import Free
 
@@ -44,5 +46,30 @@ def test_a_late_sensor_that_other_rows_make_needless_is_none() -> None:
 
 
 def test_rows_that_are_right_stay() -> None:
-    question = asked(held=True, truly_held=True)
-    assert with_better_rows(question, fitted(question, ())) is None
+    for held in (True, False):
+        question = asked(held=held, truly_held=held)
+        wrong = replace(question, model=question.model.with_values({"rest_angle": 0.05}))  # windows stay unexplained
+        best = fitted(wrong, ())
+        assert not is_adequate(best)
+        assert with_better_rows(wrong, best) is None
+
+
+def test_rows_that_are_wrong_are_turned_without_any_cause() -> None:
+    question = asked(held=False, truly_held=True)
+    best = fitted(question, ())
+    assert not is_adequate(best)
+    assert with_better_rows(question, best) is not None
+
+
+@pytest.mark.parametrize("delay", [0.008, 0.015, 0.02])
+@pytest.mark.parametrize("held", [True, False])
+def test_a_true_delay_is_found_and_stays(held: bool, delay: float) -> None:
+    """Joints feel when held tensions jump, so that delays which are wrong by whole rows explain much as well."""
+    simulator = small_simulator("sensor_delay")
+    random, late = np.random.default_rng(4), {"sensor_delay.delay": delay}
+    runs = tuple(recorded(simulator, bend, random, late, tensions=replace(SMOOTH, held=held)) for bend in BENDS[:2])
+    question = Question(SIMULATOR.model, FREE, runs, white_noise())
+    look = make(question, first_look(DELAY, fitted(question, ())))
+    best = judged(DELAY, fit_extension(question, DELAY, look))
+    assert best.amounts[-1] == pytest.approx(delay, rel=0.05)
+    assert with_better_rows(question, best) is None

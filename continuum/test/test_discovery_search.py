@@ -14,6 +14,7 @@ from continuum.discovery.evidence import gain
 from continuum.discovery.judgement import judge
 from continuum.discovery.search import search
 from continuum.discovery.trial import Trial
+from continuum.discovery.verdict import Kind
 from continuum.discovery.window_beginnings import with_beginnings_of
 from continuum.discovery.workers import FIRST_LOOK, LONG_LOOK, Task
 
@@ -212,3 +213,25 @@ def test_a_third_effect_is_sought_where_two_left_little(left_by_two: float, soug
     shares = {(): 0.6, ("tip_payload",): 0.5, ("base_tilt",): 0.55, ("tip_payload", "base_tilt"): left_by_two}
     _, rounds = search(Fits(shares | {EFFECTS: 0.0}), EFFECTS, lambda _what, _part: None)
     assert len(rounds) == sought
+
+
+def test_what_explains_nearly_all_names_every_effect_of_its_model() -> None:
+    both = ("tip_payload", "base_tilt")
+    shares = {(): 0.6, ("tip_payload",): 0.3, ("base_tilt",): 0.5, both: 0.1}
+    baseline, rounds = search(Fits(shares), EFFECTS, lambda _what, _part: None)
+    verdict = judge(baseline, rounds)
+    assert verdict.nearly
+    assert {cause.addition.effect for cause in verdict.causes} == set(both)
+    assert set(effects_of(verdict.extension)) == set(both)
+
+
+def test_of_two_that_do_as_well_beside_a_small_second_effect_none_is_named_alone() -> None:
+    """The first round alone tells them apart, and it did not know the second effect."""
+    shares = {
+        (): 1.0, ("quadratic_drag",): 0.08, ("tip_payload",): 0.14, ("base_tilt",): 0.99,
+        ("quadratic_drag", "base_tilt"): 0.0, ("tip_payload", "base_tilt"): 0.0,
+    }  # fmt: skip
+    baseline, rounds = search(Fits(shares), EFFECTS, lambda _what, _part: None)
+    verdict = judge(baseline, rounds)
+    assert verdict.kind is Kind.AMBIGUOUS
+    assert {c.addition.effect for c in (*verdict.causes, *verdict.alternatives)} == set(EFFECTS)

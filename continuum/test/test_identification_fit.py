@@ -20,7 +20,7 @@ from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free
 from continuum.identification.free_run import free_run
 from continuum.identification.recording import Recording
-from continuum.identification.tension_rows import with_likelier_rows
+from continuum.identification.tension_rows import jumps_tell, with_likelier_rows
 
 SIMULATOR = small_simulator()
 ROUGH = small_simulator(None, TOLERANCES)
@@ -223,6 +223,16 @@ def test_a_free_run_is_the_whole_run_from_its_first_window_alone() -> None:
     assert np.sqrt(np.mean((wrong.theta - clean.theta) ** 2)) > 5 * ANGLE_NOISE
 
 
+@pytest.mark.parametrize("bend", BENDS[:2])
+def test_a_slow_cameras_free_run_begins_where_its_first_window_was_fitted(bend: tuple[float, float]) -> None:
+    """The rate that the first rows show depends on how many there are; the state that was fitted does not."""
+    fast, clean = (recorded(SIMULATOR, bend, random, rates=False) for random in (np.random.default_rng(3), None))
+    run = fast.rows(slice(None, None, 4))  # 30 a second
+    seen = free_run(ROUGH, run, white_noise(rate=None))
+    assert seen is not None
+    assert np.sqrt(np.mean((seen.theta - clean.theta[::4]) ** 2)) < ANGLE_NOISE / 2
+
+
 def test_a_free_run_with_a_sensors_own_offset() -> None:
     simulator = small_simulator("angle_offset", TOLERANCES)
     run = recorded(simulator, BENDS[0], np.random.default_rng(3))
@@ -250,6 +260,19 @@ def test_how_tensions_go_on_between_rows_is_told_by_the_data(held: bool) -> None
     assert found[0].tensions.held is held
     assert found[1] is free
     assert with_likelier_rows(ROUGH, [free], white_noise(), FREE) == (free,)
+
+
+@pytest.mark.parametrize("slope", [3.3, 4.0, 6.0])
+def test_a_ramp_is_no_jump(slope: float) -> None:
+    """Tensions that change fast and evenly, measured: joints do nothing at once, and half a row still tells."""
+    times = np.arange(73) / 120
+    up = np.clip(slope * (np.arange(73) - 6), 0, 20 * slope / 3.3)
+    tensions = Tensions(times, np.stack([up, np.zeros(73)], axis=1), held=False)
+    run = recorded(SIMULATOR, BENDS[0], np.random.default_rng(5), tensions=tensions)
+    assert not jumps_tell([run])
+    (found,) = with_likelier_rows(ROUGH, [replace(run, tensions=replace(tensions, held=True))], white_noise(), FREE)
+    assert found.tensions is not None
+    assert not found.tensions.held
 
 
 def test_a_joint_that_slips_by_chance_beside_a_jump_tells_nothing_of_tensions() -> None:

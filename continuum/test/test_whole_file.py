@@ -1,8 +1,10 @@
 """A file is written as a whole, or stays what it was."""
 
+import errno
 import os
 import stat
 import threading
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
@@ -24,7 +26,7 @@ def test_a_new_file_takes_the_old_ones_place_and_rights(tmp_path: Path) -> None:
 def test_a_file_that_cannot_be_finished_leaves_the_old_one(tmp_path: Path) -> None:
     file = tmp_path / "a.yaml"
     file.write_text("old", encoding="utf-8")
-    with pytest.raises(UnicodeEncodeError):
+    with pytest.raises(FileError, match="surrogates"):
         write_whole(file, "begun, and then \ud800")
     assert file.read_text(encoding="utf-8") == "old"
     assert [*tmp_path.iterdir()] == [file]
@@ -51,3 +53,20 @@ def test_what_cannot_be_written_is_named(where: str, tmp_path: Path) -> None:
     with pytest.raises(FileError, match=str(tmp_path / where)):
         write_whole(tmp_path / where, "text")
     assert [*tmp_path.iterdir()] == []
+
+
+@pytest.mark.parametrize(("number", "taken"), [(errno.EBUSY, True), (errno.ENOSPC, False)])
+def test_a_file_mounted_by_itself_is_overwritten(
+    number: int, taken: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "a.yaml"
+    file.write_text("old", encoding="utf-8")
+
+    def replace(_self: Path, _target: Path) -> None:
+        raise OSError(number, "no")
+
+    monkeypatch.setattr(Path, "replace", replace)
+    with nullcontext() if taken else pytest.raises(FileError, match="cannot be written"):
+        write_whole(file, "new")
+    assert file.read_text(encoding="utf-8") == ("new" if taken else "old")
+    assert [*tmp_path.iterdir()] == [file]

@@ -56,6 +56,11 @@ def unexplained(trial: Trial) -> float:
     return float(np.mean(trial.relative > np.maximum(_UNEXPLAINED, chi2.isf(_RARE, sizes) / sizes)))
 
 
+def beyond_noise(trial: Trial) -> float:
+    """Log-likelihood that is left to explain."""
+    return max(trial.misfit - float(sum(run.sum() for run in trial.sizes)), 0.0) / 2
+
+
 def is_adequate(trial: Trial) -> bool:
     """Whether what is left is noise: no more unexplained windows than a right model leaves by chance."""
     return _chance(trial) > _CHANCE

@@ -22,6 +22,10 @@ from continuum.identification.fit import THESIS_PARAMETERS, Fit
 from continuum.identification.free import Free
 
 _ITERATIONS = 8
+_WAYS = {
+    True: "to hold until their next row, as commands do",
+    False: "to change evenly from row to row, as measured ones do",
+}
 
 
 @dataclass(frozen=True)
@@ -54,7 +58,7 @@ class Findings:
         before, after: every run predicted by the other half, by the refitted and by the extended model.
         closed: part of the distance to the noise floor that the extension closes.
         weakness: why this proves less than it would with more runs; empty where it does not.
-        notes: on repairs of the data.
+        notes: on repairs of the data, how tensions were taken, and what the model leaves out.
         refitted, model: the model as it was and the extended one, both fitted to all runs.
     """
 
@@ -94,10 +98,18 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         tuple(after),
         closed_gap(before, after),
         split.weakness,
-        tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes) + _left_out(verdict),
+        tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes)
+        + _rows_told(question)
+        + _left_out(verdict),
         fit_extension(question, (), verdict.baseline, 2).model,
         _told(fitted, [r.name for r in question.recordings]),
     )
+
+
+def _rows_told(question: Question) -> tuple[str, ...]:
+    """How tensions were taken to go on between rows, where any were measured."""
+    ways = {run.tensions.held for run in question.recordings if run.is_driven and run.tensions is not None}
+    return tuple(f"cable tensions are taken {_WAYS[held]}" for held in sorted(ways))
 
 
 def _left_out(verdict: Verdict) -> tuple[str, ...]:

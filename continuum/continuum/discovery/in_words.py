@@ -29,8 +29,8 @@ def verdict_in_words(verdict: Verdict) -> str:
         case Kind.CAUSE:
             return (
                 f"{_what(verdict.causes)} "
-                f"With that in the simulation, what it leaves unexplained falls from {before} of the data to {after}."
-                + (" What is left there no effect that is known here explains." if verdict.nearly else "")
+                f"With that in the simulation, what it leaves unexplained falls from {before} of the data to {after}"
+                + (", and that has another cause or none that this data tells." if verdict.nearly else ".")
             )
         case Kind.AMBIGUOUS:
             return (

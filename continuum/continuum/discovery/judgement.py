@@ -50,6 +50,8 @@ def _those_that_explain_most(baseline: Trial, added: Sequence[Round]) -> list[Ro
     """The first rounds, as few as explain most, where no other effect did nearly as well; none where there are none."""
     enough = _MOST_LEFT * unexplained(baseline)
     for count, one in enumerate(added, 1):
+        if len(one.best.extension) != count:  # sought anew: this one stood beside an effect that a later round names
+            continue
         own = gain(one.best, one.before).log_likelihood
         others = [trial for trial in one.leaders if trial.extension[-1].effect != one.best.extension[-1].effect]
         if any(gain(trial, one.before).log_likelihood > _OTHERS * own for trial in others):
@@ -66,7 +68,7 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
     without it is adequate, nothing has to be explained, and that model it is; but no model is whose free runs end far
     from what was measured. What explains nearly all windows is the cause where free runs come nearly to the noise.
     """
-    if verdict.nearly and closed_gap(before, after) >= _MOST_CLOSED:
+    if verdict.nearly and _comes_to_the_noise(before, after):
         return replace(verdict, kind=Kind.CAUSE)
     if verdict.kind is Kind.ADEQUATE:
         if is_far(before):
@@ -77,8 +79,18 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
         return verdict
     if is_adequate(verdict.baseline) and not is_far(before):
         share = verdict.unexplained[0], verdict.unexplained[0]
-        return Verdict(Kind.ADEQUATE, (), (), verdict.baseline, verdict.baseline, share)
+        best = verdict.baseline
+        return Verdict(Kind.ADEQUATE, (), (), best, best, share, vague=is_vague(before))
     return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", predicts=False)
+
+
+def _comes_to_the_noise(before: Sequence[RunScore], after: Sequence[RunScore]) -> bool:
+    """Whether free runs come nearly to the noise, also without any single run, and none ends far from it."""
+    if is_far(after) or not all(math.isfinite(score.position) for score in before):
+        return False
+    pairs = list(zip(before, after, strict=True))
+    parts = [pairs, *(pairs[:i] + pairs[i + 1 :] for i in range(len(pairs)) if len(pairs) > 1)]
+    return all(closed_gap(*zip(*part, strict=True)) >= _MOST_CLOSED for part in parts)
 
 
 def _cause(one: Round) -> Cause:

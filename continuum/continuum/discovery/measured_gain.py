@@ -77,15 +77,19 @@ def held_out_scores(question: Question, trial: Trial, split: Split, random: np.r
             if score.seen is not None and score.position > _FAR * score.floor:
                 models = drawn_models(fitted, random, _DRAWS)
                 others = [free_run(simulator.around(model), recording, question.noise, own) for model in models]
-                score = replace(score, spread=_spread(score.seen, others))
+                score = replace(score, spread=spread_of(score.seen, others, recording))
             found.append(score)
     return found
 
 
-def _spread(seen: Reading, others: Sequence[Reading | None]) -> float:
-    """Root mean square of Eq. 19 of the angles of free runs beside that of the fitted model."""
-    squares = [nrmse(other.theta, seen.theta) ** 2 for other in others if other is not None]
-    return float(np.sqrt(np.mean(squares))) if squares else 0.0
+def spread_of(seen: Reading, others: Sequence[Reading | None], recording: Recording) -> float:
+    """Root mean square of Eq. 19 of what free runs go beside that of the fitted model; the farthest one does not count.
+
+    It is in units of what was measured, as the error is that it is held against.
+    """
+    theta = recording.theta
+    apart = sorted(nrmse(theta + other.theta - seen.theta, theta) for other in others if other is not None)[:-1]
+    return float(np.sqrt(np.mean(np.square(apart)))) if apart else 0.0
 
 
 def is_open(before: Sequence[RunScore]) -> bool:
@@ -126,7 +130,7 @@ def _scored(simulator: Simulator, recording: Recording, noise: Noise, own: tuple
     began = time.process_time()
     seen = None if run is None else run.simulate()
     seconds = time.process_time() - began
-    floor = float(np.mean(noise.angle.white / np.maximum(np.std(recording.theta, axis=0), 1e-9)))
+    floor = nrmse(recording.theta + noise.angle.white, recording.theta)
     if seen is None:
         return RunScore(recording.name, np.inf, np.inf, floor, seconds, None, recording)
     position, rate = position_nrmse(seen, recording), rate_nrmse(seen, recording)

@@ -31,4 +31,7 @@ def with_better_rows(question: Question, best: Trial) -> Question | None:
     trial = judged(plain, fit_extension(other, plain, best))
     if len(plain) < len(best.extension):
         return other if explains_all(trial) or not gain(best, trial).is_distinct else None
-    return other if gain(trial, best).is_significant else None
+    if not gain(trial, best).is_significant:
+        return None
+    as_long = judged(plain, fit_extension(question, plain, best))  # what a longer search finds is not the rows' doing
+    return other if gain(trial, as_long).is_significant else None

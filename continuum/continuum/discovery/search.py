@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from continuum.discovery.candidate import Addition, Extension
-from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
+from continuum.discovery.evidence import beyond_noise, explains_all, gain, is_adequate
 from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
 from continuum.discovery.window_beginnings import with_beginnings_of
@@ -27,7 +27,7 @@ _LEADER_ITERATIONS, _ITERATIONS, _BASELINE_ITERATIONS = 8, 12, 10
 _ITERATIONS_ANEW = 4
 _MISLEADING = 0.1  # of the first effect's gain: a smaller second one has misled nobody
 _ROUNDS = 3
-_MUCH = 0.5  # of the windows that the baseline does not explain
+_MUCH = 0.5  # of what the baseline does not explain
 
 
 @dataclass(frozen=True)
@@ -99,13 +99,16 @@ def search(make: Make, effects: Sequence[str], tell: Tell, until: Until = until_
 
 def _is_in_vain(baseline: Trial, rounds: Sequence[Round]) -> bool:
     """Whether two effects have left so much that a third one would hardly explain it all."""
-    return len(rounds) > 1 and unexplained(rounds[-1].best) > _MUCH * unexplained(baseline)
+    return len(rounds) > 1 and beyond_noise(rounds[-1].best) > _MUCH * beyond_noise(baseline)
 
 
 def _may_have_misled(second: Round, first: Round) -> bool:
-    """Whether the second effect is so large beside the first that this one may have stood for it."""
+    """Whether the second effect is so large that the first may have stood for it, or hid which of several it is."""
     gained = [gain(one.best, one.before).log_likelihood for one in (second, first)]
-    return second.best is not second.before and gained[0] > _MISLEADING * gained[1]
+    effect = first.best.extension[-1].effect
+    others = [trial for trial in first.leaders if trial.extension[-1].effect != effect]
+    is_contended = any(gain(trial, first.before).log_likelihood > _CONTENDING * gained[1] for trial in others)
+    return second.best is not second.before and (is_contended or gained[0] > _MISLEADING * gained[1])
 
 
 def _first_anew(

@@ -41,6 +41,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
             for e in found.estimates
         ],
         "complete": not (unknown or verdict.nearly),
+        "vague": verdict.vague,
         "weakness": found.weakness,
         "notes": list(found.notes),
     }

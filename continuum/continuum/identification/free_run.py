@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from continuum.arrays import Array
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
@@ -46,8 +48,10 @@ def begun(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[F
     fitted = fit(simulator, [recording if mine else _first_window(recording)], noise, mine, iterations=_ITERATIONS)
     if not fitted.parts:
         return None
-    whole = WindowResidual(simulator, recording, 0, noise, fitted.space, None)
-    return FreeRun(whole, fitted.coordinates, fitted.unknowns.own[0])
+    whole, shared = WindowResidual(simulator, recording, 0, noise, fitted.space, None), fitted.coordinates
+    motion = fitted.runs[0].motion(0, shared, fitted.unknowns.own[0])
+    first = np.concatenate([whole.from_state(0, shared, motion), fitted.unknowns.own[0][motion.size :]])
+    return FreeRun(whole, shared, first)
 
 
 def free_run(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...] = ()) -> Reading | None:

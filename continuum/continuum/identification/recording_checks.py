@@ -18,7 +18,10 @@ _MOST_BAD = 0.1  # of all rows
 _CLIPPED_ROWS = 3  # of the same extreme value one after the other
 _CLIPPED_STEP = 3  # units of the last digit, by which a signal jumps to its limit
 _LEAST_ANGLE = np.deg2rad(1.0)  # that a run must reach; sensors err by tenths of a degree
-_LEAST_MOTION = np.deg2rad(0.5)  # standard deviation of the joint that moves most
+_LEAST_MOTION, _QUIETED = (
+    np.deg2rad(1.5),
+    8,
+)  # of the joint that moves most, noise being quieted by means of so many rows
 _LARGEST_RATE, _LARGEST_TENSION = 200.0, 1e4  # rad/s, N; no arm of this kind has more
 _ALIKE = 0.5  # correlation of a joint's rate with the slope of its angle from which on their sizes are compared
 
@@ -157,8 +160,10 @@ def _refuse_units(samples: Samples) -> None:
             samples.path,
             f"has no joint angle above {np.degrees(largest):.2g} degrees: radians taken for degrees, or arm at rest?",
         )
-    if np.max(np.std(samples.theta, axis=0)) < _LEAST_MOTION:
-        raise FileError(samples.path, "is of an arm that does not move: nothing can be learnt from it")
+    motion = _largest_motion(samples.theta)
+    if motion < _LEAST_MOTION:
+        told = f"{np.degrees(motion):.2g} degrees, hardly more than sensors err: at least {np.degrees(_LEAST_MOTION):g}"
+        raise FileError(samples.path, f"is of an arm whose joints move by at most {told} are needed")
     for block, limit, what in (
         (samples.rate, _LARGEST_RATE, "joint rate of {:.3g} rad/s: degrees taken for radians?"),
         (samples.pull, _LARGEST_TENSION, "tension of {:.3g} N: another unit?"),
@@ -169,6 +174,12 @@ def _refuse_units(samples: Samples) -> None:
         slopes = np.gradient(samples.theta, samples.times, axis=0)
         for joint, (slope, rate) in enumerate(zip(slopes.T, samples.rate.T, strict=True), start=1):
             _refuse_mixed(samples.path, joint, slope, rate)
+
+
+def _largest_motion(theta: Array) -> float:
+    """From the least to the most of the joint that moves most [rad]."""
+    means = [np.mean(piece, axis=0) for piece in np.array_split(theta, max(1, len(theta) // _QUIETED))]
+    return float(np.max(np.ptp(means, axis=0)))
 
 
 def _refuse_mixed(path: Path, joint: int, slope: Array, rate: Array) -> None:

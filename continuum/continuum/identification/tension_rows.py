@@ -11,13 +11,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free
 from continuum.identification.noise import Noise
 from continuum.identification.recording import Recording
 
-_JUMP = 3.0  # N from one row to the next
+_JUMP, _STEEPER = 3.0, 3.0  # N from one row to the next, and times as much as in the rows beside it
 _JOLT = 40.0  # rad/s2, by which arms answer at once
 _LOUDER = 3.0  # than the change of acceleration before: joints that stick and slip jolt by themselves
 _BEFORE = 0.2  # of the change of acceleration; about 0 for held tensions, 0.4 for linear ones
@@ -57,22 +58,33 @@ def turned(recording: Recording) -> Recording:
 
 
 def _shares_before_jumps(recording: Recording) -> list[float]:
-    """Of every jump, which part of the change of acceleration came before its row; the fastest joints count most."""
+    """Of every jump, which part of the change of acceleration came before its row; the fastest joints count most.
+
+    None where no joint felt any of them at once.
+    """
     if recording.theta_rate is None or recording.tensions is None:
         return []
     if np.median(np.diff(recording.tensions.times)) > 1.5 * np.median(np.diff(recording.times)):
         return []  # much else may have happened since the row before
     u = np.array([recording.tensions.at(time) for time in recording.times])
     acceleration = np.diff(recording.theta_rate, axis=0) / np.diff(recording.times)[:, None]
-    found = []
-    for row in map(int, np.flatnonzero(np.abs(np.diff(u, axis=0)).max(axis=1) > _JUMP) + 1):
+    found, felt = [], False
+    for row in _jumps(u):
         if 2 <= row < len(acceleration):
             before, after = (acceleration[k] - acceleration[row - 2] for k in (row - 1, row))
             usual = float(np.linalg.norm(acceleration[row - 2] - acceleration[max(row - 3, 0)]))
             # what comes later than the row did not begin before it
-            felt = float(np.linalg.norm(after)) > max(_JOLT, _LOUDER * usual)
-            found.append(float(before @ after / (after @ after)) if felt else 0.0)
-    return found
+            jolted = float(np.linalg.norm(after)) > max(_JOLT, _LOUDER * usual)
+            found.append(float(before @ after / (after @ after)) if jolted else 0.0)
+            felt = felt or jolted
+    return found if felt else []
+
+
+def _jumps(u: Array) -> list[int]:
+    """Rows by which a tension has jumped, in ``u`` (n_rows, n_cables) [N]; on a ramp the rows beside move as much."""
+    steps = np.pad(np.abs(np.diff(u, axis=0)), ((1, 1), (0, 0)))
+    steep = (steps[1:-1] > _JUMP) & (steps[1:-1] > _STEEPER * np.maximum(steps[:-2], steps[2:]))
+    return [int(row) + 1 for row in np.flatnonzero(steep.any(axis=1))]
 
 
 def _strangeness(fitted: Fit) -> float:

@@ -132,6 +132,11 @@ class WindowResidual:
         part = Part(self._errors(window, seen), jacobian[:, :k], jacobian[:, k:])
         return WindowAt(own, part, memory, run.states[-1, :m])
 
+    def motion(self, window: int, shared: Array, own: Array) -> Array:
+        """Angles and rates of a first state, (2 n,) [rad, rad/s], of given coordinates."""
+        p = self.space.origin + self._directions @ shared
+        return np.asarray(self._sensors.meant(self.rows[window].start, p) + self._unit * own[: self._unit.size])
+
     def from_state(self, window: int, shared: Array, motion: Array) -> Array:
         """Coordinates of a first state of given angles and rates, (2 n,) [rad, rad/s]."""
         p = self.space.origin + self._directions @ shared
