@@ -73,3 +73,15 @@ def test_a_true_delay_is_found_and_stays(held: bool, delay: float) -> None:
     best = judged(DELAY, fit_extension(question, DELAY, look))
     assert best.amounts[-1] == pytest.approx(delay, rel=0.05)
     assert with_better_rows(question, best) is None
+
+
+def test_of_two_late_effects_the_one_that_other_rows_make_needless_turns_them() -> None:
+    simulator = small_simulator("sensor_delay")
+    random, late = np.random.default_rng(4), {"sensor_delay.delay": 0.02}
+    runs = tuple(recorded(simulator, bend, random, late, tensions=replace(SMOOTH, held=True)) for bend in BENDS[:2])
+    taken = tuple(replace(run, tensions=replace(SMOOTH, held=False)) for run in runs)
+    question = Question(SIMULATOR.model, FREE, taken, white_noise())
+    best = fitted(question, (Addition("actuator_lag"), *DELAY))
+    other = with_better_rows(question, best)
+    assert other is not None
+    assert all(run.tensions is not None and run.tensions.held for run in other.recordings)

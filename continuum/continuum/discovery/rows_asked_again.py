@@ -8,8 +8,11 @@ effects are sought in vain, so that a search that found something asks before it
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import combinations
 
+from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import explains_all, gain, is_adequate
 from continuum.discovery.question import Question
 from continuum.discovery.trial import Trial, fit_extension, judged
@@ -26,12 +29,20 @@ def with_better_rows(question: Question, best: Trial) -> Question | None:
     """
     if jumps_tell(question.recordings) or (not best.extension and is_adequate(best)):
         return None
-    plain = tuple(addition for addition in best.extension if not effect_named(addition.effect).shifts_time)
     other = replace(question, recordings=tuple(turned(recording) for recording in question.recordings))
-    trial = judged(plain, fit_extension(other, plain, best))
-    if len(plain) < len(best.extension):
-        return other if explains_all(trial) or not gain(best, trial).is_distinct else None
+    late = [addition for addition in best.extension if effect_named(addition.effect).shifts_time]
+    if late:
+        needless = (some for count in range(len(late), 0, -1) for some in combinations(late, count))
+        return other if any(_is_needless(other, best, some) for some in needless) else None
+    trial = judged(best.extension, fit_extension(other, best.extension, best))
     if not gain(trial, best).is_significant:
         return None
-    as_long = judged(plain, fit_extension(question, plain, best))  # what a longer search finds is not the rows' doing
+    as_long = judged(best.extension, fit_extension(question, best.extension, best))  # longer fits find more
     return other if gain(trial, as_long).is_significant else None
+
+
+def _is_needless(other: Question, best: Trial, some: Sequence[Addition]) -> bool:
+    """Whether tensions the other way do without some effects."""
+    rest = tuple(addition for addition in best.extension if addition not in some)
+    trial = judged(rest, fit_extension(other, rest, best))
+    return explains_all(trial) or not gain(best, trial).is_distinct

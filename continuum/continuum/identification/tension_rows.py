@@ -35,7 +35,7 @@ def with_likelier_rows(
     Without jumps the windows in which the tensions move most decide: half a sample's delay shows in them.
     """
     driven = [recording for recording in recordings if recording.is_driven]
-    shares = [share for recording in driven for share in _shares_before_jumps(recording)]
+    shares = [share or 0.0 for recording in driven for share in _shares_before_jumps(recording)]
     if shares:
         return tuple(_held(recording, float(np.median(shares)) < _BEFORE) for recording in recordings)
     if not driven:
@@ -48,8 +48,8 @@ def with_likelier_rows(
 
 
 def jumps_tell(recordings: Sequence[Recording]) -> bool:
-    """Whether jumps of the tensions tell it, without any model."""
-    return any(_shares_before_jumps(recording) for recording in recordings)
+    """Whether jumps of the tensions tell it, without any model: whether joints felt any at once."""
+    return any(share is not None for recording in recordings for share in _shares_before_jumps(recording))
 
 
 def turned(recording: Recording) -> Recording:
@@ -57,10 +57,10 @@ def turned(recording: Recording) -> Recording:
     return recording if recording.tensions is None else _held(recording, not recording.tensions.held)
 
 
-def _shares_before_jumps(recording: Recording) -> list[float]:
+def _shares_before_jumps(recording: Recording) -> list[float | None]:
     """Of every jump, which part of the change of acceleration came before its row; the fastest joints count most.
 
-    None where no joint felt any of them at once.
+    None of a jump that no joint felt at once: what comes later than its row did not begin before it.
     """
     if recording.theta_rate is None or recording.tensions is None:
         return []
@@ -68,16 +68,14 @@ def _shares_before_jumps(recording: Recording) -> list[float]:
         return []  # much else may have happened since the row before
     u = np.array([recording.tensions.at(time) for time in recording.times])
     acceleration = np.diff(recording.theta_rate, axis=0) / np.diff(recording.times)[:, None]
-    found, felt = [], False
+    found: list[float | None] = []
     for row in _jumps(u):
         if 2 <= row < len(acceleration):
             before, after = (acceleration[k] - acceleration[row - 2] for k in (row - 1, row))
             usual = float(np.linalg.norm(acceleration[row - 2] - acceleration[max(row - 3, 0)]))
-            # what comes later than the row did not begin before it
-            jolted = float(np.linalg.norm(after)) > max(_JOLT, _LOUDER * usual)
-            found.append(float(before @ after / (after @ after)) if jolted else 0.0)
-            felt = felt or jolted
-    return found if felt else []
+            felt = float(np.linalg.norm(after)) > max(_JOLT, _LOUDER * usual)
+            found.append(float(before @ after / (after @ after)) if felt else None)
+    return found
 
 
 def _jumps(u: Array) -> list[int]:
