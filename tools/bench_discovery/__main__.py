@@ -1,7 +1,8 @@
 """`make bench-discovery`: effects hidden in simulated measurements, and what `continuum diagnose` says of them.
 
 It takes days: stop it by --rounds, --minutes, --cases or Ctrl-C; a further call goes on where this one stopped.
-Every result is one line of out/bench_discovery/results.jsonl; the page is made from all of them that the present
+Every result is one line of data/discovery_benchmark.jsonl, kept in the repository so that a campaign goes on from
+where the last one ended, on any machine; the page is made from all of them that the present
 sources made, and overwrites docs/discovery-benchmark.md unless --out names another file.
 """
 
@@ -22,7 +23,7 @@ from tools.bench_discovery.result import Result, append, load
 from tools.bench_discovery.score import judged, name_of
 
 PAGE = Path("docs/discovery-benchmark.md")
-RESULTS = Path("out/bench_discovery/results.jsonl")
+RESULTS = Path("data/discovery_benchmark.jsonl")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -70,7 +70,8 @@ def _head(results: Sequence[Result]) -> str:
     kinds = Counter(result.kind for result in results)
     paragraphs = (
         paragraph(
-            f"Made by `make bench-discovery`, which writes every figure here, from {len(results)} cases:",
+            "Made by `make bench-discovery`, which writes every figure here and every verdict in",
+            f"`data/discovery_benchmark.jsonl`, from {len(results)} cases:",
             f"{kinds['one']}",
             f"with one hidden effect of the library, {kinds['clean']} with none, {kinds['outside']} with one outside",
             "of",
