@@ -156,16 +156,29 @@ class Bridge:
         return instant + (nanoseconds(message.header.stamp) - now) / NANOSECONDS
 
     def pull(self, effort, until) -> None:
-        """Command tensions, with every cable state that comes, until ``until()``."""
+        """Command tensions, with every cable state that comes, until ``until()``.
+
+        A machine that was busy for long makes the bench let go of a commander that was silent, as it should; the node
+        is activated again then.
+        """
 
         def done() -> bool:
             if len(self.cables) >= self._due:
                 self.command(effort)
                 self._due = len(self.cables) + 2
-            return until()
+            return until() or self._times_let_go > let_go
 
-        self._due = len(self.cables)
-        self.probe.wait_until(done, lambda: f"what was pulled for; {self.bench.status}; {self.node.stderr}")
+        while True:
+            self._due, let_go = len(self.cables), self._times_let_go
+            self.probe.wait_until(done, lambda: f"what was pulled for; {self.bench.status}; {self.node.stderr}")
+            if self._times_let_go == let_go:
+                return
+            self.wait_for_state("inactive")
+            assert self.change("activate"), self.node.stderr
+
+    @property
+    def _times_let_go(self) -> int:
+        return self.node.stderr.count("no longer the bench's commander")
 
     def calibrate(self) -> list[str]:
         """At rest, straight, and after a bend towards cable 1; what the services answered."""
