@@ -215,6 +215,15 @@ def test_a_third_effect_is_sought_where_two_left_little(left_by_two: float, soug
     assert len(rounds) == sought
 
 
+def test_no_more_is_sought_where_the_last_effect_explained_little_of_what_is_left() -> None:
+    little = {(): 0.9, ("tip_payload",): 0.8, ("base_tilt",): 0.85, ("tip_payload", "base_tilt"): 0.0}
+    _, rounds = search(Fits(little), EFFECTS, lambda _what, _part: None)
+    assert [effects_of(one.best.extension) for one in rounds] == [["tip_payload"]]
+    shares = {(): 0.9, ("tip_payload",): 0.3, ("base_tilt",): 0.85, ("tip_payload", "base_tilt"): 0.25, EFFECTS: 0.0}
+    _, rounds = search(Fits(shares), EFFECTS, lambda _what, _part: None)
+    assert len(rounds) == 2
+
+
 def test_what_explains_nearly_all_names_every_effect_of_its_model() -> None:
     both = ("tip_payload", "base_tilt")
     shares = {(): 0.6, ("tip_payload",): 0.3, ("base_tilt",): 0.5, both: 0.1}

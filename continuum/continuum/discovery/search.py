@@ -28,6 +28,7 @@ _ITERATIONS_ANEW = 4
 _MISLEADING = 0.1  # of the first effect's gain: a smaller second one has misled nobody
 _ROUNDS = 3
 _MUCH = 0.5  # of what the baseline does not explain
+_MORE_THAN_THE_LAST = 3.0  # times what the last effect explained: no later one explains so much
 
 
 @dataclass(frozen=True)
@@ -98,8 +99,15 @@ def search(make: Make, effects: Sequence[str], tell: Tell, until: Until = until_
 
 
 def _is_in_vain(baseline: Trial, rounds: Sequence[Round]) -> bool:
-    """Whether two effects have left so much that a third one would hardly explain it all."""
-    return len(rounds) > 1 and beyond_noise(rounds[-1].best) > _MUCH * beyond_noise(baseline)
+    """Whether so much is left that further effects would hardly explain it all.
+
+    What helps most is found first: effects that come later hardly explain many times as much as the last one did.
+    """
+    last = rounds[-1]
+    left, more = beyond_noise(last.best), _ROUNDS - len(rounds)
+    if left > more * _MORE_THAN_THE_LAST * gain(last.best, last.before).log_likelihood:
+        return True
+    return len(rounds) > 1 and left > _MUCH * beyond_noise(baseline)
 
 
 def _may_have_misled(second: Round, first: Round) -> bool:

@@ -85,7 +85,7 @@ class Effect:
         return np.zeros(self.n_states(theta.size))
 
     def measure(self, seen: Reading, own: Own) -> Reading:
-        """What the sensors make of what they see; affine in the motion."""
+        """What the sensors make of what they see, of every sample by itself; affine in the motion."""
         return seen
 
     def late(self, own: Own) -> Numbers:

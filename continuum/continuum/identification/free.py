@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.dynamics.model import Model
@@ -92,8 +93,14 @@ class FreeSpace:
 
     def directions_of(self, recording: int) -> Array:
         """Directions as one recording sees them, (n_p, n_free): what belongs to another moves nothing."""
-        mine = [unknown.recording in (None, recording) for unknown in self.unknowns]
-        return np.asarray(self.directions * np.array(mine, dtype=float).reshape(1, -1))
+        found = np.zeros_like(self.directions)
+        mine = self.felt_by(recording)
+        found[:, mine] = self.directions[:, mine]
+        return found
+
+    def felt_by(self, recording: int) -> NDArray[np.intp]:
+        """Numbers of the unknowns that do not belong to another recording."""
+        return np.flatnonzero([unknown.recording in (None, recording) for unknown in self.unknowns])
 
     def common_values(self, coordinates: Array) -> Array:
         """All values of the model, (n_p,), at coordinates (n_free,); what belongs to single recordings is left out.

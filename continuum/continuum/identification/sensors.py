@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache, partial
 
 import numpy as np
@@ -10,11 +12,11 @@ from numpy.typing import NDArray
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.measuring import lateness, readings
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
-from continuum.dynamics.values import parameter_slots, with_vector
+from continuum.dynamics.values import parameter_slots
 from continuum.identification.local_slopes import local_slope
 from continuum.identification.recording import Recording
 
@@ -32,13 +34,17 @@ class Sensors:
 
     def __init__(self, model: Model, recording: Recording) -> None:
         self._model, self._recording = model, recording
-        self._parameters = _parameters_of_sensors(model)
+        effects = [active.effect for active in model.effects]
+        measuring = [effect for effect in effects if type(effect).measure is not Effect.measure]
+        late = [effect for effect in effects if type(effect).late is not Effect.late]
+        self._effects = [effect for effect in effects if effect in measuring or effect in late]
+        self._slots = parameter_slots(model)
+        self._measuring, self._late = self._parameters_of(measuring), self._parameters_of(late)
         self._first_state = cache(partial(first_state, recording))  # asked for at every step of a fit
-        self._is_late = any(type(a.effect).late is not Effect.late for a in model.effects)
 
     def readings(self, p: Array, run: Trajectory) -> Reading:
         """What they read of a motion, or of a part of one."""
-        return self._read(with_vector(self._model, p), run)
+        return readings(self._at(p), run, float(self._recording.times[0]))
 
     def reading_slopes(self, p: Array, run: Trajectory, seen: Reading, free: Array) -> tuple[Array, Array]:
         """Change of the read angles and rates by one unit of each unknown, (n_times, n, columns) each.
@@ -50,24 +56,22 @@ class Sensors:
             free: change of the values by one unit of each unknown, (n_p, columns).
         """
         n = run.n_joints
-        angle, rate = run.slopes[:, :n].copy(), run.slopes[:, n : 2 * n].copy()
-        if not self._parameters.size:
-            return angle, rate
-        model = with_vector(self._model, p)
-        for column in range(free.shape[1]):
-            # measuring is affine in the motion, so that one whole slope may be added to it
-            moved = self._read(model, _moved(run, run.slopes[:, :, column]))
-            nudged = seen
-            if np.any(free[self._parameters, column]):
-                nudged = self.readings(p + NUDGE * free[:, column], run)
-            angle[:, :, column] = moved.theta - seen.theta + (nudged.theta - seen.theta) / NUDGE
-            rate[:, :, column] = moved.theta_rate - seen.theta_rate + (nudged.theta_rate - seen.theta_rate) / NUDGE
+        if not self._measuring.size:
+            return run.slopes[:, :n], run.slopes[:, n : 2 * n]
+        moved = self.readings(p, _moved_by_each_slope(run))
+        shape = (free.shape[1], *seen.theta.shape)
+        angle = (moved.theta.reshape(shape) - seen.theta).transpose(1, 2, 0)
+        rate = (moved.theta_rate.reshape(shape) - seen.theta_rate).transpose(1, 2, 0)
+        for column in np.flatnonzero(free[self._measuring].any(axis=0)):
+            nudged = self.readings(p + NUDGE * free[:, column], run)
+            angle[:, :, column] += (nudged.theta - seen.theta) / NUDGE
+            rate[:, :, column] += (nudged.theta_rate - seen.theta_rate) / NUDGE
         return angle, rate
 
     def meant(self, row: int, p: Array) -> Array:
         """Joint angles and rates that what was read at one sample means, to first order, (2 n,) [rad, rad/s]."""
         read = self._first_state(row)
-        if not self._parameters.size:
+        if not self._measuring.size:
             return read
         times, n = self._recording.times[row : row + 1], self._model.n_joints
         alone = Trajectory(SimulationStatus.COMPLETE, times, read[None], n, 0, 0, np.zeros((1, read.size, 0)))
@@ -78,24 +82,35 @@ class Sensors:
         """Their change by one unit of each shared unknown, (2 n, k), which changes the values by ``directions``."""
         here = self.meant(row, p)
         slopes = np.zeros((here.size, directions.shape[1]))
-        for column in np.flatnonzero(directions[self._parameters].any(axis=0)):
+        for column in np.flatnonzero(directions[self._measuring].any(axis=0)):
             slopes[:, column] = (self.meant(row, p + NUDGE * directions[:, column]) - here) / NUDGE
         return slopes
 
     def pull(self, p: Array) -> Tensions:
         """Tensions of the cables by the sensors' clock."""
-        return self._recording.pull.later(lateness(with_vector(self._model, p)) if self._is_late else 0.0)
+        return self._recording.pull.later(lateness(self._at(p))) if self._late.size else self._recording.pull
 
     def lateness_slopes(self, p: Array, free: Array) -> Array | None:
         """Change of the sensors' lateness by one unit of each unknown, (columns,) [s]; None where none is late."""
-        if not self._is_late:
+        if not self._late.size:
             return None
-        here = lateness(with_vector(self._model, p))
-        there = [lateness(with_vector(self._model, p + NUDGE * column)) for column in free.T]
-        return (np.array(there) - here) / NUDGE
+        here, slopes = lateness(self._at(p)), np.zeros(free.shape[1])
+        for column in np.flatnonzero(free[self._late].any(axis=0)):
+            slopes[column] = (lateness(self._at(p + NUDGE * free[:, column])) - here) / NUDGE
+        return slopes
 
-    def _read(self, model: Model, run: Trajectory) -> Reading:
-        return readings(model, run, float(self._recording.times[0]))
+    def _at(self, p: Array) -> Model:
+        """The model with its effects on sensors alone, at values p."""
+        effects = [
+            ActiveEffect(effect, {name: p[self._slots[f"{effect.name}.{name}"]] for name in effect.parameters})
+            for effect in self._effects
+        ]
+        return replace(self._model, effects=tuple(effects))
+
+    def _parameters_of(self, effects: Sequence[Effect]) -> NDArray[np.intp]:
+        """Places of the effects' parameters among all values."""
+        slots = [self._slots[f"{effect.name}.{name}"] for effect in effects for name in effect.parameters]
+        return np.array([at for slot in slots for at in range(slot.start, slot.stop)], dtype=np.intp)
 
 
 def first_state(recording: Recording, row: int) -> Array:
@@ -106,12 +121,9 @@ def first_state(recording: Recording, row: int) -> Array:
     return np.concatenate([recording.theta[row], rate])
 
 
-def _parameters_of_sensors(model: Model) -> NDArray[np.intp]:
-    """Places of the parameters on which it depends what sensors make of a motion."""
-    senses = [a.effect.name for a in model.effects if type(a.effect).measure is not Effect.measure]
-    slots = [slot for name, slot in parameter_slots(model).items() if name.partition(".")[0] in senses]
-    return np.array([at for slot in slots for at in range(slot.start, slot.stop)], dtype=np.intp)
-
-
-def _moved(run: Trajectory, by: Array) -> Trajectory:
-    return Trajectory(run.status, run.times, run.states + by, run.n_joints, run.steps, run.refused, run.slopes)
+def _moved_by_each_slope(run: Trajectory) -> Trajectory:
+    """The motion plus each of its slopes, one after the other: what is read of a sample hangs on no other one."""
+    columns = run.slopes.shape[2]
+    states = run.states + run.slopes.transpose(2, 0, 1)
+    times = np.tile(run.times, columns)
+    return replace(run, times=times, states=states.reshape(times.size, -1))

@@ -27,8 +27,8 @@ _ANGLE_SPREAD, _RATE_SPREAD = 10.0, 20.0  # prior of these coordinates
 class Memory:
     """States of the effects where a window begins, (n_states,), and their slopes, (n_states, k + 2 n).
 
-    By the shared unknowns, and by those of the window that begins there where they move with it: an arm at rest has its
-    effects rest with it.
+    By the k shared unknowns that the recording feels, and by those of the window that begins there where they move with
+    it: an arm at rest has its effects rest with it.
     """
 
     states: Array
@@ -83,7 +83,8 @@ class WindowResidual:
         length: float | None,
     ) -> None:
         self.recording, self.space, self.windows_simulated = recording, space, 0
-        self._directions = space.directions_of(number)
+        self._felt = space.felt_by(number)
+        self._directions = space.directions[:, self._felt]
         self._simulator, self._model = simulator, simulator.model
         self.rows = window_rows(recording, length)
         n = self._model.n_joints
@@ -113,8 +114,8 @@ class WindowResidual:
     def window(self, window: int, shared: Array, own: Array, memory: Memory | None) -> WindowAt | None:
         """One window whose effects' states begin as the window before left them; without one, as in an arm at rest."""
         memory = memory or self.first_memory(shared, own)
-        k, m, extra = shared.size, self._unit.size, memory.states
-        p = self.space.origin + self._directions @ shared
+        k, m, extra = self._felt.size, self._unit.size, memory.states
+        p = self._values(shared)
         free = np.hstack([self._directions, np.zeros((p.size, own.size))])
         slope0 = np.zeros((m + extra.size, free.shape[1]))
         slope0[:m, :k] = self._sensors.meant_slopes(self.rows[window].start, p, self._directions)
@@ -129,17 +130,19 @@ class WindowResidual:
         seen = self._sensors.readings(p, run)
         mine = self._samples(window)
         jacobian = self._whiten[window](*(slope[mine] for slope in self._sensors.reading_slopes(p, run, seen, free)))
-        part = Part(self._errors(window, seen), jacobian[:, :k], jacobian[:, k:])
+        by_shared = np.zeros((jacobian.shape[0], shared.size))
+        by_shared[:, self._felt] = jacobian[:, :k]
+        part = Part(self._errors(window, seen), by_shared, jacobian[:, k:])
         return WindowAt(own, part, memory, run.states[-1, :m])
 
     def motion(self, window: int, shared: Array, own: Array) -> Array:
         """Angles and rates of a first state, (2 n,) [rad, rad/s], of given coordinates."""
-        p = self.space.origin + self._directions @ shared
+        p = self._values(shared)
         return np.asarray(self._sensors.meant(self.rows[window].start, p) + self._unit * own[: self._unit.size])
 
     def from_state(self, window: int, shared: Array, motion: Array) -> Array:
         """Coordinates of a first state of given angles and rates, (2 n,) [rad, rad/s]."""
-        p = self.space.origin + self._directions @ shared
+        p = self._values(shared)
         return np.asarray((motion - self._sensors.meant(self.rows[window].start, p)) / self._unit)
 
     def still(self, window: int, slow: float) -> Array:
@@ -151,7 +154,7 @@ class WindowResidual:
 
     def simulate(self, shared: Array, own: Sequence[Array]) -> Reading | None:
         """What the sensors would read, window after window; None where the model cannot be simulated."""
-        p = self.space.origin + self._directions @ shared
+        p = self._values(shared)
         extra = self.first_memory(shared, own[0]).states
         seen = []
         for window in range(len(self.rows)):
@@ -199,19 +202,23 @@ class WindowResidual:
         """States of the effects at the first sample, as in an arm at rest."""
         n, of_motion = self._model.n_joints, own[: self._unit.size]
         if not self._model.n_states:
-            return Memory(np.zeros(0), np.zeros((0, shared.size)))
-        p = self.space.origin + self._directions @ shared
+            return Memory(np.zeros(0), np.zeros((0, self._felt.size)))
+        p, k = self._values(shared), self._felt.size
         u = self._sensors.pull(p).at(self.recording.times[0])
 
         def states(by: Array) -> Array:
-            values = p + self._directions @ by[: shared.size]
+            values = p + self._directions @ by[:k]
             model = with_vector(self._model, values)
-            theta = (self._sensors.meant(0, values) + self._unit * (of_motion + by[shared.size :]))[:n]
+            theta = (self._sensors.meant(0, values) + self._unit * (of_motion + by[k:]))[:n]
             return np.concatenate([a.effect.initial_state(theta, u, a.values, model.parameters) for a in model.effects])
 
-        begin = states(np.zeros(shared.size + of_motion.size))
-        slopes = [(states(NUDGE * unit) - begin) / NUDGE for unit in np.eye(shared.size + of_motion.size)]
+        begin = states(np.zeros(k + of_motion.size))
+        slopes = [(states(NUDGE * unit) - begin) / NUDGE for unit in np.eye(k + of_motion.size)]
         return Memory(begin, np.stack(slopes, axis=1))
+
+    def _values(self, shared: Array) -> Array:
+        """All values of the model, (n_p,), as the recording feels them."""
+        return np.asarray(self.space.origin + self._directions @ shared[self._felt])
 
     def _samples(self, window: int) -> slice:
         """The window's own samples among those simulated."""

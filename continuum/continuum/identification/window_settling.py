@@ -20,6 +20,8 @@ _BAD = 1.5  # squared errors, per error, beyond which other beginnings are tried
 _SLOW = 0.1  # rad/s; slower joints may be stuck
 _ENOUGH = 0.5  # of squared errors: a smaller expected gain is not worth a step
 _ENOUGH_OF_BAD = 0.03  # the same, of squared errors that are not noise
+_LEAST_DAMPING, _FELT = 1e-3, 0.1  # of a window's own unknowns; where a step was too long, one that is felt
+_AS_EXPECTED = 0.5  # part of a step's expected gain, beyond which the next one may be longer
 STEPS = 8
 """Most steps of a window for which its first state shall be found well."""
 
@@ -65,7 +67,7 @@ def _begun(
 def _descent(
     run: WindowResidual, window: int, shared: Array, at: WindowAt, memory: Memory | None, steps: int
 ) -> WindowAt:
-    damping = 1e-3
+    damping = _LEAST_DAMPING
     for _ in range(steps):
         slopes = at.part.by_own
         square = slopes.T @ slopes + np.diag(run.spreads[window] ** -2.0)
@@ -75,10 +77,12 @@ def _descent(
         if -pull @ step < max(_ENOUGH, _ENOUGH_OF_BAD * bad):
             break
         there = run.window(window, shared, at.own + step, memory)
-        if there is not None and _cost(run, window, there) < _cost(run, window, at):
-            at, damping = there, max(0.1 * damping, 1e-6)
-        else:
-            damping *= 30
+        gained = -np.inf if there is None else _cost(run, window, at) - _cost(run, window, there)
+        expected = float(-2 * pull @ step - step @ square @ step)
+        if there is not None and gained > 0:
+            at = there
+        damping *= 0.1 if gained > _AS_EXPECTED * expected else 1.0 if gained > 0 else 10.0
+        damping = max(damping, _LEAST_DAMPING if gained > 0 else _FELT)
     return at
 
 
