@@ -40,8 +40,10 @@ def test_a_late_sensor_that_other_rows_make_needless_is_none() -> None:
     question = asked(held=False, truly_held=True)
     best = fitted(question, DELAY)
     assert best.amounts[-1] == pytest.approx(0.5 / 120, rel=0.2)
-    other = with_better_rows(question, best)
-    assert other is not None
+    found = with_better_rows(question, best)
+    assert found is not None
+    other, rest = found
+    assert DELAY[0] not in rest.extension
     assert all(run.tensions is not None and run.tensions.held for run in other.recordings)
 
 
@@ -82,6 +84,8 @@ def test_of_two_late_effects_the_one_that_other_rows_make_needless_turns_them() 
     taken = tuple(replace(run, tensions=replace(SMOOTH, held=False)) for run in runs)
     question = Question(SIMULATOR.model, FREE, taken, white_noise())
     best = fitted(question, (Addition("actuator_lag"), *DELAY))
-    other = with_better_rows(question, best)
-    assert other is not None
+    found = with_better_rows(question, best)
+    assert found is not None
+    other, rest = found
+    assert len(rest.extension) == 1
     assert all(run.tensions is not None and run.tensions.held for run in other.recordings)

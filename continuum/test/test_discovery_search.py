@@ -12,7 +12,7 @@ from discovery_laws import RUNS, SIZE, WINDOWS, trial
 from continuum.discovery.candidate import Extension
 from continuum.discovery.evidence import gain
 from continuum.discovery.judgement import judge
-from continuum.discovery.search import search
+from continuum.discovery.search import Earlier, search
 from continuum.discovery.trial import Trial
 from continuum.discovery.verdict import Kind
 from continuum.discovery.window_beginnings import with_beginnings_of
@@ -206,6 +206,24 @@ def test_a_search_asks_where_nothing_helps_too() -> None:
         Fits({(): 0.3}), EFFECTS, lambda _what, _part: None, lambda best: bool(asked.append(effects_of(best.extension)))
     )
     assert asked == [[]]
+
+
+def test_what_an_earlier_search_found_leads_wherever_its_look_promises_nothing() -> None:
+    fits = Fits({(): 0.3, ("tip_payload",): 0.25, ("base_tilt",): 0.0})
+    fitted = fits.fitted
+
+    def in_vain(task: Task) -> Trial:
+        made = fitted(task)
+        return fitted(replace(task, extension=())) if task.is_look else made
+
+    fits.fitted = lambda task: replace(in_vain(task), extension=task.extension)  # type: ignore[method-assign]
+    tell: Callable[[str, float], None] = lambda _what, _part: None  # noqa: E731
+    _, rounds = search(fits, EFFECTS, tell)
+    assert effects_of(rounds[0].best.extension) == []
+    earlier = Earlier(trial(bad=0.3), trial("base_tilt", bad=0.0))
+    _, rounds = search(fits, EFFECTS, tell, earlier=earlier)
+    assert effects_of(rounds[0].best.extension) == ["base_tilt"]
+    assert fits.asked[-1].near is not None
 
 
 @pytest.mark.parametrize(("left_by_two", "sought"), [(0.2, 3), (0.4, 2)])

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from continuum.discovery.judgement import judge
 from continuum.discovery.question import Question
 from continuum.discovery.rows_asked_again import with_better_rows
-from continuum.discovery.search import Round, Tell, search, tell_nobody, until_the_end
+from continuum.discovery.search import Earlier, Round, Tell, search, tell_nobody, until_the_end
 from continuum.discovery.trial import TOLERANCES, Trial
 from continuum.discovery.verdict import Verdict
 from continuum.discovery.workers import workers
@@ -78,10 +78,10 @@ def diagnose(
 
 
 def _answered(
-    question: Question, tried: Sequence[str], processes: int, tell: Tell, asks: bool
+    question: Question, tried: Sequence[str], processes: int, tell: Tell, asks: bool, earlier: Earlier | None = None
 ) -> tuple[Question, list[Round], Verdict]:
     """The question, with its tensions between rows the other way where a search's best is better so, and the answer."""
-    others: list[Question] = []
+    others: list[tuple[Question, Trial]] = []
 
     def is_other(best: Trial) -> bool:
         tell("how tensions go on between rows, asked again", 1.0)
@@ -90,7 +90,8 @@ def _answered(
         return other is not None
 
     with workers(question, processes) as make:
-        baseline, rounds = search(make, tried, tell, is_other if asks else until_the_end)
+        baseline, rounds = search(make, tried, tell, is_other if asks else until_the_end, earlier)
     if others:
-        return _answered(others[0], tried, processes, tell, asks=False)
+        other, best = others[0]
+        return _answered(other, tried, processes, tell, asks=False, earlier=Earlier(baseline, best))
     return question, rounds, judge(baseline, rounds)

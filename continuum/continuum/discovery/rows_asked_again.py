@@ -20,8 +20,10 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.identification.tension_rows import jumps_tell, turned
 
 
-def with_better_rows(question: Question, best: Trial) -> Question | None:
-    """The question with tensions the other way between rows, where that is better; None where it is not.
+def with_better_rows(question: Question, best: Trial) -> tuple[Question, Trial] | None:
+    """The question with tensions the other way between rows and its best trial so far, where that is better.
+
+    None where it is not.
 
     Args:
         question: as it was asked, of runs of which some are driven.
@@ -33,16 +35,16 @@ def with_better_rows(question: Question, best: Trial) -> Question | None:
     late = [addition for addition in best.extension if effect_named(addition.effect).shifts_time]
     if late:
         needless = (some for count in range(len(late), 0, -1) for some in combinations(late, count))
-        return other if any(_is_needless(other, best, some) for some in needless) else None
+        return next(((other, rest) for some in needless if (rest := _without(other, best, some))), None)
     trial = judged(best.extension, fit_extension(other, best.extension, best))
     if not gain(trial, best).is_significant:
         return None
     as_long = judged(best.extension, fit_extension(question, best.extension, best))  # longer fits find more
-    return other if gain(trial, as_long).is_significant else None
+    return (other, trial) if gain(trial, as_long).is_significant else None
 
 
-def _is_needless(other: Question, best: Trial, some: Sequence[Addition]) -> bool:
-    """Whether tensions the other way do without some effects."""
+def _without(other: Question, best: Trial, some: Sequence[Addition]) -> Trial | None:
+    """The trial without some effects, where tensions the other way do without them."""
     rest = tuple(addition for addition in best.extension if addition not in some)
     trial = judged(rest, fit_extension(other, rest, best))
-    return explains_all(trial) or not gain(best, trial).is_distinct
+    return trial if explains_all(trial) or not gain(best, trial).is_distinct else None

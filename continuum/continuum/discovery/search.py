@@ -52,6 +52,19 @@ class Round:
         return self.leaders[0] if self.leaders and gain(self.leaders[0], self.before).is_significant else self.before
 
 
+@dataclass(frozen=True)
+class Earlier:
+    """What a search found that took tensions for another way between rows: where this one may begin.
+
+    Attributes:
+        baseline: its fit without any effect.
+        best: what it found, fitted to tensions as they are taken now.
+    """
+
+    baseline: Trial
+    best: Trial
+
+
 type Tell = Callable[[str, float], None]
 """Told what is going on and the part that is done, 0 to 1."""
 
@@ -69,7 +82,9 @@ def until_the_end(_best: Trial) -> bool:
     return False
 
 
-def search(make: Make, effects: Sequence[str], tell: Tell, until: Until = until_the_end) -> tuple[Trial, list[Round]]:
+def search(
+    make: Make, effects: Sequence[str], tell: Tell, until: Until = until_the_end, earlier: Earlier | None = None
+) -> tuple[Trial, list[Round]]:
     """The baseline and the rounds, one for each effect that was found; a last one may have found nothing.
 
     Args:
@@ -77,13 +92,15 @@ def search(make: Make, effects: Sequence[str], tell: Tell, until: Until = until_
         effects: names to try.
         tell: told of progress.
         until: asked after the first round, and after others that found something.
+        earlier: of a search before this one.
     """
     tell("refitting the model as it is", 0.0)
-    (baseline,) = make([Task((), None, _BASELINE_ITERATIONS)])
+    (baseline,) = make([Task((), earlier.baseline if earlier else None, _BASELINE_ITERATIONS)])
     rounds: list[Round] = []
     before, asked = baseline, None
     while True:
-        rounds.append(_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}")))
+        known = earlier.best if earlier and not rounds else None
+        rounds.append(_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}"), known))
         if len(rounds) == 1:
             baseline = rounds[0].before
         if len(rounds) == 2 and _may_have_misled(rounds[1], rounds[0]):
@@ -132,13 +149,21 @@ def _first_anew(
     return [second, again]
 
 
-def _round(make: Make, before: Trial, effects: Sequence[str], tell: Callable[[float], None]) -> Round:
+def _round(
+    make: Make, before: Trial, effects: Sequence[str], tell: Callable[[float], None], earlier: Trial | None = None
+) -> Round:
     known = {addition.effect for addition in before.extension}
     extensions = [before.extension, *((*before.extension, Addition(name)) for name in effects if name not in known)]
     without, looks = _looks(make, extensions, before, FIRST_LOOK, lambda part: tell(0.25 * part))
-    if not (before.extension or is_adequate(before)) and _is_little(looks, without):
+    again = [(Addition(addition.effect),) for addition in earlier.extension] if earlier else []
+    if not (again or before.extension or is_adequate(before)) and _is_little(looks, without):
         without, looks = _looks(make, extensions, before, LONG_LOOK, lambda part: tell(0.25 + 0.25 * part))
-    leading = [Task(look.extension, carried(look, before), _LEADER_ITERATIONS) for look in _leading(looks, without)]
+    leading = [Task(extension, earlier, _LEADER_ITERATIONS) for extension in again]
+    leading += [
+        Task(look.extension, carried(look, before), _LEADER_ITERATIONS)
+        for look in _leading(looks, without)
+        if look.extension not in again
+    ]
     leaders = list(make(leading))
     tell(0.75)
     contenders = _contending(leaders, before)
