@@ -54,10 +54,10 @@ def append(result: Result, path: Path) -> None:
 
 
 def load(path: Path, digest: str | None) -> list[Result]:
-    """Results of one version, or of all; a line that was cut off when a campaign was killed is left out."""
+    """Results of one version, or of all, of a case the latest; a line that was cut off in the writing is left out."""
     if not path.exists():
         return []
-    found = []
+    found: dict[Plan, Result] = {}
     for line in path.read_text(encoding="utf-8").splitlines():
         try:
             fields = json.loads(line)
@@ -65,5 +65,8 @@ def load(path: Path, digest: str | None) -> list[Result]:
             continue
         plan = fields["plan"]
         fields["plan"] = Plan(**(plan | {"effects": tuple(plan["effects"])}))
-        found.append(Result(**fields))
-    return [result for result in found if digest in (None, result.digest)]
+        result = Result(**fields)
+        if digest in (None, result.digest):
+            found.pop(result.plan, None)
+            found[result.plan] = result
+    return list(found.values())

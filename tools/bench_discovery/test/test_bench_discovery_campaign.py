@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -84,6 +85,16 @@ def test_results_are_kept(tmp_path: Path) -> None:
     assert load(path, "0123456789ab") == kept
     assert load(path, "another") == []
     assert load(tmp_path / "none", None) == []
+
+
+def test_of_a_case_that_was_repeated_the_latest_result_counts(tmp_path: Path) -> None:
+    path = tmp_path / "results.jsonl"
+    old = result([], verdict("unknown"))
+    new, other = replace(old, digest="later", verdict=verdict("adequate")), result([], verdict("adequate"), seed=3)
+    for one in (old, other, new):
+        append(one, path)
+    assert load(path, None) == [other, new]
+    assert load(path, old.digest) == [old, other]
 
 
 def test_what_is_done_is_not_done_again(tmp_path: Path) -> None:
