@@ -60,7 +60,11 @@ def test_rows_that_are_wrong_are_turned_without_any_cause() -> None:
     question = asked(held=False, truly_held=True)
     best = fitted(question, ())
     assert not is_adequate(best)
-    assert with_better_rows(question, best) is not None
+    found = with_better_rows(question, best)
+    assert found is not None
+    other, trial = found
+    assert trial.cost == pytest.approx(fitted(other, ()).cost, rel=0.01)
+    assert trial.cost < 0.9 * best.cost
 
 
 @pytest.mark.parametrize("delay", [0.008, 0.015, 0.02])

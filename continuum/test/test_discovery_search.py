@@ -17,6 +17,7 @@ from continuum.discovery.trial import Trial
 from continuum.discovery.verdict import Kind
 from continuum.discovery.window_beginnings import with_beginnings_of
 from continuum.discovery.workers import FIRST_LOOK, LONG_LOOK, Task
+from continuum.identification.arrow_least_squares import FitStatus
 
 EFFECTS = ("tip_payload", "base_tilt", "quadratic_drag")
 
@@ -223,7 +224,42 @@ def test_what_an_earlier_search_found_leads_wherever_its_look_promises_nothing()
     earlier = Earlier(trial(bad=0.3), trial("base_tilt", bad=0.0))
     _, rounds = search(fits, EFFECTS, tell, earlier=earlier)
     assert effects_of(rounds[0].best.extension) == ["base_tilt"]
-    assert fits.asked[-1].near is not None
+    assert [task for task in fits.asked if task.near is earlier.best] == [
+        Task(earlier.best.extension, earlier.best, 20, True)
+    ]
+    assert any(task.near is earlier.baseline for task in fits.asked if not task.extension)
+
+
+def test_a_search_begins_without_an_effect_where_the_one_before_it_ended_so() -> None:
+    fits = Fits({(): 0.0})
+    earlier = Earlier(trial(bad=0.3), trial(bad=0.0))
+    search(fits, EFFECTS, lambda _what, _part: None, earlier=earlier)
+    assert fits.asked[0].near is earlier.best
+
+
+class SlowFits:
+    """Payload and tilt explain all after so many iterations, one as well as the other; `simulations` counts these."""
+
+    def __init__(self, needed: int) -> None:
+        self._needed = needed
+
+    def __call__(self, tasks: Sequence[Task]) -> Iterator[Trial]:
+        for task in tasks:
+            effect, near = (effects_of(task.extension) or [""])[-1], task.near
+            is_on = near is not None and near.extension[-1:] == task.extension[-1:]
+            done = task.iterations + (near.simulations if near is not None and is_on else 0)
+            left = max(1 - done / self._needed, 0.0) if effect in ("tip_payload", "base_tilt") else 1.0
+            made = trial(*effects_of(task.extension), bad=0.3 * left)
+            yield replace(made, cost=made.misfit / 2, simulations=done, status=FitStatus.NO_CONVERGENCE)
+
+
+@pytest.mark.parametrize("needed", [LONG_LOOK, 20, 28])
+def test_an_effect_that_leads_from_the_start_hides_no_rival(needed: int) -> None:
+    earlier = Earlier(replace(trial(bad=0.3), simulations=0), replace(trial("tip_payload"), simulations=100))
+    baseline, rounds = search(SlowFits(needed), EFFECTS, lambda _what, _part: None, earlier=earlier)
+    verdict = judge(baseline, rounds)
+    assert verdict.kind is Kind.AMBIGUOUS
+    assert {c.addition.effect for c in (*verdict.causes, *verdict.alternatives)} == {"tip_payload", "base_tilt"}
 
 
 @pytest.mark.parametrize(("left_by_two", "sought"), [(0.2, 3), (0.4, 2)])
@@ -234,10 +270,10 @@ def test_a_third_effect_is_sought_where_two_left_little(left_by_two: float, soug
 
 
 def test_no_more_is_sought_where_the_last_effect_explained_little_of_what_is_left() -> None:
-    little = {(): 0.9, ("tip_payload",): 0.8, ("base_tilt",): 0.85, ("tip_payload", "base_tilt"): 0.0}
+    little = {(): 0.9, ("tip_payload",): 0.83, ("base_tilt",): 0.85, ("tip_payload", "base_tilt"): 0.0}
     _, rounds = search(Fits(little), EFFECTS, lambda _what, _part: None)
     assert [effects_of(one.best.extension) for one in rounds] == [["tip_payload"]]
-    shares = {(): 0.9, ("tip_payload",): 0.3, ("base_tilt",): 0.85, ("tip_payload", "base_tilt"): 0.25, EFFECTS: 0.0}
+    shares = {(): 0.9, ("tip_payload",): 0.3, ("base_tilt",): 0.85, ("tip_payload", "base_tilt"): 0.26, EFFECTS: 0.0}
     _, rounds = search(Fits(shares), EFFECTS, lambda _what, _part: None)
     assert len(rounds) == 2
 

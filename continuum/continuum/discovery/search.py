@@ -17,6 +17,7 @@ from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
 from continuum.discovery.window_beginnings import with_beginnings_of
 from continuum.discovery.workers import FIRST_LOOK, LONG_LOOK, Make, Task, first_look
+from continuum.identification.arrow_least_squares import FitStatus
 
 _LEADERS = 5
 _LEADING = 0.35  # of the best one's hope
@@ -28,7 +29,7 @@ _ITERATIONS_ANEW = 4
 _MISLEADING = 0.1  # of the first effect's gain: a smaller second one has misled nobody
 _ROUNDS = 3
 _MUCH = 0.5  # of what the baseline does not explain
-_MORE_THAN_THE_LAST = 3.0  # times what the last effect explained: no later one explains so much
+_MORE_THAN_THE_LAST = 5.0  # times what the last effect explained: hardly any later one explains so much
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,8 @@ def search(
         earlier: of a search before this one.
     """
     tell("refitting the model as it is", 0.0)
-    (baseline,) = make([Task((), earlier.baseline if earlier else None, _BASELINE_ITERATIONS)])
+    begun = None if earlier is None else earlier.baseline if earlier.best.extension else earlier.best
+    (baseline,) = make([Task((), begun, _BASELINE_ITERATIONS)])
     rounds: list[Round] = []
     before, asked = baseline, None
     while True:
@@ -120,9 +122,9 @@ def _is_in_vain(baseline: Trial, rounds: Sequence[Round]) -> bool:
 
     What helps most is found first: effects that come later hardly explain many times as much as the last one did.
     """
-    last = rounds[-1]
-    left, more = beyond_noise(last.best), _ROUNDS - len(rounds)
-    if left > more * _MORE_THAN_THE_LAST * gain(last.best, last.before).log_likelihood:
+    left, more = beyond_noise(rounds[-1].best), _ROUNDS - len(rounds)
+    latest = [one for one in rounds if len(one.best.extension) == len(rounds)]  # two where the first was sought anew
+    if left > more * _MORE_THAN_THE_LAST * max(gain(one.best, one.before).log_likelihood for one in latest):
         return True
     return len(rounds) > 1 and left > _MUCH * beyond_noise(baseline)
 
@@ -155,25 +157,41 @@ def _round(
     known = {addition.effect for addition in before.extension}
     extensions = [before.extension, *((*before.extension, Addition(name)) for name in effects if name not in known)]
     without, looks = _looks(make, extensions, before, FIRST_LOOK, lambda part: tell(0.25 * part))
-    again = [(Addition(addition.effect),) for addition in earlier.extension] if earlier else []
-    if not (again or before.extension or is_adequate(before)) and _is_little(looks, without):
+    if not (before.extension or is_adequate(before)) and _is_little(looks, without):
         without, looks = _looks(make, extensions, before, LONG_LOOK, lambda part: tell(0.25 + 0.25 * part))
-    leading = [Task(extension, earlier, _LEADER_ITERATIONS) for extension in again]
-    leading += [
-        Task(look.extension, carried(look, before), _LEADER_ITERATIONS)
-        for look in _leading(looks, without)
-        if look.extension not in again
-    ]
+    leading = [Task(look.extension, carried(look, before), _LEADER_ITERATIONS) for look in _leading(looks, without)]
     leaders = list(make(leading))
     tell(0.75)
     contenders = _contending(leaders, before)
     begun = [with_beginnings_of(trial, (before, *leaders)) for trial in contenders]
     ended = list(make([Task(trial.extension, trial, _ITERATIONS, True) for trial in begun]))
     ended += [trial for trial in leaders if all(trial is not one for one in contenders)]
+    if earlier:
+        ended = _beside_an_earlier_one(make, before, ended, earlier)
     ended = sorted(ended, key=partial(_rank, before))
     if ended and gain(ended[0], before).is_significant:
         before = _as_well_fitted(make, before, ended[0])
     return Round(before, tuple(looks), tuple(ended))
+
+
+def _beside_an_earlier_one(make: Make, before: Trial, ended: Sequence[Trial], earlier: Trial) -> list[Trial]:
+    """The leaders of a round, and with them each effect of an earlier search's best, begun as there.
+
+    That one was fitted for longer: what helps and has not come to its end goes on beside it, from its beginnings.
+    """
+    extensions = [(Addition(addition.effect),) for addition in earlier.extension]
+    known = list(make([Task(extension, earlier, _LEADER_ITERATIONS + _ITERATIONS, True) for extension in extensions]))
+    unended = [
+        trial for trial in ended if trial.status is FitStatus.NO_CONVERGENCE and gain(trial, before).log_likelihood > 0
+    ]
+    begun = [with_beginnings_of(trial, known) for trial in unended]
+    longer = list(make([Task(trial.extension, trial, _LEADER_ITERATIONS + _ITERATIONS, True) for trial in begun]))
+    found: dict[str, Trial] = {}
+    for trial in (*ended, *longer, *known):
+        effect = trial.extension[-1].effect
+        if effect not in found or gain(trial, found[effect]).log_likelihood > 0:
+            found[effect] = trial
+    return list(found.values())
 
 
 def _looks(

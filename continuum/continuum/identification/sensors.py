@@ -39,6 +39,7 @@ class Sensors:
         late = [effect for effect in effects if type(effect).late is not Effect.late]
         self._effects = [effect for effect in effects if effect in measuring or effect in late]
         self._slots = parameter_slots(model)
+        self._is_late = bool(late)
         self._measuring, self._late = self._parameters_of(measuring), self._parameters_of(late)
         self._first_state = cache(partial(first_state, recording))  # asked for at every step of a fit
 
@@ -58,15 +59,29 @@ class Sensors:
         n = run.n_joints
         if not self._measuring.size:
             return run.slopes[:, :n], run.slopes[:, n : 2 * n]
-        moved = self.readings(p, _moved_by_each_slope(run))
-        shape = (free.shape[1], *seen.theta.shape)
-        angle = (moved.theta.reshape(shape) - seen.theta).transpose(1, 2, 0)
-        rate = (moved.theta_rate.reshape(shape) - seen.theta_rate).transpose(1, 2, 0)
+        moved_angle, moved_rate = self._moved_readings(p, run, seen)
+        angle, rate = moved_angle - seen.theta[..., None], moved_rate - seen.theta_rate[..., None]
         for column in np.flatnonzero(free[self._measuring].any(axis=0)):
             nudged = self.readings(p + NUDGE * free[:, column], run)
             angle[:, :, column] += (nudged.theta - seen.theta) / NUDGE
             rate[:, :, column] += (nudged.theta_rate - seen.theta_rate) / NUDGE
         return angle, rate
+
+    def _moved_readings(self, p: Array, run: Trajectory, seen: Reading) -> tuple[Array, Array]:
+        """What is read of the motion moved by each of its slopes, (n_times, n, columns) each.
+
+        All of them one after the other as one motion, and unmoved at the end to see whether an effect keeps to its
+        contract: what it makes of a sample hangs on no other one. Else every motion by itself.
+        """
+        moves = [*run.slopes.transpose(2, 0, 1), np.zeros_like(run.states)]
+        states = np.concatenate([run.states + move for move in moves])
+        read = self.readings(p, replace(run, times=np.tile(run.times, len(moves)), states=states))
+        shape = (len(moves), *seen.theta.shape)
+        angle, rate = read.theta.reshape(shape), read.theta_rate.reshape(shape)
+        if not (np.allclose(angle[-1], seen.theta, 0, 1e-9) and np.allclose(rate[-1], seen.theta_rate, 0, 1e-9)):
+            each = [self.readings(p, replace(run, states=run.states + move)) for move in moves]
+            angle, rate = np.stack([one.theta for one in each]), np.stack([one.theta_rate for one in each])
+        return angle[:-1].transpose(1, 2, 0), rate[:-1].transpose(1, 2, 0)
 
     def meant(self, row: int, p: Array) -> Array:
         """Joint angles and rates that what was read at one sample means, to first order, (2 n,) [rad, rad/s]."""
@@ -88,11 +103,11 @@ class Sensors:
 
     def pull(self, p: Array) -> Tensions:
         """Tensions of the cables by the sensors' clock."""
-        return self._recording.pull.later(lateness(self._at(p))) if self._late.size else self._recording.pull
+        return self._recording.pull.later(lateness(self._at(p))) if self._is_late else self._recording.pull
 
     def lateness_slopes(self, p: Array, free: Array) -> Array | None:
         """Change of the sensors' lateness by one unit of each unknown, (columns,) [s]; None where none is late."""
-        if not self._late.size:
+        if not self._is_late:
             return None
         here, slopes = lateness(self._at(p)), np.zeros(free.shape[1])
         for column in np.flatnonzero(free[self._late].any(axis=0)):
@@ -119,11 +134,3 @@ def first_state(recording: Recording, row: int) -> Array:
         return np.concatenate([recording.theta[row], recording.theta_rate[row]])
     rate = local_slope(recording.times, recording.theta, row, degree=2)
     return np.concatenate([recording.theta[row], rate])
-
-
-def _moved_by_each_slope(run: Trajectory) -> Trajectory:
-    """The motion plus each of its slopes, one after the other: what is read of a sample hangs on no other one."""
-    columns = run.slopes.shape[2]
-    states = run.states + run.slopes.transpose(2, 0, 1)
-    times = np.tile(run.times, columns)
-    return replace(run, times=times, states=states.reshape(times.size, -1))

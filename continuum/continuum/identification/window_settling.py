@@ -78,6 +78,7 @@ def _descent(
             break
         there = run.window(window, shared, at.own + step, memory)
         gained = -np.inf if there is None else _cost(run, window, at) - _cost(run, window, there)
+        # of squared errors, by whose logarithm bad windows count: there next steps are longer only when bad no more
         expected = float(-2 * pull @ step - step @ square @ step)
         if there is not None and gained > 0:
             at = there
