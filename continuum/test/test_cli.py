@@ -92,6 +92,39 @@ def test_an_interrupt_ends_in_one_line(capsys: Captured, monkeypatch: pytest.Mon
     assert capsys.readouterr().err == "continuum: stopped\n"
 
 
+def test_an_interrupt_of_compiled_code_is_one_and_a_fault_is_none(
+    capsys: Captured, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """numba tells of a `KeyboardInterrupt` by a `SystemError`."""
+
+    def interrupted(_arguments: list[str]) -> int:
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt as cause:
+            raise SystemError("returned a result with an exception set") from cause
+
+    def faulty(_arguments: list[str]) -> int:
+        raise SystemError("a fault")
+
+    monkeypatch.setattr("continuum.cli._run", interrupted)
+    assert main(["diagnose"]) == 130
+    assert capsys.readouterr().err == "continuum: stopped\n"
+    monkeypatch.setattr("continuum.cli._run", faulty)
+    with pytest.raises(SystemError, match="a fault"):
+        main(["diagnose"])
+
+
+def test_a_diagnosis_overwrites_neither_what_it_reads_nor_what_it_writes(capsys: Captured, tmp_path: Path) -> None:
+    data, model, folder = tmp_path / "run.csv", tmp_path / "model.yaml", tmp_path / "bag"
+    data.write_text("measured"), model.write_text("n_joints: 5"), folder.mkdir()
+    for words in (("--json", data), ("--extended", tmp_path / "." / "run.csv"), ("--report", folder / "report.html")):
+        assert "is read, and would be overwritten" in refused(capsys, "diagnose", data, folder, *words)
+    assert "is read" in refused(capsys, "diagnose", data, "--model", model, "--extended", model)
+    both = ("--json", tmp_path / "out", "--report", tmp_path / "out")
+    assert "would be written twice" in refused(capsys, "diagnose", data, *both)
+    assert data.read_text() == "measured"
+
+
 def test_a_model_is_no_arm_and_an_arm_no_model(capsys: Captured) -> None:
     for words in (("info", "lamecc_prototype.yaml"), ("solve", MODEL, 0, 0, 0.1)):
         assert "lamecc_prototype.yaml: is a model file, of `simulate` and `diagnose`; " in refused(capsys, *words)

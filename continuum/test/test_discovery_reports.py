@@ -24,9 +24,10 @@ def test_every_kind_in_words() -> None:
     assert "as well as the sensors allow" in told[Kind.ADEQUATE]
     assert told[Kind.CAUSE].startswith(effect_named("tip_payload").in_words)
     assert "from 30 % of the data to 0 %" in told[Kind.CAUSE]
-    assert "tip_payload, base_tilt" in told[Kind.AMBIGUOUS]
+    payload, tilt = (effect_named(name).in_words.rstrip(".") for name in ("tip_payload", "base_tilt"))
+    assert f"tip_payload ({payload}); base_tilt ({tilt})" in told[Kind.AMBIGUOUS]
     assert effect_named("base_tilt").experiment in told[Kind.AMBIGUOUS]
-    assert "no effect that is known here explains why. tip_payload helps, yet 15 %" in told[Kind.UNKNOWN]
+    assert f"no effect that is known here explains why. tip_payload ({payload}) helps, yet 15 %" in told[Kind.UNKNOWN]
     assert "None even helps" in verdict_in_words(judge(BAD, []))
     at_joints = trial(Addition("rest_angle", (0, 3)), seed=5)
     assert "(joints 1, 4)" in verdict_in_words(judge(BAD, [a_round(BAD, at_joints)]))

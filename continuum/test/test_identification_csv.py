@@ -198,7 +198,7 @@ def changed(column: str, rows: slice, values: str | Callable[[float], float]) ->
         (changed("dq2_rad_s", slice(5, 6), "1e308"), r"joint rate of 1e\+308 rad/s"),
         (renamed(sway(), q1_rad="q1_deg", q2_rad="q2_deg"), "no joint angle above 0.3 degrees: radians taken for"),
         (cells(q1_rad=0.2 + 0.0 * T, q2_rad=0.1 + 1e-3 * np.sin(9 * T)), "joints move by at most 0.11 degrees"),
-        (without(sway(), "t_s"), "has no column t_s; it has q1_rad, q2_rad"),
+        (without(sway(), "t_s"), "has no column t_s, time in seconds; it has q1_rad, q2_rad"),
         (without(sway(), "q1_rad"), "has q of 2: numbers must run from 1 without a gap"),
         (without(sway(), "q1_rad", "q2_rad"), "has no joint angles q1_deg .. or q1_rad"),
         (without(sway(), "q2_rad"), "has 1 joint angles but 2 joint rates"),

@@ -27,7 +27,7 @@ what you can do next:
 
 ARM.yaml is a file like continuum_description/config/three_sections.yaml.
 Exit codes: 0 done, 1 the answer is no (a target out of reach, a simulation that fails), 2 wrong usage, file or value;
-diagnose has some of its own.
+130 stopped by Ctrl-C; diagnose has some of its own.
 """
 
 
@@ -39,11 +39,26 @@ def main(arguments: list[str] | None = None) -> int:
         finally:
             sys.stdout.flush()
     except KeyboardInterrupt:
-        print("continuum: stopped", file=sys.stderr)
-        return 130
+        return _stopped()
+    except SystemError as error:
+        if _was_interrupted(error):
+            return _stopped()
+        raise
     except BrokenPipeError:  # whoever read, as `head` does, has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
+
+
+def _stopped() -> int:
+    print("continuum: stopped", file=sys.stderr)
+    return 130
+
+
+def _was_interrupted(error: BaseException | None) -> bool:
+    """Whether an interrupt is behind an error: numba makes a `SystemError` of one that comes while it is at work."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 def _run(arguments: list[str]) -> int:

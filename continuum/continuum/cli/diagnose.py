@@ -6,12 +6,12 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from continuum.cli.output_files import check_writable
+from continuum.cli.output_files import check_apart, check_writable
 from continuum.cli.tables import print_pairs
 
 if TYPE_CHECKING:
     from continuum.discovery.diagnose import Diagnosis
-    from continuum.discovery.findings import Findings
+    from continuum.discovery.findings import Estimate, Findings
     from continuum.identification.recording import Recording
 
 EXIT_CODES = {"adequate": 0, "cause": 3, "ambiguous": 4, "unknown": 5}  # 1 is a crash, 2 wrong usage
@@ -21,7 +21,7 @@ def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
         "diagnose", help="what a simulation gets wrong about recordings, and why", description=__doc__,
-        epilog="Exit codes: 0 adequate, 3 a cause is named, 4 ambiguous, 5 unknown; 2 wrong usage or data.",
+        epilog="Exit codes: 0 adequate, 3 a cause is named, 4 ambiguous, 5 unknown; 2 wrong usage or data, 130 Ctrl-C.",
     )  # fmt: skip
     parser.add_argument(
         "data", metavar="DATA", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
@@ -52,6 +52,7 @@ def run(options: argparse.Namespace) -> int:
 
     for path in (options.json, options.report, options.extended):
         check_writable(path)
+    check_apart((options.json, options.report, options.extended), (*options.data, options.model))
     model, recordings = load_model(options.model), tuple(read_recording(path) for path in options.data)
     with told() as tell:
         diagnosis = diagnose(Dataset(recordings), model, processes=options.processes, tell=tell)
@@ -95,12 +96,14 @@ def _show(found: Findings) -> None:
     verdict = found.verdict
     print(f"{verdict.kind.value.upper()}\n\n{verdict_in_words(verdict)}\n")
     if verdict.kind is not Kind.UNKNOWN:
-        for title, causes in (("cause", verdict.causes), ("alternative", verdict.alternatives)):
-            for cause in causes:
-                print(f"{title}: {cause.addition}   confidence {cause.confidence:.2f}")
-    rows = [("parameter", "value, 95 % interval")]
-    rows += [(str(e.unknown), f"{e.value:.4g} ({e.low:.4g} to {e.high:.4g}) {e.unit}") for e in found.estimates]
-    print_pairs(rows)
+        for cause in verdict.causes:
+            print(f"cause: {cause.addition}   confidence {cause.confidence:.2f}")
+        for cause in verdict.alternatives:
+            print(f"alternative: {cause.addition}   confidence {cause.confidence:.2f}")
+    print_pairs([("parameter", "value, 95 % interval"), *(_estimate(one) for one in found.estimates)])
+    for cause, own in zip(verdict.alternatives, found.others, strict=True):
+        print(f"\n{cause.addition} instead:")
+        print_pairs([_estimate(one) for one in own])
     print("\nEq. 19 on runs that the model was not fitted to, refitted model -> extended model:")
     print_pairs(
         [
@@ -112,3 +115,9 @@ def _show(found: Findings) -> None:
         print(f"{worth_in_words(found.closed)}; {cost_in_words(found.before, found.after)}.")
     for line in (*found.notes, *([f"Mind: {found.weakness}."] if found.weakness else [])):
         print(line)
+
+
+def _estimate(one: Estimate) -> tuple[str, str]:
+    """Name, and value with interval."""
+    limit = ", at its limit" if one.at_limit else ""
+    return str(one.unknown), f"{one.value:.4g} ({one.low:.4g} to {one.high:.4g}) {one.unit}{limit}"

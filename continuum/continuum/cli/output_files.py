@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from continuum.errors import FileError
@@ -26,6 +27,25 @@ def check_writable(path: str | None) -> None:
             file.unlink()
     except OSError as error:
         raise FileError(path, f"cannot be written ({error.strerror or error})") from error
+
+
+def check_apart(outputs: Sequence[str | None], inputs: Sequence[str]) -> None:
+    """Every file that is written is another one, and none that is read, nor within a folder that is.
+
+    Raises:
+        FileError: one is not.
+    """
+    read = [Path(path).resolve() for path in inputs]
+    written: list[Path] = []
+    for path in outputs:
+        if path is None or (Path(path).exists() and not Path(path).is_file()):  # pipes, and what is refused anyhow
+            continue
+        file = Path(path).resolve()
+        if any(one == file or one in file.parents for one in read):
+            raise FileError(path, "is read, and would be overwritten: write to another file")
+        if file in written:
+            raise FileError(path, "would be written twice: name another file for each output")
+        written.append(file)
 
 
 def check_picture(path: str | None) -> None:

@@ -22,6 +22,7 @@ from continuum.identification.fit import THESIS_PARAMETERS, Fit
 from continuum.identification.free import Free
 
 _ITERATIONS = 8
+_NEAR = 1e-3  # to a limit, of a value
 _WAYS = {
     True: "to hold until their next row, as commands do",
     False: "to change evenly from row to row, as measured ones do",
@@ -37,6 +38,7 @@ class Estimate:
         value: in its unit.
         low, high: 95 % interval.
         unit: SI.
+        at_limit: whether it is as small or as large as it may be, or its interval reaches there.
     """
 
     unknown: Free
@@ -44,6 +46,7 @@ class Estimate:
     low: float
     high: float
     unit: str
+    at_limit: bool = False
 
 
 @dataclass(frozen=True)
@@ -115,7 +118,11 @@ def _rows_told(question: Question) -> tuple[str, ...]:
 def _left_out(verdict: Verdict) -> tuple[str, ...]:
     """What was fitted and the extended model does not have."""
     own = sorted({unknown.name for unknown in verdict.best.unknowns if unknown.recording is not None})
-    return (f"the extended model has no {', '.join(own)}: each recording has its own",) if own else ()
+    return (
+        (f"{', '.join(own)}: each recording has its own, so that a model file cannot hold it and leaves it at zero",)
+        if own
+        else ()
+    )
 
 
 def _of_alternative(question: Question, rival: Cause, random: np.random.Generator) -> list[Estimate]:
@@ -133,7 +140,10 @@ def _estimates(fitted: Fit, random: np.random.Generator) -> list[Estimate]:
             continue
         nominal = float(_entry(origin[unknown.name], unknown.joint))
         value, least, most = (nominal + float(added[i]) for added in (amounts, low, high))
-        found.append(Estimate(unknown, value, least, most, meanings[unknown.name].unit))
+        meaning = meanings[unknown.name]
+        near = _NEAR * max(abs(value), meaning.typical or abs(nominal))
+        at_limit = least <= meaning.lower + near or most >= meaning.upper - near
+        found.append(Estimate(unknown, value, least, most, meaning.unit, at_limit))
     return found
 
 

@@ -62,11 +62,20 @@ def _where(cause: Cause) -> str:
 
 
 def _names(verdict: Verdict) -> str:
-    return ", ".join(dict.fromkeys(str(c.addition) for c in (*verdict.causes, *verdict.alternatives)))
+    return "; ".join(dict.fromkeys(in_full(c) for c in (*verdict.causes, *verdict.alternatives)))
+
+
+def in_full(cause: Cause) -> str:
+    """An effect's name, where it acts, and in brackets what that means."""
+    return f"{cause.addition.effect}{_at(cause)} ({effect_named(cause.addition.effect).in_words.rstrip('.')})"
+
+
+def _at(cause: Cause) -> str:
+    return _where(cause).replace(" (", " at ").rstrip(")")
 
 
 def _what_helps(verdict: Verdict, after: str) -> str:
-    helps = " with ".join(str(c.addition) for c in verdict.causes)
+    helps = " with ".join(in_full(c) for c in verdict.causes)
     if not helps:
         return "None even helps."
     if not verdict.predicts:

@@ -9,12 +9,13 @@ from pathlib import Path
 
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
-from continuum.discovery.findings import Findings
-from continuum.discovery.in_words import cost_in_words, verdict_in_words, worth_in_words
+from continuum.discovery.findings import Estimate, Findings
+from continuum.discovery.in_words import cost_in_words, in_full, verdict_in_words, worth_in_words
 from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
 from continuum.discovery.residual_torque import ResidualTorque
 from continuum.discovery.search import Round
 from continuum.discovery.structure_tests import StructureTest
+from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.whole_file import write_whole
 
 _STYLE = """
@@ -26,6 +27,11 @@ table { border-collapse: collapse; font-size: .85rem; } td, th { padding: .2rem 
 td:first-child, th:first-child { text-align: left; } th { border-bottom: 1px solid #bbb; font-weight: 600; }
 img { max-width: 100%; } .note { color: #666; font-size: .85rem; }
 """
+_FREE = "Free simulation from the first instant, by models that were fitted to"
+_MISSING = (
+    "Torque that a model would need beside its own to follow the measurements, by angle and by rate. What it goes with "
+    "is a hint to its kind (the less p the surer; above 0.05 it is none); the verdict rests on the effects tried below."
+)
 
 
 def write_report(
@@ -51,13 +57,14 @@ def write_report(
     body = [
         f"<h1>What the simulation gets wrong: {escape(kind)}</h1>",
         f'<p class="verdict {kind}">{escape(verdict_in_words(found.verdict))}</p>',
+        *_candidates(found.verdict),
         *([f'<p class="note">Mind: {escape(found.weakness)}.</p>'] if found.weakness else []),
         *(f'<p class="note">{escape(note)}</p>' for note in found.notes),
         "<h2>Measured and simulated</h2>",
-        '<p class="note">Free simulation from the first instant, by models that were fitted to other runs.</p>',
+        f'<p class="note">{_FREE} {_others(diagnosis)}.</p>',
         _image(runs_picture(found.before, found.after, extended)),
         _table(
-            ("run", "position", "extended", "noise alone", "rate", "extended"),
+            ("run", "position, refitted", "extended", "noise alone", "rate, refitted", "extended"),
             [
                 (b.name, *(f"{x:.3f}" for x in (b.position, a.position, b.floor, b.rate, a.rate)))
                 for b, a in zip(found.before, found.after, strict=True)
@@ -67,6 +74,7 @@ def write_report(
         + (f" {_worth(found)}" if extended else "")
         + "</p>",
         "<h2>What is missing</h2>",
+        f'<p class="note">{_MISSING}</p>',
         _image(torque_picture(*torques)),
         _table(
             ("missing torque at", "goes with", "correlation", "p"),
@@ -74,14 +82,47 @@ def write_report(
         ),
         *(part for number, one in enumerate(diagnosis.rounds, 1) for part in _evidence(number, one)),
         "<h2>Parameters</h2>",
-        _table(
-            ("parameter", "value", "95 % from", "to", "unit"),
-            [(str(e.unknown), *(f"{x:.4g}" for x in (e.value, e.low, e.high)), e.unit) for e in found.estimates],
-        ),
+        _estimates(found.estimates),
+        _run_numbers(diagnosis, found),
+        *(part for one in zip(found.verdict.alternatives, found.others, strict=True) for part in _instead(*one)),
         _entangled(found),
     ]
     page = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(kind)}</title><style>{_STYLE}</style>'
     write_whole(path, page + "\n".join(body) + "</html>\n")
+
+
+def _candidates(verdict: Verdict) -> Iterable[str]:
+    """Table of what is named, in the order in which it is believed."""
+    named = (*verdict.causes, *verdict.alternatives)
+    if named and verdict.kind is not Kind.UNKNOWN:
+        yield _table(("may be the cause", "confidence"), [(in_full(c), f"{c.confidence:.2f}") for c in named])
+
+
+def _instead(cause: Cause, own: Sequence[Estimate]) -> Iterable[str]:
+    yield f'<p class="note">If it is {escape(in_full(cause))} instead:</p>'
+    yield _estimates(own)
+
+
+def _estimates(estimates: Sequence[Estimate]) -> str:
+    return _table(
+        ("parameter", "value", "95 % from", "to", "unit", ""),
+        [
+            (str(e.unknown), *(f"{x:.4g}" for x in (e.value, e.low, e.high)), e.unit, "at its limit" * e.at_limit)
+            for e in estimates
+        ],
+    )
+
+
+def _run_numbers(diagnosis: Diagnosis, found: Findings) -> str:
+    """Which run is which, where parameters are told of single ones."""
+    if all(one.unknown.recording is None for one in found.estimates):
+        return ""
+    names = [f"run {i} is {recording.name}" for i, recording in enumerate(diagnosis.question.recordings, 1)]
+    return f'<p class="note">{escape("; ".join(names))}.</p>'
+
+
+def _others(diagnosis: Diagnosis) -> str:
+    return "other runs" if len(diagnosis.question.recordings) > 1 else "the other part of the run"
 
 
 def _worth(found: Findings) -> str:

@@ -36,10 +36,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
         "nrmse_position": _scores(found, "position"),
         "nrmse_velocity": _scores(found, "rate"),
         "gap_closed": found.closed,
-        "parameters": [
-            {"name": str(e.unknown), "value": e.value, "low": e.low, "high": e.high, "unit": e.unit}
-            for e in found.estimates
-        ],
+        "parameters": [{"name": str(e.unknown), **_estimate(e)} for e in found.estimates],
         "complete": not (unknown or verdict.nearly),
         "vague": verdict.vague,
         "weakness": found.weakness,
@@ -57,11 +54,13 @@ def _cause(cause: Cause, estimates: Sequence[Estimate]) -> dict[str, Any]:
         "confidence": cause.confidence,
         "gain": cause.gain.log_likelihood,
         "parameters": {
-            str(e.unknown)[len(prefix) :]: {"value": e.value, "low": e.low, "high": e.high, "unit": e.unit}
-            for e in estimates
-            if e.unknown.name.startswith(prefix)
+            str(e.unknown)[len(prefix) :]: _estimate(e) for e in estimates if e.unknown.name.startswith(prefix)
         },
     }
+
+
+def _estimate(e: Estimate) -> dict[str, Any]:
+    return {"value": e.value, "low": e.low, "high": e.high, "unit": e.unit, "at_limit": e.at_limit}
 
 
 def _scores(found: Findings, what: str) -> dict[str, dict[str, float | None]]:

@@ -32,7 +32,7 @@ def read_recording_csv(path: str | Path) -> Recording:
     header, numbers, table = _numbers(path)
     columns = {name: table[:, i] for i, name in enumerate(header)}
     if TIME not in columns:
-        raise FileError(path, f"has no column {TIME}; it has {', '.join(header)}")
+        raise FileError(path, f"has no column {TIME}, time in seconds; it has {', '.join(header)}")
     theta, others = _block(path, columns, ANGLE), _of_nothing(header)
     if theta is None:
         raise FileError(path, f"has no joint angles q1_deg .. or q1_rad ..; it has {', '.join(header)}")
