@@ -15,9 +15,12 @@ _RARE = 0.005  # ... or what noise seldom is, where a window holds few errors
 _BY_CHANCE = 0.02  # share of windows that stay so of a right model: sticking joints now and then hold one
 _CHANCE = 0.01  # probability of as many by chance, below which something is missing
 _CHANCE_OF_CAUSE = 0.1  # the same where a cause is to be named: the wrong one is worse than none
-_SIGNIFICANT, _DISTINCT = 15.0, 8.0  # log-likelihood
+_SIGNIFICANT = 15.0  # log-likelihood
 _SPREAD = 1.5  # deviations
 _STRETCH = 4  # windows, over which errors may hang together
+
+DISTINCT = 8.0
+"""Log-likelihood by which one of two hypotheses must lead to be told from the other."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +45,7 @@ class Gain:
     @property
     def is_distinct(self) -> bool:
         """Whether one of two hypotheses is told from the other by it."""
-        return self.rest > _DISTINCT and self._is_spread
+        return self.rest > DISTINCT and self._is_spread
 
     @property
     def _is_spread(self) -> bool:

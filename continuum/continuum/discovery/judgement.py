@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
+from continuum.discovery.evidence import DISTINCT, explains_all, gain, is_adequate, unexplained
 from continuum.discovery.measured_gain import RunScore, closed_gap, is_far, is_open, is_vague
 from continuum.discovery.search import Round
 from continuum.discovery.trial import Trial
@@ -105,9 +105,13 @@ def _rivals(one: Round) -> list[Cause]:
 
 
 def _confidence(one: Round, trial: Trial) -> float:
-    """Probability of a trial among the leaders: each one's gain over the best in units of how well it is known."""
+    """Probability of a trial among the leaders: each one's gain over the best in units of how well it is known.
+
+    What is not told apart differs by little more than by what its unknowns are free to follow.
+    """
     weights = []
     for other in one.leaders:
         lead = gain(one.best, other)
-        weights.append(math.exp(-max(lead.log_likelihood, 0.0) / max(1.0, lead.deviation)))
+        unit = max(1.0 if lead.is_distinct else DISTINCT, lead.deviation)
+        weights.append(math.exp(-max(lead.log_likelihood, 0.0) / unit))
     return weights[one.leaders.index(trial)] / sum(weights) if trial in one.leaders else 0.0
