@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import rclpy
-from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
+from lifecycle_msgs.msg import State, Transition
+from lifecycle_msgs.srv import ChangeState, GetState
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from sensor_msgs.msg import JointState
@@ -113,6 +113,12 @@ class Conductor:
         request = ChangeState.Request(transition=Transition(id=Transition.TRANSITION_ACTIVATE))
         if not self._call(ChangeState, "bench_bridge/change_state", request).success:
             raise DemoError("bench_bridge cannot be activated")
+
+    def activate_again(self) -> None:
+        """As `activate`, where the bench let go of a bridge that a busy machine kept silent for too long."""
+        state = self._call(GetState, "bench_bridge/get_state", GetState.Request()).current_state
+        if state.id != State.PRIMARY_STATE_ACTIVE:
+            self.activate()
 
     def place_simulated_arm(self) -> None:
         """Into the posture that the bench's arm has, at rest."""
