@@ -12,7 +12,7 @@ from discovery_laws import RUNS, SIZE, WINDOWS, trial
 from continuum.discovery.candidate import Extension
 from continuum.discovery.evidence import gain
 from continuum.discovery.judgement import judge
-from continuum.discovery.search import Earlier, search
+from continuum.discovery.search import Earlier, search, tell_nobody
 from continuum.discovery.trial import Trial
 from continuum.discovery.verdict import Kind
 from continuum.discovery.window_beginnings import with_beginnings_of
@@ -218,11 +218,10 @@ def test_what_an_earlier_search_found_leads_wherever_its_look_promises_nothing()
         return fitted(replace(task, extension=())) if task.is_look else made
 
     fits.fitted = lambda task: replace(in_vain(task), extension=task.extension)  # type: ignore[method-assign]
-    tell: Callable[[str, float], None] = lambda _what, _part: None  # noqa: E731
-    _, rounds = search(fits, EFFECTS, tell)
+    _, rounds = search(fits, EFFECTS, tell_nobody)
     assert effects_of(rounds[0].best.extension) == []
     earlier = Earlier(trial(bad=0.3), trial("base_tilt", bad=0.0))
-    _, rounds = search(fits, EFFECTS, tell, earlier=earlier)
+    _, rounds = search(fits, EFFECTS, tell_nobody, earlier=earlier)
     assert effects_of(rounds[0].best.extension) == ["base_tilt"]
     assert [task for task in fits.asked if task.near is earlier.best] == [
         Task(earlier.best.extension, earlier.best, 20, True)

@@ -38,20 +38,14 @@ def main(arguments: list[str] | None = None) -> int:
             return _run(sys.argv[1:] if arguments is None else arguments)
         finally:
             sys.stdout.flush()
-    except KeyboardInterrupt:
-        return _stopped()
-    except SystemError as error:
-        if _was_interrupted(error):
-            return _stopped()
-        raise
+    except (KeyboardInterrupt, SystemError) as error:
+        if not _was_interrupted(error):
+            raise
+        print("continuum: stopped", file=sys.stderr)
+        return 130
     except BrokenPipeError:  # whoever read, as `head` does, has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
-
-
-def _stopped() -> int:
-    print("continuum: stopped", file=sys.stderr)
-    return 130
 
 
 def _was_interrupted(error: BaseException | None) -> bool:

@@ -96,10 +96,9 @@ def _show(found: Findings) -> None:
     verdict = found.verdict
     print(f"{verdict.kind.value.upper()}\n\n{verdict_in_words(verdict)}\n")
     if verdict.kind is not Kind.UNKNOWN:
-        for cause in verdict.causes:
-            print(f"cause: {cause.addition}   confidence {cause.confidence:.2f}")
-        for cause in verdict.alternatives:
-            print(f"alternative: {cause.addition}   confidence {cause.confidence:.2f}")
+        for title, causes in (("cause", verdict.causes), ("alternative", verdict.alternatives)):
+            for cause in causes:
+                print(f"{title}: {cause.addition}   confidence {cause.confidence:.2f}")
     print_pairs([("parameter", "value, 95 % interval"), *(_estimate(one) for one in found.estimates)])
     for cause, own in zip(verdict.alternatives, found.others, strict=True):
         print(f"\n{cause.addition} instead:")

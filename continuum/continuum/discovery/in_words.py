@@ -51,14 +51,17 @@ def verdict_in_words(verdict: Verdict) -> str:
 
 
 def _what(causes: Sequence[Cause]) -> str:
-    return " Besides: ".join(f"{effect_named(c.addition.effect).in_words}{_where(c)}" for c in causes)
+    return " Besides: ".join(
+        effect_named(c.addition.effect).in_words + (f" ({_where(c)})" if _where(c) else "") for c in causes
+    )
 
 
 def _where(cause: Cause) -> str:
+    """At which joints, in words; empty where it acts at all or at none in particular."""
     joints = cause.addition.joints
     if joints is None:
         return ""
-    return f" (joint{'s' if len(joints) > 1 else ''} {', '.join(str(joint + 1) for joint in joints)})"
+    return f"joint{'s' if len(joints) > 1 else ''} {', '.join(str(joint + 1) for joint in joints)}"
 
 
 def _names(verdict: Verdict) -> str:
@@ -67,11 +70,8 @@ def _names(verdict: Verdict) -> str:
 
 def in_full(cause: Cause) -> str:
     """An effect's name, where it acts, and in brackets what that means."""
-    return f"{cause.addition.effect}{_at(cause)} ({effect_named(cause.addition.effect).in_words.rstrip('.')})"
-
-
-def _at(cause: Cause) -> str:
-    return _where(cause).replace(" (", " at ").rstrip(")")
+    where = f" at {_where(cause)}" if _where(cause) else ""
+    return f"{cause.addition.effect}{where} ({effect_named(cause.addition.effect).in_words.rstrip('.')})"
 
 
 def _what_helps(verdict: Verdict, after: str) -> str:

@@ -166,7 +166,7 @@ def _round(
     begun = [with_beginnings_of(trial, (before, *leaders)) for trial in contenders]
     ended = list(make([Task(trial.extension, trial, _ITERATIONS, True) for trial in begun]))
     ended += [trial for trial in leaders if all(trial is not one for one in contenders)]
-    if earlier:
+    if earlier and earlier.extension:
         ended = _beside_an_earlier_one(make, before, ended, earlier)
     ended = sorted(ended, key=partial(_rank, before))
     if ended and gain(ended[0], before).is_significant:
