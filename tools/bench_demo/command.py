@@ -71,7 +71,7 @@ def record_runs(port: str, out: Path) -> None:
                     conductor.place_simulated_arm()
                     conductor.listen(0.5)
                     conductor.wait_for_states()
-                    conductor.activate_again()
+                    conductor.activate()
                     conductor.carry_out(run)
                 _tell(run, conductor, None if port else out / "truth.csv")
 

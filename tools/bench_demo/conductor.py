@@ -105,20 +105,17 @@ class Conductor:
             self.listen(0.3)
 
     def activate(self) -> None:
-        """Let tension through to the bench.
+        """Let tension through to the bench, unless it is: it lets go of a bridge that a busy machine keeps silent.
 
         Raises:
             DemoError: the bridge refuses.
         """
+        state = self._call(GetState, "bench_bridge/get_state", GetState.Request()).current_state
+        if state.id == State.PRIMARY_STATE_ACTIVE:
+            return
         request = ChangeState.Request(transition=Transition(id=Transition.TRANSITION_ACTIVATE))
         if not self._call(ChangeState, "bench_bridge/change_state", request).success:
             raise DemoError("bench_bridge cannot be activated")
-
-    def activate_again(self) -> None:
-        """As `activate`, where the bench let go of a bridge that a busy machine kept silent for too long."""
-        state = self._call(GetState, "bench_bridge/get_state", GetState.Request()).current_state
-        if state.id != State.PRIMARY_STATE_ACTIVE:
-            self.activate()
 
     def place_simulated_arm(self) -> None:
         """Into the posture that the bench's arm has, at rest."""
