@@ -17,6 +17,7 @@ class SoleVoice:
     def __init__(self) -> None:
         self._own: deque[int] = deque(maxlen=_REMEMBERED)
         self._others = -float("inf")
+        self._was_free = False
 
     def said(self, stamp: int) -> None:
         """A message of this stamp [ns] is one's own."""
@@ -27,6 +28,12 @@ class SoleVoice:
         if stamp not in self._own:
             self._others = now
 
-    def is_free(self, now: float) -> bool:
-        """Whether nobody else spoke lately."""
-        return now - self._others > PATIENCE
+    def may_speak(self, now: float) -> bool:
+        """Whether nobody else spoke lately; to be asked again and again.
+
+        Nobody must have spoken at the asking before, too: what came while this process stood still is heard a moment
+        later than it is asked.
+        """
+        is_free = now - self._others > PATIENCE
+        may, self._was_free = is_free and self._was_free, is_free
+        return may

@@ -189,7 +189,7 @@ class ViewerNode(CheckedNode):
 
     def _say(self, topic: str, publish: CountedPublisher, message: Any) -> None:
         """Publish with a stamp, unless another node speaks there, which is told."""
-        if not self._voices[topic].is_free(time.monotonic()):
+        if not self._voices[topic].may_speak(time.monotonic()):
             self.diagnostics.warnings.note(f"{topic} not from the page", "another node publishes them")
             return
         message.header.stamp = self.get_clock().now().to_msg()

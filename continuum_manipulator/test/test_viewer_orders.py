@@ -66,6 +66,19 @@ class Bench:
 
         self.wait(quiet, "silence")
 
+    def wait_until_silent(self, topic, say):
+        """The viewer publishes nothing between two of its reports, while another node says the same."""
+        counts = []
+
+        def silent():
+            say()
+            if self.probe.report("viewer"):
+                counts.append(self.probe.count("viewer", f"published {topic}"))
+                self.probe.forget("viewer")
+            return len(counts) > 1 and counts[-1] == counts[-2]
+
+        self.wait(silent, f"{topic} left to the other")
+
 
 @pytest.fixture
 def bench(domain):
@@ -106,16 +119,7 @@ def test_nobody_is_talked_over(bench):
     with bench.visitor() as visitor:
         bench.pull(visitor, 12.0)
         bench.wait_for_tension(12.0)
-
-        counts = []
-
-        def silent():
-            say(cables(1, 0, CABLES, [0.1, 0.1]))
-            if report := bench.probe._reports.pop("viewer", None):
-                counts.append(report["published cable_tension_cmd"])
-            return len(counts) > 1 and counts[-1] == counts[-2]
-
-        bench.wait(silent, "the viewer silent")
+        bench.wait_until_silent("cable_tension_cmd", lambda: say(cables(1, 0, CABLES, [0.1, 0.1])))
         heard = len(bench.tensions)
         bench.wait(lambda: any(len(one.effort) for one in bench.tensions[heard:]), "the viewer's voice again")
 
@@ -171,17 +175,17 @@ def test_what_nodes_say_is_to_be_seen(bench):
 
 
 def test_joints_that_a_node_moves_are_left_to_it(bench):
-    say = bench.probe.speaker(JointState, "joint_states").publish
-    w = postures(1)[0][0]
-    say(joint_state(1, w))
+    """Not asked: that never a word is said. A node that was silent for long, on a busy machine, may be spoken for."""
+    publish, w = bench.probe.speaker(JointState, "joint_states").publish, postures(1)[0][0]
+
+    def say():
+        publish(joint_state(1, w))
+
     with bench.visitor() as visitor:
-        bench.wait(lambda: (say(joint_state(1, w)), bench.probe.count("viewer", "received joint_states"))[1], "heard")
         visitor.put(LEAD, "the joints")
-        for _ in range(2):
-            bench.probe._reports.clear()
-            bench.wait(lambda: (say(joint_state(1, w)), bench.probe.report("viewer"))[1], "a report")
-        assert bench.probe.count("viewer", "published joint_states") == 0
-        assert "joint_states" in bench.probe.report("viewer")["message"]
+        bench.wait(lambda: bench.joints, "the page's joints")
+        bench.wait_until_silent("joint_states", say)
+        bench.wait(lambda: (say(), "joint_states" in bench.probe.report("viewer").get("message", ""))[1], "told")
 
 
 @pytest.mark.parametrize("origin", ["http://evil.example", "null"])

@@ -110,9 +110,13 @@ class Probe:
         """A number of the node's latest diagnostics, 0 where it has no such entry."""
         return int(self.report(node).get(key, 0))
 
+    def forget(self, node: str) -> None:
+        """Drop the latest diagnostics of a node: the next that are seen are new."""
+        self._reports.pop(node, None)
+
     def wait_for_report(self, node: str) -> None:
         """Listen until diagnostics of the node come that are made from now on."""
-        self._reports.pop(node, None)
+        self.forget(node)
         self.wait_until(lambda: self.report(node), f"diagnostics of {node}")
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
