@@ -125,6 +125,16 @@ def test_a_diagnosis_overwrites_neither_what_it_reads_nor_what_it_writes(capsys:
     assert data.read_text() == "measured"
 
 
+def test_a_simulation_overwrites_neither_what_it_reads_nor_what_it_writes(capsys: Captured, tmp_path: Path) -> None:
+    tensions = tmp_path / "pull.csv"
+    tensions.write_text(pulled := "t_s,u1_N,u2_N\n0,1,0\n1,1,0\n")
+    words = ("simulate", "--model", MODEL, "--tensions", tensions)
+    assert "is read, and would be overwritten" in refused(capsys, *words, "--csv", tmp_path / "." / "pull.csv")
+    both = ("--csv", tmp_path / "out.png", "--picture", tmp_path / "out.png")
+    assert "would be written twice" in refused(capsys, *words, *both)
+    assert tensions.read_text() == pulled
+
+
 def test_a_model_is_no_arm_and_an_arm_no_model(capsys: Captured) -> None:
     for words in (("info", "lamecc_prototype.yaml"), ("solve", MODEL, 0, 0, 0.1)):
         assert "lamecc_prototype.yaml: is a model file, of `simulate` and `diagnose`; " in refused(capsys, *words)

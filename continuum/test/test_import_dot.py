@@ -159,6 +159,7 @@ def test_files_that_do_not_fit_are_refused(files: list[Path], tmp_path: Path, ca
     assert "is it a CSV export" in refused(capsys, "import-dot", __file__)
     assert "cannot be read" in refused(capsys, "import-dot", tmp_path / "no.csv")
     assert "cannot be written" in refused(capsys, "import-dot", *files, "--out", tmp_path / "no" / "run.csv")
+    assert "is read, and would be overwritten" in refused(capsys, "import-dot", *files, "--out", files[2])
     sensors = tmp_path / "sensors.yaml"
     assert code("import-dot", *files[:3], *HOW, "--save-calibration", sensors) == 0
     assert code("import-dot", *files, "--calibration", sensors, "--out", tmp_path / "run.csv") == 2

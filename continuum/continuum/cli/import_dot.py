@@ -7,7 +7,7 @@ import math
 import sys
 from typing import TYPE_CHECKING, Any
 
-from continuum.cli.output_files import check_writable
+from continuum.cli.output_files import check_apart, check_writable
 from continuum.cli.tables import print_pairs
 from continuum.errors import FileError, InvalidValueError, MeasurementError
 
@@ -60,6 +60,7 @@ def run(options: argparse.Namespace) -> int:
 
     for path in (options.out, options.save_calibration):
         check_writable(path)
+    check_apart((options.out, options.save_calibration), (*options.files, options.calibration))
     exports = [read_dot_export(path) for path in options.files]
     recording = on_one_grid(on_one_clock(exports))
     check_common_clock(recording)

@@ -29,13 +29,13 @@ def check_writable(path: str | None) -> None:
         raise FileError(path, f"cannot be written ({error.strerror or error})") from error
 
 
-def check_apart(outputs: Sequence[str | None], inputs: Sequence[str]) -> None:
+def check_apart(outputs: Sequence[str | None], inputs: Sequence[str | None]) -> None:
     """Every file that is written is another one, and none that is read, nor within a folder that is.
 
     Raises:
         FileError: one is not.
     """
-    read = [Path(path).resolve() for path in inputs]
+    read = [Path(path).resolve() for path in inputs if path is not None]
     written: list[Path] = []
     for path in outputs:
         if path is None or (Path(path).exists() and not Path(path).is_file()):  # pipes, and what is refused anyhow

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.cli.output_files import check_picture, check_writable
+from continuum.cli.output_files import check_apart, check_picture, check_writable
 from continuum.cli.tables import print_pairs
 from continuum.errors import InvalidValueError
 
@@ -84,6 +84,7 @@ def run(options: argparse.Namespace) -> int:
     times = _times(options, tensions)
     check_writable(options.csv)
     check_picture(options.picture)
+    check_apart((options.csv, options.picture), (options.model, options.tensions))
     for hint in hints(posture, tensions, model.parameters, times):
         print(f"continuum: {hint}", file=sys.stderr)
     if options.pulled:
