@@ -68,7 +68,7 @@ def recorded(
     times = np.arange(round(120 * seconds) + 1) / 120
     u = np.zeros(2) if tensions is None else tensions.at(0.0)
     theta = np.array(bend)
-    states = [a.effect.initial_state(theta, u, a.values, model.parameters) for a in model.effects]
+    states = [a.effect.initial_state(theta, u, a.values, model.changed_parameters) for a in model.effects]
     run = simulator.around(model).run(
         np.concatenate([theta, 0 * theta, *states]),
         times,

@@ -153,25 +153,3 @@ def test_dry_friction_is_steeper_never_smoother() -> None:
     smooth, steep = (MODEL.with_values({"friction_slope": slope}) for slope in (5.0, 5000.0))
     assert with_dry_friction(smooth).values()["friction_slope"][0] == DRY_SLOPE
     assert with_dry_friction(steep).values()["friction_slope"][0] == 5000.0
-
-
-@given(st.lists(st.floats(-2.4, 2.4), min_size=4, max_size=4))
-def test_the_likeliest_of_equal_coordinates_mean_the_same(drawn: list[float]) -> None:
-    unknowns = [Free("stiffness"), *(Free("stiffness", j, tolerance=0.02) for j in range(3))]
-    space = FreeSpace(UNEVEN, [*unknowns, Free("angle_offset.offset", 2, 0), Free("angle_offset.offset", 2, 1)])
-    one = np.array([0.1 * drawn[0], *drawn[1:], 0.7, -0.3])
-    other = space.likeliest(one)
-    for recording in (0, 1):
-        same = [values_at(space, UNEVEN, coordinates, recording).values() for coordinates in (one, other)]
-        for name, values in same[0].items():
-            np.testing.assert_allclose(same[1][name], values, rtol=1e-12, atol=1e-15)
-    assert np.array_equal(other, space.clipped(other))
-    assert np.sum((other / space.spread) ** 2) <= np.sum((one / space.spread) ** 2) + 1e-9
-
-
-def test_the_likeliest_keeps_what_all_parts_share_in_common() -> None:
-    unknowns = [Free("stiffness"), *(Free("stiffness", j, tolerance=0.02) for j in range(3))]
-    model = UNEVEN.with_values({"stiffness": 1.5})
-    space = FreeSpace(model, unknowns)
-    likeliest = space.likeliest(np.array([0.0, 2.0, 2.0, 2.0]))  # each joint's spring 4 % stiffer
-    np.testing.assert_allclose(space.amounts(likeliest), [0.06, 0.0, 0.0, 0.0], atol=1e-4)

@@ -44,13 +44,12 @@ def joint_motion(model: Model, x: Numbers, v: Numbers) -> Motion:
 
 def _instant(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion) -> tuple[Instant, list[Numbers]]:
     """What the torques see, and the tensions that each effect is told before it changes them."""
-    p, told = model.parameters, []
+    told = []
     for active, state, rate in _parts(model, x, v):
         told.append(u)
-        p = active.effect.change_parameters(p, active.values)
         motion = active.effect.move_base(motion, active.values, state, rate)
         u = active.effect.pull(u, active.values, state)
-    return Instant(motion, u, p), told
+    return Instant(motion, u, model.changed_parameters), told
 
 
 def _parts(model: Model, x: Numbers, v: Numbers) -> Iterator[tuple[ActiveEffect, Numbers, Numbers]]:

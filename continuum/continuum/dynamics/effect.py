@@ -80,7 +80,7 @@ class Effect:
             theta: joint angles, (n,) [rad].
             u: commanded tension of each cable, (n_cables,) [N].
             own: the effect's own parameters, numbers.
-            p: parameters of Eq. 12, numbers.
+            p: parameters of Eq. 12 as all effects make them, numbers.
         """
         return np.zeros(self.n_states(theta.size))
 

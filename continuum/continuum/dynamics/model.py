@@ -39,6 +39,14 @@ class Model:
         return self.parameters.n_joints
 
     @property
+    def changed_parameters(self) -> Parameters:
+        """Parameters of Eq. 12 as the effects make them."""
+        p = self.parameters
+        for active in self.effects:
+            p = active.effect.change_parameters(p, active.values)
+        return p
+
+    @property
     def n_states(self) -> int:
         """States of the effects, beside the joints' angles and rates."""
         return sum(active.effect.n_states(self.n_joints) for active in self.effects)

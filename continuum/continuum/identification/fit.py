@@ -21,6 +21,7 @@ from continuum.identification.arrow_least_squares import (
     shared_information,
 )
 from continuum.identification.free import Free, FreeSpace
+from continuum.identification.likeliest import likeliest
 from continuum.identification.noise import Noise
 from continuum.identification.recording import Recording
 from continuum.identification.window_residual import WindowAt, WindowResidual
@@ -128,7 +129,7 @@ def fit(
     ]
     first = _begun([coordinates for run in runs for coordinates in run.start], own)
     begin = np.zeros(len(space.unknowns)) if start is None else space.clipped(start)
-    begin = space.likeliest(begin) if to_the_end else begin
+    begin = likeliest(space, simulator.model, begin) if to_the_end else begin
     unknowns = Unknowns(
         begin, space.spread, space.lower, space.upper, first, [spread for run in runs for spread in run.spreads]
     )

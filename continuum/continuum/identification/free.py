@@ -113,17 +113,6 @@ class FreeSpace:
         """Coordinates within the bounds."""
         return np.asarray(np.clip(coordinates, self.lower, self.upper))
 
-    def likeliest(self, coordinates: Array) -> Array:
-        """Of all coordinates that mean the same values those that the prior likes best, (k,).
-
-        What all joints share and what each has for itself may be moved from one to the other, and no simulation tells.
-        """
-        common = np.array([unknown.recording is None for unknown in self.unknowns])
-        directions, spread = self.directions[:, common], self.spread[common]
-        found = coordinates.copy()
-        found[common] = spread * (np.linalg.pinv(directions * spread) @ (directions @ coordinates[common]))
-        return found if np.array_equal(found, self.clipped(found)) else coordinates
-
     def amounts(self, coordinates: Array) -> Array:
         """What was added to each unknown's parameter, in its own unit, (n_free,)."""
         return self.scale * coordinates

@@ -210,7 +210,9 @@ class WindowResidual:
             values = p + self._directions @ by[:k]
             model = with_vector(self._model, values)
             theta = (self._sensors.meant(0, values) + self._unit * (of_motion + by[k:]))[:n]
-            return np.concatenate([a.effect.initial_state(theta, u, a.values, model.parameters) for a in model.effects])
+            return np.concatenate(
+                [a.effect.initial_state(theta, u, a.values, model.changed_parameters) for a in model.effects]
+            )
 
         begin = states(np.zeros(k + of_motion.size))
         slopes = [(states(NUDGE * unit) - begin) / NUDGE for unit in np.eye(k + of_motion.size)]

@@ -56,7 +56,7 @@ class RestingArm:
 
     def unknowns(self, theta: Array, load: Load) -> Array:
         """y of an arm that rests in joint angles (n,) [rad], as far as its effects know."""
-        p, parts = self.model.parameters, [theta]
+        p, parts = self.model.changed_parameters, [theta]
         parts += [active.effect.initial_state(theta, load.tension, active.values, p) for active in self.model.effects]
         return np.concatenate(parts)
 

@@ -60,10 +60,7 @@ def sticking_zone(arm: RestingArm, around: Equilibrium) -> StickingZone:
 
 def break_away(model: Model) -> Array:
     """Largest torque that each resting joint holds, tau_c (1 + S), (n,) [N m]."""
-    p = model.parameters
-    for active in model.effects:
-        p = active.effect.change_parameters(p, active.values)
-    return np.asarray(break_away_torque(p), dtype=float)
+    return np.asarray(break_away_torque(model.changed_parameters), dtype=float)
 
 
 def _extreme(arm: RestingArm, around: Equilibrium, weights: Array, held: Array) -> Array:
