@@ -149,11 +149,16 @@ def test_the_verdict_that_the_page_tells_is_that_of_the_whole_run() -> None:
 
 
 @pytest.mark.ros
-def test_the_page_of_a_diagnosis_loads_nothing_from_elsewhere(checkout: Path) -> None:
+def test_the_page_of_a_diagnosis_tells_how_it_was_made_and_loads_nothing_from_elsewhere(checkout: Path) -> None:
     """Made by the block of `continuum diagnose` above; skipped where that was not run."""
     page = checkout / "out" / "diagnosis.html"
     if not page.exists():
         pytest.skip("no diagnosis was made in this run")
+    made = re.search(
+        r"Made on \d{4}-\d\d-\d\d by continuum \d+\.\d+\.\d+: continuum diagnose (.*)</p>", page.read_text()
+    )
+    assert made is not None
+    assert "rep7_measured.csv --model lamecc_prototype.yaml --seed 0" in made[1]
     alone = checkout / "out" / "alone"
     alone.mkdir()
     page.rename(alone / page.name)

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import datetime
+import importlib.metadata
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -62,13 +65,13 @@ def run(options: argparse.Namespace) -> int:
     if options.json is not None:
         write_json(found, options.json)
     if options.report is not None:
-        _report(options.report, diagnosis, found, options.seed)
+        _report(options, diagnosis, found)
     if options.extended is not None:
         save_model(found.model, options.extended)
     return EXIT_CODES[found.verdict.kind.value]
 
 
-def _report(path: str, diagnosis: Diagnosis, found: Findings, seed: int) -> None:
+def _report(options: argparse.Namespace, diagnosis: Diagnosis, found: Findings) -> None:
     import numpy as np
 
     from continuum.discovery.report_html import write_report
@@ -77,8 +80,15 @@ def _report(path: str, diagnosis: Diagnosis, found: Findings, seed: int) -> None
 
     before = residual_torques(diagnosis.question, found.refitted)
     after = residual_torques(diagnosis.question, found.model) if found.verdict.extension else None
-    tests = structure_tests(before, np.random.default_rng(seed))
-    write_report(path, diagnosis, found, (before, after), tests)
+    tests = structure_tests(before, np.random.default_rng(options.seed))
+    write_report(options.report, diagnosis, found, (before, after), tests, _how(options))
+
+
+def _how(options: argparse.Namespace) -> str:
+    """How the page was made: the day, and what makes it again."""
+    words = ("continuum", "diagnose", *options.data, "--model", options.model, "--seed", str(options.seed))
+    day = datetime.datetime.now().astimezone().date().isoformat()
+    return f"Made on {day} by continuum {importlib.metadata.version('continuum')}: {shlex.join(words)}"
 
 
 def read_recording(path: str) -> Recording:

@@ -40,6 +40,7 @@ def write_report(
     found: Findings,
     torques: tuple[Sequence[ResidualTorque], Sequence[ResidualTorque] | None],
     tests: Sequence[StructureTest],
+    made: str,
 ) -> None:
     """Write the page.
 
@@ -48,6 +49,7 @@ def write_report(
         diagnosis, found: what to tell.
         torques: missing torque of the refitted and of the extended model; None where there is none.
         tests: of the former.
+        made: how the page was made, one line.
 
     Raises:
         FileError: the file cannot be written.
@@ -86,6 +88,7 @@ def write_report(
         _run_numbers(diagnosis, found),
         *(part for one in zip(found.verdict.alternatives, found.others, strict=True) for part in _instead(*one)),
         _entangled(found),
+        f'<p class="note">{escape(made)}</p>',
     ]
     page = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(kind)}</title><style>{_STYLE}</style>'
     write_whole(path, page + "\n".join(body) + "</html>\n")
