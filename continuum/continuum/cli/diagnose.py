@@ -6,6 +6,7 @@ import argparse
 import datetime
 import importlib.metadata
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,7 @@ from continuum.cli.tables import print_pairs
 if TYPE_CHECKING:
     from continuum.discovery.diagnose import Diagnosis
     from continuum.discovery.findings import Estimate, Findings
+    from continuum.dynamics.model import Model
     from continuum.identification.recording import Recording
 
 EXIT_CODES = {"adequate": 0, "cause": 3, "ambiguous": 4, "unknown": 5}  # 1 is a crash, 2 wrong usage
@@ -42,23 +44,28 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Diagnose, print, and write what was asked for."""
-    # Here, so that the other commands need not load CasADi and numba.
+    """Read, diagnose, print, and write what was asked for."""
+    from continuum.dynamics.model_file import load_model
+
+    for path in (options.json, options.report, options.extended):
+        check_writable(path)
+    check_apart((options.json, options.report, options.extended), (*options.data, options.model))
+    return _diagnose(options, load_model(options.model), [read_recording(path) for path in options.data])
+
+
+def _diagnose(options: argparse.Namespace, model: Model, recordings: Sequence[Recording]) -> int:
+    # Here, so that the other commands, and data that are refused, need not wait for numba and SciPy.
     import numpy as np
 
     from continuum.cli.progress import told
     from continuum.discovery.diagnose import diagnose
     from continuum.discovery.findings import findings
     from continuum.discovery.verdict_json import write_json
-    from continuum.dynamics.model_file import load_model, save_model
+    from continuum.dynamics.model_file import save_model
     from continuum.identification.dataset import Dataset
 
-    for path in (options.json, options.report, options.extended):
-        check_writable(path)
-    check_apart((options.json, options.report, options.extended), (*options.data, options.model))
-    model, recordings = load_model(options.model), tuple(read_recording(path) for path in options.data)
     with told() as tell:
-        diagnosis = diagnose(Dataset(recordings), model, processes=options.processes, tell=tell)
+        diagnosis = diagnose(Dataset(tuple(recordings)), model, processes=options.processes, tell=tell)
         tell("predicting runs that were held out", 1.0)
         found = findings(diagnosis, np.random.default_rng(options.seed))
     _show(found)
