@@ -182,3 +182,11 @@ def test_no_merge_left_its_marks() -> None:
     files = [path for folder in folders for kind in kinds for path in folder.rglob(kind)]
     files += [path for kind in kinds for path in ROOT.glob(kind)] + [ROOT / "Makefile"]
     assert [str(path) for path in files if mark.search(path.read_text(encoding="utf-8", errors="replace"))] == []
+
+
+@each_package
+def test_a_package_that_lists_its_files_lists_files_that_are_there(package: str) -> None:
+    for path in (ROOT / package).rglob("__init__.py"):
+        words = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+        missing = [name for name in re.findall(r"\w+\.py\b", words) if not any(path.parent.rglob(name))]
+        assert missing == [], path

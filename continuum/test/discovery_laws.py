@@ -8,7 +8,7 @@ import numpy as np
 from dynamics_laws import prototype_model
 
 from continuum.discovery.candidate import Addition, Extension, extended
-from continuum.discovery.search import Round
+from continuum.discovery.round import Round
 from continuum.discovery.trial import Trial
 from continuum.identification.arrow_least_squares import FitStatus, Part, Unknowns
 from continuum.identification.fit import Fit

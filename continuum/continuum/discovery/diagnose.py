@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 from continuum.discovery.judgement import judge
 from continuum.discovery.question import Question
+from continuum.discovery.round import Round
 from continuum.discovery.rows_asked_again import with_better_rows
-from continuum.discovery.search import Earlier, Round, Tell, search, tell_nobody, until_the_end
+from continuum.discovery.search import Earlier, Tell, search, tell_nobody, until_the_end
 from continuum.discovery.trial import TOLERANCES, Trial
 from continuum.discovery.verdict import Verdict
 from continuum.discovery.workers import workers

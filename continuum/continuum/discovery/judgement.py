@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from continuum.discovery.evidence import DISTINCT, explains_all, gain, is_adequate, unexplained
 from continuum.discovery.measured_gain import RunScore, closed_gap, is_far, is_open, is_vague
-from continuum.discovery.search import Round
+from continuum.discovery.round import Round
 from continuum.discovery.trial import Trial
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named

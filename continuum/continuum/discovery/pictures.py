@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from continuum.discovery.evidence import gain
 from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.residual_torque import ResidualTorque
-from continuum.discovery.search import Round
+from continuum.discovery.round import Round
 
 _BEFORE, _AFTER, _MEASURED = "#d1802b", "#1f6fb4", "#222222"
 

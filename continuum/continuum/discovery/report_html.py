@@ -13,7 +13,7 @@ from continuum.discovery.findings import Estimate, Findings
 from continuum.discovery.in_words import cost_in_words, in_full, verdict_in_words, worth_in_words
 from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
 from continuum.discovery.residual_torque import ResidualTorque
-from continuum.discovery.search import Round
+from continuum.discovery.round import Round
 from continuum.discovery.structure_tests import StructureTest
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.whole_file import write_whole
