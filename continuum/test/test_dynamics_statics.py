@@ -16,6 +16,7 @@ from dynamics_laws import (
     prototype_model,
     random_model,
 )
+from effects_laws import effect_of
 
 from continuum.dynamics.balance import balance
 from continuum.dynamics.integration.tolerances import Tolerances
@@ -143,6 +144,17 @@ def test_the_start_chooses_among_equilibria() -> None:
     np.testing.assert_allclose(sides[0].theta, -sides[1].theta, atol=1e-9)
     assert sides[1].theta[0] > 1
     assert equilibrium(arm, none, np.zeros(1)).status is EquilibriumStatus.UNSTABLE
+
+
+def test_springs_relaxed_elsewhere_by_an_effect_lead_to_the_same_equilibrium() -> None:
+    """A standing arm that falls to the side to which its springs are bent."""
+    bare = prototype_model(5).with_values({"hang_angle": np.pi, "stiffness": 0.3})
+    bent = Model(bare.parameters, (active(effect_of("rest_angle"), 5, angle=0.9),))
+    found = [
+        equilibrium(RestingArm(model), Load(np.zeros(2))) for model in (bare.with_values({"rest_angle": 0.9}), bent)
+    ]
+    assert found[1].status is found[0].status is EquilibriumStatus.STABLE
+    np.testing.assert_allclose(found[1].theta, found[0].theta, rtol=0, atol=1e-9)
 
 
 def test_no_equilibrium_is_told() -> None:

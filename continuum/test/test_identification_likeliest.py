@@ -1,5 +1,8 @@
 """Unknowns that mean the same arm: the same motion, by what the prior likes best."""
 
+from dataclasses import replace
+from typing import ClassVar
+
 import numpy as np
 import pytest
 from dynamics_laws import active, prototype_model
@@ -8,8 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum.dynamics.balance import balance
+from continuum.dynamics.effect import Effect, Own
 from continuum.dynamics.felt_values import felt_values
 from continuum.dynamics.model import Model
+from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.values import with_vector
 from continuum.identification.baseline import baseline_unknowns
@@ -68,14 +73,22 @@ def test_what_is_no_part_of_a_batch_is_the_effect_s(effect: str, parameter: str,
     np.testing.assert_allclose(found, truth, atol=0.1)
 
 
-def test_what_would_leave_its_bounds_stays() -> None:
-    """Three springs stiffer by 1.5 %, where what all share can hardly take it."""
+def test_what_would_leave_its_bounds_ends_there() -> None:
+    """Three springs stiffer by 1.5 %, of which what all share can take hardly 1 %."""
     model = model_with().with_values({"stiffness": 9900.0})
     space = FreeSpace(model, [STIFFNESS[0], *(Free("stiffness", j, tolerance=0.01) for j in range(3))])
     one = np.array([0.005, 1.0, 1.0, 1.0])
     found = likeliest(space, model, one)
-    assert np.array_equal(found, space.clipped(found))
+    assert found[0] == space.upper[0]
+    np.testing.assert_allclose(found[1:], (0.015 - found[0]) / 0.01, rtol=1e-6)
     np.testing.assert_allclose(space.directions_of(-1) @ found, space.directions_of(-1) @ one, rtol=1e-9)
+
+
+def test_a_size_of_one_sign_ends_at_nothing() -> None:
+    model = model_with("capstan").with_values({"capstan_friction": 0.2})
+    space = FreeSpace(model, [Free("capstan_friction", tolerance=0.03), Free("capstan.friction")])
+    found = likeliest(space, model, np.array([-2.5, 0.1]))
+    np.testing.assert_allclose(found, [-2.5 + 0.01 / 0.006, 0.0], atol=1e-6)
 
 
 def test_what_is_beyond_its_bounds_and_cannot_move_holds_up_nothing() -> None:
@@ -84,6 +97,70 @@ def test_what_is_beyond_its_bounds_and_cannot_move_holds_up_nothing() -> None:
     found = likeliest(space, model, np.array([0.0, 2.0, 2.0, 2.0, 1e6]))
     assert found[4] == 1e6
     assert np.abs(found[1:4]).max() < 0.01
+
+
+class Wear(Effect):
+    """Springs that wear: not a number below nothing."""
+
+    name = "wear"
+    parameters: ClassVar = {"wear": Parameter("w", "1", 0.0, 1.0, True, "wear", 0.0, 0.1)}
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        return replace(p, stiffness=p.stiffness * (1 - own["wear"] ** 1.5))
+
+
+class Holed(Effect):
+    """Springs that are no number where the effect is absent."""
+
+    name = "holed"
+    parameters: ClassVar = {"size": Parameter("s", "1", 0.0, 1.0, True, "size", 0.0, 0.1)}
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        return replace(p, stiffness=p.stiffness * (1 + (own["size"] - 0.05) ** 0.5))
+
+
+class Warmth(Effect):
+    """Springs that soften by how warm it was in each recording."""
+
+    name = "warmth"
+    parameters: ClassVar = {
+        "softening": Parameter("s", "1", -1.0, 1.0, True, "softening", 0.0, 0.1),
+        "warm": Parameter("w", "1", -1.0, 1.0, False, "how warm it was", 0.0, 1.0, per_recording=True),
+    }
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        return replace(p, stiffness=p.stiffness * (1 - own["softening"] * own["warm"]))
+
+
+@pytest.mark.parametrize("worn", [0.0, 0.5, 3.0])
+def test_an_effect_that_is_no_number_beyond_its_bounds(worn: float) -> None:
+    model = Model(prototype_model(3).parameters, (active(Wear(), 3),))
+    space = FreeSpace(model, [*STIFFNESS, *(Free("wear.wear", j) for j in range(3))])
+    one = np.array([0.2, 1.0, -1.0, 0.5, worn, 0.0, worn])
+    found = likeliest(space, model, one)
+    same, there = (with_vector(model, space.origin + space.directions @ at) for at in (one, found))
+    np.testing.assert_allclose(felt_values(there), felt_values(same), rtol=1e-6)
+    assert prior(space, found) < prior(space, one)
+    assert np.array_equal(found, space.clipped(found))
+
+
+@pytest.mark.filterwarnings("ignore:invalid value")
+def test_where_an_effect_is_no_number_nothing_moves() -> None:
+    model = Model(prototype_model(3).parameters, (active(Holed(), 3, size=0.06),))
+    space = FreeSpace(model, [*STIFFNESS, Free("holed.size", 1)])
+    one = np.array([0.2, 1.0, -1.0, 0.5, -0.6])
+    np.testing.assert_array_equal(likeliest(space, model, one), one)
+
+
+def test_what_only_recordings_show_is_kept() -> None:
+    model = Model(prototype_model(3).parameters, (active(Warmth(), 3),))
+    own = [Free("warmth.warm", recording=run) for run in (0, 1)]
+    space = FreeSpace(model, [*STIFFNESS, *(Free("warmth.softening", j) for j in range(3)), *own])
+    one = np.array([0.2, 1.0, -1.0, 0.5, 1.0, 2.0, 3.0, 0.5, 1.0])
+    found = likeliest(space, model, one)
+    for run in (0, 1):
+        same, there = (with_vector(model, space.origin + space.directions_of(run) @ at) for at in (one, found))
+        np.testing.assert_allclose(there.changed_parameters.stiffness, same.changed_parameters.stiffness, rtol=1e-7)
 
 
 @pytest.mark.parametrize("name", EFFECTS)

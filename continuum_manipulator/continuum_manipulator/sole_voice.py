@@ -17,7 +17,7 @@ class SoleVoice:
     def __init__(self) -> None:
         self._own: deque[int] = deque(maxlen=_REMEMBERED)
         self._others = -float("inf")
-        self._was_free = False
+        self._was_free, self._asked = False, -float("inf")
 
     def said(self, stamp: int) -> None:
         """A message of this stamp [ns] is one's own."""
@@ -28,12 +28,16 @@ class SoleVoice:
         if stamp not in self._own:
             self._others = now
 
+    def is_taken(self, now: float) -> bool:
+        """Whether another spoke lately."""
+        return now - self._others <= PATIENCE
+
     def may_speak(self, now: float) -> bool:
         """Whether nobody else spoke lately; to be asked again and again.
 
-        Nobody must have spoken at the asking before, too: what came while this process stood still is heard a moment
+        Nobody must have spoken at the asking a moment before, too: what came while this process stood still is heard
         later than it is asked.
         """
-        is_free = now - self._others > PATIENCE
-        may, self._was_free = is_free and self._was_free, is_free
+        is_free, lately = not self.is_taken(now), now - self._asked <= PATIENCE
+        may, self._was_free, self._asked = is_free and self._was_free and lately, is_free, now
         return may

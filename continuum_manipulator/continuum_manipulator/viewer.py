@@ -189,9 +189,11 @@ class ViewerNode(CheckedNode):
 
     def _say(self, topic: str, publish: CountedPublisher, message: Any) -> None:
         """Publish with a stamp, unless another node speaks there, which is told."""
-        if not self._voices[topic].may_speak(time.monotonic()):
+        voice, now = self._voices[topic], time.monotonic()
+        if voice.is_taken(now):
             self.diagnostics.warnings.note(f"{topic} not from the page", "another node publishes them")
+        if not voice.may_speak(now):
             return
         message.header.stamp = self.get_clock().now().to_msg()
-        self._voices[topic].said(nanoseconds(message.header.stamp))
+        voice.said(nanoseconds(message.header.stamp))
         publish(message)

@@ -67,7 +67,7 @@ class Bench:
         self.wait(quiet, "silence")
 
     def wait_until_silent(self, topic, say):
-        """The viewer publishes nothing between two of its reports, while another node says the same."""
+        """The viewer publishes nothing from one report to the third after it, while another node says the same."""
         counts = []
 
         def silent():
@@ -75,7 +75,7 @@ class Bench:
             if self.probe.report("viewer"):
                 counts.append(self.probe.count("viewer", f"published {topic}"))
                 self.probe.forget("viewer")
-            return len(counts) > 1 and counts[-1] == counts[-2]
+            return len(counts) > 3 and len(set(counts[-4:])) == 1
 
         self.wait(silent, f"{topic} left to the other")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import datetime
 import importlib.metadata
-import shlex
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _diagnose(options: argparse.Namespace, model: Model, recordings: Sequence[Recording]) -> int:
-    # Here, so that the other commands, and data that are refused, need not wait for numba and SciPy.
+    # Here, so that the other commands, and data that are refused, need not wait for numba.
     import numpy as np
 
     from continuum.cli.progress import told
@@ -92,10 +92,10 @@ def _report(options: argparse.Namespace, diagnosis: Diagnosis, found: Findings) 
 
 
 def _how(options: argparse.Namespace) -> str:
-    """How the page was made: the day, and what makes it again."""
-    words = ("continuum", "diagnose", *options.data, "--model", options.model, "--seed", str(options.seed))
-    day = datetime.datetime.now().astimezone().date().isoformat()
-    return f"Made on {day} by continuum {importlib.metadata.version('continuum')}: {shlex.join(words)}"
+    """How the page was made: the day, the version, and of what, without the folders."""
+    names = ", ".join(os.fsencode(Path(path).name).decode("utf-8", "backslashreplace") for path in options.data)
+    day, version = datetime.datetime.now().astimezone().date().isoformat(), importlib.metadata.version("continuum")
+    return f"Made on {day} by continuum {version} of {names}; model {Path(options.model).name}, seed {options.seed}."
 
 
 def read_recording(path: str) -> Recording:

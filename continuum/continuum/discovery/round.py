@@ -23,8 +23,9 @@ _LEADERS = 5
 _LEADING = 0.35  # of the best one's hope
 _LITTLE = 0.1  # of what is left to explain: with no better hope, effects are looked at for longer
 _HOPELESS = 4.0  # log-likelihood on half of the runs
-_CONTENDING = 0.5  # of the best one's gain
-_LEADER_ITERATIONS, _ITERATIONS = 8, 12
+CONTENDING = 0.5
+"""Part of the best one's gain, beyond which another may be the one as well."""
+_LEADER_ITERATIONS, ITERATIONS = 8, 12
 _ITERATIONS_ANEW = 4
 
 
@@ -71,7 +72,7 @@ def one_round(
     tell(0.75)
     contenders = _contending(leaders, before)
     begun = [with_beginnings_of(trial, (before, *leaders)) for trial in contenders]
-    ended = list(make([Task(trial.extension, trial, _ITERATIONS, True) for trial in begun]))
+    ended = list(make([Task(trial.extension, trial, ITERATIONS, True) for trial in begun]))
     ended += [trial for trial in leaders if all(trial is not one for one in contenders)]
     if earlier and earlier.extension:
         ended = _beside_an_earlier_one(make, before, ended, earlier)
@@ -87,12 +88,12 @@ def _beside_an_earlier_one(make: Make, before: Trial, ended: Sequence[Trial], ea
     That one was fitted for longer: what helps and has not come to its end goes on beside it, from its beginnings.
     """
     extensions = [(Addition(addition.effect),) for addition in earlier.extension]
-    known = list(make([Task(extension, earlier, _LEADER_ITERATIONS + _ITERATIONS, True) for extension in extensions]))
+    known = list(make([Task(extension, earlier, _LEADER_ITERATIONS + ITERATIONS, True) for extension in extensions]))
     unended = [
         trial for trial in ended if trial.status is FitStatus.NO_CONVERGENCE and gain(trial, before).log_likelihood > 0
     ]
     begun = [with_beginnings_of(trial, known) for trial in unended]
-    longer = list(make([Task(trial.extension, trial, _LEADER_ITERATIONS + _ITERATIONS, True) for trial in begun]))
+    longer = list(make([Task(trial.extension, trial, _LEADER_ITERATIONS + ITERATIONS, True) for trial in begun]))
     found: dict[str, Trial] = {}
     for trial in (*ended, *longer, *known):
         effect = trial.extension[-1].effect
@@ -140,7 +141,7 @@ def _contending(leaders: Sequence[Trial], before: Trial) -> list[Trial]:
     """Those not far behind the best of those that help for sure, if any do: luck in one stretch hides none."""
     gains = [gain(trial, before) for trial in leaders]
     sure = [gained.log_likelihood for gained in gains if gained.is_significant]
-    least = _CONTENDING * max(sure or [gained.log_likelihood for gained in gains], default=0.0)
+    least = CONTENDING * max(sure or [gained.log_likelihood for gained in gains], default=0.0)
     return [trial for trial, gained in zip(leaders, gains, strict=True) if gained.log_likelihood >= least]
 
 

@@ -7,13 +7,12 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from continuum.discovery.evidence import beyond_noise, explains_all, gain
-from continuum.discovery.round import Round, one_round
+from continuum.discovery.round import CONTENDING, ITERATIONS, Round, one_round
 from continuum.discovery.trial import Trial
 from continuum.discovery.workers import Make, Task
 
-_ITERATIONS, _BASELINE_ITERATIONS = 12, 10
-_CONTENDING = 0.5  # of the first effect's gain
-_MISLEADING = 0.1  # of it: a smaller second one has misled nobody
+_BASELINE_ITERATIONS = 10
+_MISLEADING = 0.1  # of the first effect's gain: a smaller second one has misled nobody
 _ROUNDS = 3
 _MUCH = 0.5  # of what the baseline does not explain
 _MORE_THAN_THE_LAST = 5.0  # times what the last effect explained: hardly any later one explains so much
@@ -100,7 +99,7 @@ def _may_have_misled(second: Round, first: Round) -> bool:
     gained = [gain(one.best, one.before).log_likelihood for one in (second, first)]
     effect = first.best.extension[-1].effect
     others = [trial for trial in first.leaders if trial.extension[-1].effect != effect]
-    is_contended = any(gain(trial, first.before).log_likelihood > _CONTENDING * gained[1] for trial in others)
+    is_contended = any(gain(trial, first.before).log_likelihood > CONTENDING * gained[1] for trial in others)
     return second.best is not second.before and (is_contended or gained[0] > _MISLEADING * gained[1])
 
 
@@ -108,7 +107,7 @@ def _first_anew(
     make: Make, first: Round, second: Round, effects: Sequence[str], tell: Callable[[float], None]
 ) -> list[Round]:
     """The first effect sought once more, now beside the second: it was found while that one was still unknown."""
-    (alone,) = make([Task(second.best.extension[-1:], second.best, _ITERATIONS)])
+    (alone,) = make([Task(second.best.extension[-1:], second.best, ITERATIONS)])
     again = one_round(make, alone, effects, tell)
     if again.best is again.before:  # the second one alone does it
         effect = alone.extension[-1].effect

@@ -23,4 +23,6 @@ def felt_values(model: Model) -> Array:
 
 
 def _does_more(effect: Effect) -> bool:
-    return any(getattr(type(effect), hook) is not getattr(Effect, hook) for hook in _HOOKS)
+    """Whether its values act by themselves, too, or change parameters otherwise from recording to recording."""
+    acts = any(getattr(type(effect), hook) is not getattr(Effect, hook) for hook in _HOOKS)
+    return acts or any(meaning.per_recording for meaning in effect.parameters.values())

@@ -8,8 +8,9 @@ simulations.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
-from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.dynamics.felt_values import felt_values
@@ -18,7 +19,7 @@ from continuum.dynamics.values import with_vector
 from continuum.identification.free import FreeSpace
 
 _NUDGE = 1e-5  # of a coordinate's spread
-_SAME = 1e-9  # of an unknown's effect by one spread
+_SAME = 1e-8  # of an unknown's effect by one spread
 _RANK = 1e-6
 _STEPS, _LONGEST = 50, 0.3  # of a spread
 
@@ -26,49 +27,63 @@ _STEPS, _LONGEST = 50, 0.3  # of a spread
 def likeliest(space: FreeSpace, model: Model, coordinates: Array) -> Array:
     """Coordinates (k,) within the bounds that mean the same as those given.
 
-    What belongs to one recording stays, as does what would leave its bounds; all stays where no such place is found.
+    Least squares of the prior under the condition that what the arm feels stays, by Gauss and Newton: each step goes
+    towards the least of all that the slopes there say to be the same. What belongs to one recording stays; all stays
+    where no such place is found.
 
     Args:
         space: the unknowns.
         model: that they are unknowns of.
         coordinates: of them, (k,).
     """
-    moves = np.array([unknown.recording is None for unknown in space.unknowns])
-    while np.any(moves):
-        found = _least_prior(space, model, coordinates, np.flatnonzero(moves))
-        if found is None:
-            break
-        beyond = moves & ((found < space.lower) | (found > space.upper))
-        if not np.any(beyond):
-            return found
-        moves &= ~beyond
-    return coordinates
-
-
-def _least_prior(space: FreeSpace, model: Model, coordinates: Array, moves: NDArray[np.intp]) -> Array | None:
-    """Least squares of the prior under the condition that what the arm feels stays, by Gauss and Newton.
-
-    Each step goes to the least of all that the slopes there say to be the same.
-    """
-    spread, at = space.spread[moves], coordinates.copy()
+    moves = np.flatnonzero([unknown.recording is None for unknown in space.unknowns])
+    spread, at, directions = space.spread[moves], coordinates.copy(), space.directions_of(-1)
+    lower, upper = space.lower[moves] / spread, space.upper[moves] / spread
 
     def felt(z: Array) -> Array:
-        there = at.copy()
-        there[moves] = spread * z
-        return felt_values(with_vector(model, space.origin + space.directions_of(-1) @ there))
+        at[moves] = spread * z
+        return felt_values(with_vector(model, space.origin + directions @ at))
 
-    z = coordinates[moves] / spread
-    wanted = felt(z)
+    z = np.clip(coordinates[moves] / spread, lower, upper)
+    wanted = felt(coordinates[moves] / spread)
     for _ in range(_STEPS):
-        slopes = np.stack([felt(z + _NUDGE * e) - felt(z - _NUDGE * e) for e in np.eye(z.size)], axis=1) / (2 * _NUDGE)
+        slopes = _slopes(felt, z, lower, upper)
+        off = wanted - felt(z)
+        if not np.all(np.isfinite(slopes)):
+            break
         size = np.linalg.norm(slopes, axis=1)
-        felt_at_all = size > 0
-        slopes, unit = slopes[felt_at_all] / size[felt_at_all, None], size[felt_at_all]
-        off = (wanted - felt(z))[felt_at_all] / unit
-        new = np.linalg.pinv(slopes, rcond=_RANK) @ (slopes @ z + off)
-        if np.max(np.abs(new - z), initial=0.0) < _SAME and np.max(np.abs(off), initial=0.0) < _SAME:
+        unit = np.where(size > 0, size, 1.0)
+        new = _least(slopes / unit[:, None], (slopes @ z + off) / unit, lower, upper)
+        if np.max(np.abs(new - z), initial=0.0) < _SAME and np.max(np.abs(off / unit), initial=0.0) < _SAME:
             at[moves] = spread * new
             return at
         step = new - z
-        z = z + step / max(1.0, np.max(np.abs(step)) / _LONGEST)
-    return None
+        z = z + step / max(1.0, np.max(np.abs(step), initial=0.0) / _LONGEST)
+    return coordinates
+
+
+def _slopes(felt: Callable[[Array], Array], z: Array, lower: Array, upper: Array) -> Array:
+    """Slopes of what is felt, (m, k), from values within the bounds."""
+    columns = []
+    for unit in np.eye(z.size):
+        more, less = np.minimum(z + _NUDGE * unit, upper), np.maximum(z - _NUDGE * unit, lower)
+        width = float(unit @ (more - less))
+        columns.append((felt(more) - felt(less)) / width if width > 0 else 0 * felt(z))
+    return np.stack(columns, axis=1)
+
+
+def _least(slopes: Array, value: Array, lower: Array, upper: Array) -> Array:
+    """The smallest z (k,) within the bounds of those with ``slopes z = value``, as nearly as there are any.
+
+    Of all that would leave its bounds the one that is farthest out is put on its bound, and the rest sought again.
+    """
+    z, free = np.zeros(lower.size), np.ones(lower.size, dtype=bool)
+    while np.any(free):
+        z[free] = np.linalg.pinv(slopes[:, free], rcond=_RANK) @ (value - slopes[:, ~free] @ z[~free])
+        beyond = np.where(free, np.maximum(lower - z, z - upper), 0.0)
+        worst = int(np.argmax(beyond))
+        if beyond[worst] <= 0:
+            break
+        z[worst] = np.clip(z[worst], lower[worst], upper[worst])
+        free[worst] = False
+    return z

@@ -114,7 +114,7 @@ def joint_stiffness(slope: Array, n: int) -> Array:
 
 def _grown(arm: RestingArm, load: Load) -> Array | None:
     """The equilibrium that relaxed springs lead to as gravity and tensions grow; None where the path ends."""
-    y = arm.unknowns(np.asarray(arm.model.parameters.rest_angle, dtype=float), load)
+    y = arm.unknowns(np.asarray(arm.model.changed_parameters.rest_angle, dtype=float), load)
     share, step = 0.0, 1.0
     while share < 1.0:
         found = solve_pull(arm, load, y, share=min(share + step, 1.0))
