@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 import datetime
 import importlib.metadata
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from continuum.cli.output_files import check_apart, check_writable
 from continuum.cli.tables import print_pairs
+from continuum.printable import printable
 
 if TYPE_CHECKING:
     from continuum.discovery.diagnose import Diagnosis
@@ -93,9 +93,9 @@ def _report(options: argparse.Namespace, diagnosis: Diagnosis, found: Findings) 
 
 def _how(options: argparse.Namespace) -> str:
     """How the page was made: the day, the version, and of what, without the folders."""
-    names = ", ".join(os.fsencode(Path(path).name).decode("utf-8", "backslashreplace") for path in options.data)
+    *names, model = (printable(Path(path).name) for path in (*options.data, options.model))
     day, version = datetime.datetime.now().astimezone().date().isoformat(), importlib.metadata.version("continuum")
-    return f"Made on {day} by continuum {version} of {names}; model {Path(options.model).name}, seed {options.seed}."
+    return f"Made on {day} by continuum {version} of {', '.join(names)}; model {model}, seed {options.seed}."
 
 
 def read_recording(path: str) -> Recording:

@@ -19,6 +19,7 @@ from continuum.errors import FileError
 from continuum.identification.recording import Recording
 from continuum.identification.recording_checks import Samples, repaired
 from continuum.joint_names import cable_names, phi_joint, theta_joints
+from continuum.printable import printable
 from continuum.recordings.arm_recording import TOPICS
 from continuum.recordings.bag import Bag, stamp_ns
 from continuum.recordings.named_values import named_values
@@ -50,7 +51,7 @@ def read_recording_bag(path: str | Path) -> Recording:
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
     if tensions is None:
         notes = (*notes, f"no efforts on {_CABLES}: cables taken as slack")
-    return Recording(bag.path.name, good.times, good.theta, good.rate, tensions, notes)
+    return Recording(printable(bag.path.name), good.times, good.theta, good.rate, tensions, notes)
 
 
 def _bending_joints(bag: Bag, joints: Sequence[Any]) -> tuple[str, list[str]]:

@@ -19,6 +19,7 @@ from continuum.errors import FileError
 from continuum.identification.csv_layout import hint_of_cell, hint_of_row, problem_of_header
 from continuum.identification.recording import Recording
 from continuum.identification.recording_checks import Samples, repaired
+from continuum.printable import printable
 from continuum.recordings.motion_columns import ANGLE, RATE, TENSION, TIME, Quantity
 
 
@@ -45,7 +46,7 @@ def read_recording_csv(path: str | Path) -> Recording:
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
     if others:
         notes = (*notes, f"columns that are not understood, and not used: {', '.join(others)}")
-    return Recording(path.stem, good.times, good.theta, good.rate, tensions, notes)
+    return Recording(printable(path.stem), good.times, good.theta, good.rate, tensions, notes)
 
 
 def _of_nothing(header: Sequence[str]) -> list[str]:

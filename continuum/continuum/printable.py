@@ -1,0 +1,10 @@
+"""Names of files as text that can be printed and written: not every name on a disk is in UTF-8."""
+
+from __future__ import annotations
+
+import os
+
+
+def printable(name: str) -> str:
+    """The name, bytes that are no text told as hexadecimal numbers."""
+    return os.fsencode(name).decode("utf-8", "backslashreplace")
