@@ -27,7 +27,10 @@ def shipped_name(path: Path) -> str:
 
 @st.composite
 def sections(draw: st.DrawFn, name: str) -> Section:
-    """A section of up to five joints, with any proportions and three to five cables."""
+    """A section of up to five joints, with any proportions and three to five cables.
+
+    The twist is a multiple of a microradian: the reader of these tests takes rotations under 1e-8 rad for none.
+    """
     n_joints = draw(st.integers(1, 5))
     b, a = draw(st.floats(1e-3, 0.1)), draw(st.floats(1e-3, 0.1))
     n_cables = draw(st.integers(3, 5))
@@ -36,7 +39,7 @@ def sections(draw: st.DrawFn, name: str) -> Section:
         n_joints=n_joints,
         b=b,
         a=a,
-        twist=draw(st.floats(-6.0, 6.0)),
+        twist=1e-6 * draw(st.integers(-6_000_000, 6_000_000)),
         cable_azimuths=tuple(2 * np.pi * j / n_cables for j in range(n_cables)),
         bend_limit=draw(st.floats(0.1, 0.99)) * 2 * n_joints * np.arctan2(b, a),
         link_mass=draw(st.floats(1e-3, 10.0)),

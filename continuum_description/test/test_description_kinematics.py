@@ -14,7 +14,7 @@ from continuum.kinematics.chain import section_tip_poses
 from continuum.kinematics.configuration import allen_from_jones
 from continuum.kinematics.section import section_pose
 
-TOLERANCE = 1e-8  # of m and rad: joints of tiny angles between others lose digits in the URDF
+TOLERANCE = 1e-9
 
 
 @pytest.fixture(scope="module", params=SHIPPED_ARMS, ids=shipped_name)
