@@ -50,6 +50,18 @@ def test_adequate_is_what_leaves_noise_but_for_a_few_windows() -> None:
     assert not is_adequate(trial(bad=0.08))
 
 
+def test_a_model_that_is_bad_in_one_run_alone_is_not_adequate() -> None:
+    """The motion that shows what is missing may be in no other run."""
+    few = 4
+    spread, gathered = trial(), trial()
+    for run in spread.held_out[:few]:
+        run[0] = 5 * SIZE
+    gathered.held_out[1][:few] = 5 * SIZE
+    assert unexplained(spread) == unexplained(gathered) == few / (RUNS * WINDOWS)
+    assert is_adequate(spread)
+    assert not is_adequate(gathered)
+
+
 def test_every_kind() -> None:
     for kind, verdict in judged().items():
         assert verdict.kind is kind

@@ -142,9 +142,9 @@ def test_without_slack_nothing_ever_hangs() -> None:
 
 
 def test_an_arm_that_gives_way_to_its_cables_loosens_them_and_one_that_draws_them_tightens_them() -> None:
-    """By just as much as its way changes, where motors stand still: told half of what makes them wind."""
+    """By just as much as its way changes, where motors stand still: told as much as makes them wind, and no more."""
     p, one = prototype_model(N).parameters, active(effect_of("slack_cable"), slack=0.05, speed=0.3)
-    now = Instant(moving(RELEASED, np.full(N, 0.5)), np.full(2, 0.1), p)
+    now = Instant(moving(RELEASED, np.full(N, 0.5)), one.values["least"] * np.ones(2), p)
     rate = -lengthening_rate(now.motion, p)
     assert rate[0] * rate[1] < 0
     left = one.effect.state_balance(now, one.values, np.full(2, 0.025), rate)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from identification_laws import (
     ANGLE_NOISE,
     BENDS,
+    FINE,
     PULLS,
     RATE_NOISE,
     N,
@@ -20,6 +21,7 @@ from identification_laws import (
     white_noise,
 )
 
+from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.measuring import readings
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.values import parameter_vector
@@ -48,14 +50,17 @@ EFFECTS = {
     "presliding": (Free("presliding.angle"),),
     "base_compliance": (Free("base_compliance.compliance"), Free("base_compliance.frequency")),
     "backlash": (Free("backlash.gap", 0),),
-    "slack_cable": (Free("slack_cable.slack"), Free("slack_cable.speed")),
+    "slack_cable": tuple(Free(f"slack_cable.{name}") for name in ("slack", "speed", "least", "taut")),
 }
+SUDDEN = Tolerances(3e-9, 3e-10, 0.001)
+"""For differences where a motor that is told ever less suddenly lets go."""
+
 STEP = 0.004
 """Of the differences, in units of the coordinates."""
 
 
 def residual(effect: str | None, length: float | None = 0.067, noise: Noise = WITH_DRIFT) -> WindowResidual:
-    simulator = small_simulator(effect)
+    simulator = small_simulator(effect, SUDDEN if effect == "slack_cable" else FINE)
     run = recorded(simulator, BENDS[0], np.random.default_rng(0), {"stiffness": 1.4}, 0.3, PULLS)
     return WindowResidual(simulator, run, 0, noise, FreeSpace(simulator.model, BASELINE + EFFECTS[effect]), length)
 

@@ -1,15 +1,16 @@
-"""A cable that is not pulled hangs loose, and pulls only when its motor has wound up what hangs: u exp(-g / 1 mm).
+"""A cable that is not pulled hangs loose, and pulls only when its motor has wound up what hangs: u exp(-(g / w)^2).
 
 g is the way that is still to be wound up, between 0 and slack, L the cable's way through the arm. It grows and
-shrinks with the arm and the motor, and stops within 1 mm of both ends:
+shrinks with the arm and the motor, which winds up at a speed v where it is told more than u_0 and lets go where less,
+and stops within w / 4 of both ends:
 
-  g' = r,      r = -L' - speed (2 d - 1),      d = u^2 / (u^2 + (0.1 N)^2): 1 where the motor is told to pull,
-  times tanh((slack - g) / 1 mm) where r > 0, tanh(g / 1 mm) where r < 0.
+  g' = r,      r = -L' - v s,      s = tanh(10 (u / u_0 - 1)),
+  times tanh(4 (slack - g) / w) where r > 0, tanh(4 g / w) where r < 0.
 
 Without slack g stays 0 and the cable pulls as it is told.
 
 Lines that leave a pulley or sag between motor and base hang loose by some millimetres; geared motors wind up 0.1 to
-1 m/s, so that 10 mm take 10 to 100 ms.
+1 m/s, so that 10 mm take 10 to 100 ms, and do nothing below the tension of their friction, some tenths of a newton.
 """
 
 from __future__ import annotations
@@ -25,9 +26,10 @@ from continuum.dynamics.expressions import Numbers, positive_part
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.cables import driven, lengthening_rate
+from continuum.effects.parts.cables import lengthening_rate
 
-_TAUT = 1e-3  # m: so near to an end the cable is nearly there
+_SHARP = 10.0  # how sharply a motor tells winding up from letting go
+_ENDS = 4.0  # ways from loose to taut are so much longer than the ends in which g stops
 
 
 class SlackCable(Effect):
@@ -37,6 +39,8 @@ class SlackCable(Effect):
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "slack": Parameter("s", "m", 0.0, 0.2, False, "by which a cable that is not pulled hangs loose", 0.0, 0.01),
         "speed": Parameter("v", "m/s", 0.02, 5.0, False, "at which a motor winds up what hangs loose", 0.3, 0.2),
+        "least": Parameter("u_0", "N", 0.01, 5.0, False, "tension below which a motor lets the cable hang", 0.3, 0.3),
+        "taut": Parameter("w", "m", 5e-5, 1e-2, False, "way from loose to taut", 5e-4, 5e-4),
     }
     needs_tension = True
     source = "Agrawal, Peine and Yao, IEEE Trans. Robotics 26, 2010, 914-924 (slack of cables in conduits)"
@@ -49,13 +53,16 @@ class SlackCable(Effect):
         return len(SIDES)
 
     def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
-        return u * np.exp(-state / _TAUT)
+        return u * np.exp(-((state / own["taut"]) ** 2))
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        rate = -lengthening_rate(now.motion, now.p) - own["speed"] * (2 * driven(now.u) - 1)
-        loosening, tightening = positive_part(rate), positive_part(-rate)
-        return state_rate - loosening * np.tanh((own["slack"] - state) / _TAUT) + tightening * np.tanh(state / _TAUT)
+        winding = np.tanh(_SHARP * (now.u / own["least"] - 1))
+        rate = -lengthening_rate(now.motion, now.p) - own["speed"] * winding
+        until_loose, until_taut = own["slack"] - state, state
+        loosening = positive_part(rate) * np.tanh(_ENDS * until_loose / own["taut"])
+        tightening = positive_part(-rate) * np.tanh(_ENDS * until_taut / own["taut"])
+        return state_rate - loosening + tightening
 
     def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
         """Wound up where the motor pulls."""
-        return np.asarray(np.where(2 * driven(u) > 1, 0.0, own["slack"]))
+        return np.asarray(np.where(u > own["least"], 0.0, own["slack"]))
