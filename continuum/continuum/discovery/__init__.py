@@ -14,5 +14,5 @@ residual_torque.py     what torque is missing; structure_tests.py: and what it g
 in_words.py            for a mechanic; verdict_json.py: for machines; report_html.py, pictures.py: a page
 =====================  =============================================================================
 
-Where fits begin: some_runs.py, late_beginnings.py, window_beginnings.py.
+Where fits begin: some_runs.py, likeliest_beginning.py, window_beginnings.py.
 """

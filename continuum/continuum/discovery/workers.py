@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from continuum.discovery.candidate import Addition, Extension, acts_at_joints
 from continuum.discovery.evidence import gain
 from continuum.discovery.joints import acting_joints
-from continuum.discovery.late_beginnings import with_likeliest_delay
+from continuum.discovery.likeliest_beginning import with_likeliest_beginning
 from continuum.discovery.question import Question
 from continuum.discovery.some_runs import some_runs
 from continuum.discovery.trial import Trial, fit_extension, judged
@@ -55,7 +55,7 @@ def make(question: Question, task: Task) -> Trial:
         part, near = question, task.near
         if len(question.recordings) >= _MANY_RUNS:
             part, near = some_runs(question, task.near)
-        near = with_likeliest_delay(part, task.extension, near, _LOOK_STEPS)
+        near = with_likeliest_beginning(part, task.extension, near, _LOOK_STEPS)
         return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, 0, _LOOK_STEPS))
     fitted = fit_extension(question, task.extension, task.near, task.iterations)
     whole = judged(task.extension, fitted)

@@ -7,7 +7,7 @@ it has states of its own, their values; it is traced with symbols like the rest 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -37,6 +37,8 @@ class Effect:
             units; 0 where it is certain.
         needs_tension: whether only a cable that pulls can show it.
         shifts_time: whether a little of it looks as if all tensions came later.
+        beginnings: values of some of its parameters; a fit begins at those that promise most. For effects from whose
+            usual beginning no slope leads to what is right.
     """
 
     name: ClassVar[str]
@@ -48,6 +50,7 @@ class Effect:
     state_spread: ClassVar[float] = 0.0
     needs_tension: ClassVar[bool] = False
     shifts_time: ClassVar[bool] = False
+    beginnings: ClassVar[Sequence[Mapping[str, float]]] = ()
 
     def n_states(self, n_joints: int) -> int:
         """Number of states that the effect adds."""

@@ -15,7 +15,7 @@ Lines that leave a pulley or sag between motor and base hang loose by some milli
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -43,6 +43,9 @@ class SlackCable(Effect):
         "taut": Parameter("w", "m", 5e-5, 1e-2, False, "way from loose to taut", 5e-4, 5e-4),
     }
     needs_tension = True
+    beginnings: ClassVar[Sequence[Mapping[str, float]]] = [
+        {"slack": slack, "least": least} for slack in (0.005, 0.015) for least in (0.1, 0.3, 1.0, 3.0)
+    ]
     source = "Agrawal, Peine and Yao, IEEE Trans. Robotics 26, 2010, 914-924 (slack of cables in conduits)"
     in_words = "The cables hang loose when they are not pulled, and pull only after the motor has wound that up."
     looks_like = "When a cable begins to pull nothing happens for a moment; cables that stay taut do as the model says."

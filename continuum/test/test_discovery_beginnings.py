@@ -1,0 +1,53 @@
+"""A fit begins where an effect promises most, of the beginnings that it names."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from identification_laws import BENDS, recorded, small_simulator, white_noise
+
+from continuum.discovery.candidate import Addition
+from continuum.discovery.likeliest_beginning import with_likeliest_beginning
+from continuum.discovery.question import Question
+from continuum.discovery.trial import Trial, fit_extension, judged
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.tensions import Tensions
+from continuum.identification.free import Free
+
+FREE = tuple(Free(name) for name in ("stiffness", "viscous_friction", "coulomb_friction"))
+TIMES = np.arange(0, 0.7, 1 / 120)
+SWINGING = Tensions(TIMES, 8 * np.maximum([np.sin(14 * TIMES), -np.sin(14 * TIMES)], 0.0).T)
+SLACK = (Addition("slack_cable"),)
+
+
+def question_about(slack: float, least: float) -> Question:
+    simulator, values = small_simulator("slack_cable"), {"slack_cable.slack": slack, "slack_cable.least": least}
+    random = np.random.default_rng(8)
+    runs = tuple(recorded(simulator, bend, random, values, tensions=SWINGING) for bend in BENDS[:2])
+    return Question(small_simulator().model, FREE, runs, white_noise())
+
+
+@pytest.mark.parametrize(("slack", "least"), [(0.006, 0.9), (0.014, 0.35), (0.013, 2.6)])
+def test_a_fit_of_loose_cables_begins_at_the_nearest_of_the_beginnings(slack: float, least: float) -> None:
+    question = question_about(slack, least)
+    without = judged((), fit_extension(question, ()))
+    begun = with_likeliest_beginning(question, SLACK, without, 3)
+    assert values_of(begun)["least"] == min((0.1, 0.3, 1.0, 3.0), key=lambda other: abs(np.log(other / least)))
+    assert values_of(begun)["slack"] == min((0.005, 0.015), key=lambda other: abs(np.log(other / slack)))
+    found = values_of(judged(SLACK, fit_extension(question, SLACK, begun, to_the_end=True)))
+    assert found["slack"] == pytest.approx(slack, rel=0.1)
+    assert found["least"] == pytest.approx(least, rel=0.3)  # passed in a millisecond, as a little slack is
+
+
+def values_of(trial: Trial) -> dict[str, float]:
+    """Of the effect, by name."""
+    parameters = effect_named("slack_cable").parameters
+    moved = {unknown.name.split(".")[-1]: float(by) for unknown, by in zip(trial.unknowns, trial.amounts, strict=True)}
+    return {name: (parameters[name].default or 0.0) + by for name, by in moved.items() if name in parameters}
+
+
+def test_effects_that_name_no_beginnings_begin_as_always() -> None:
+    question = question_about(0.0, 0.3)
+    without = judged((), fit_extension(question, ()))
+    assert with_likeliest_beginning(question, (Addition("quadratic_drag"),), without, 3) is without
+    assert with_likeliest_beginning(question, (), without, 3) is without
