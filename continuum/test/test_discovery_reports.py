@@ -13,6 +13,7 @@ from discovery_verdicts import BAD, found, judged, score
 from continuum.discovery.candidate import Addition
 from continuum.discovery.in_words import cost_in_words, verdict_in_words, worth_in_words
 from continuum.discovery.judgement import judge
+from continuum.discovery.motion_phases import PHASES
 from continuum.discovery.verdict import Kind
 from continuum.discovery.verdict_json import as_mapping, write_json
 from continuum.dynamics.effect_lookup import effect_named
@@ -62,8 +63,12 @@ def test_every_kind_for_machines(kind: Kind, tmp_path: Path) -> None:
         assert set(one["parameters"]) == set(effect_named(one["effect"]).parameters)
         for entry in one["parameters"].values():
             assert entry["low"] <= entry["value"] <= entry["high"]
-    assert read["nrmse_position"] == {"run_1": {"before": 0.4, "after": 0.1}, "run_2": {"before": None, "after": 0.2}}
-    assert read["nrmse_velocity"]["run_1"] == {"before": 0.8, "after": 0.2}
+    one, other = (read["nrmse_position"][run] for run in ("run_1", "run_2"))
+    assert (one["before"], one["after"], other["before"], other["after"]) == (0.4, 0.1, None, 0.2)
+    assert one["before_interval"] == [0.3, 0.5]
+    assert other["before_interval"] == [None, None]
+    assert read["nrmse_velocity"]["run_1"]["after"] == 0.2
+    assert set(read["errors_by_phase"]["before"]) == set(PHASES)
     assert (read["weakness"], read["notes"]) == ("two recordings only", ["run_1: row 7 left out"])
 
 

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, dry_friction, joint_friction
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.load_friction import joint_force
+from continuum.effects.parts.joint_force import joint_force
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -90,6 +91,12 @@ def worth_in_words(closed: float) -> str:
     if closed <= 0.0:
         return "The extension predicts runs that it was not fitted to no better"
     return f"The extension closes {100 * closed:.0f} % of the distance to the noise"
+
+
+def with_interval(score: float, interval: tuple[float, float]) -> str:
+    """A score and its 95 % interval."""
+    low, high = interval
+    return f"{score:.3f} ({low:.3f} to {high:.3f})" if math.isfinite(high) else f"{score:.3f}"
 
 
 def cost_in_words(before: Sequence[RunScore], after: Sequence[RunScore]) -> str:

@@ -22,7 +22,8 @@ from continuum.identification.drawn_models import drawn_models
 from continuum.identification.free import Free
 from continuum.identification.free_run import begun, free_run
 from continuum.identification.noise import Noise
-from continuum.identification.nrmse import nrmse, position_nrmse, rate_nrmse
+from continuum.identification.nrmse import measured_rates, nrmse, position_nrmse, rate_nrmse
+from continuum.identification.nrmse_interval import nrmse_interval
 from continuum.identification.recording import Recording
 
 _ITERATIONS = 8
@@ -45,6 +46,7 @@ class RunScore:
         recording: what they did read.
         spread: Eq. 19 of the free runs of models that the fit does not tell from its own, beside its own; 0 of a run
             that is not far from what was measured.
+        position_interval, rate_interval: 95 % intervals of both; infinite where they are.
     """
 
     name: str
@@ -55,6 +57,8 @@ class RunScore:
     seen: Reading | None
     recording: Recording
     spread: float = 0.0
+    position_interval: tuple[float, float] = (np.inf, np.inf)
+    rate_interval: tuple[float, float] = (np.inf, np.inf)
 
 
 def held_out_scores(question: Question, trial: Trial, split: Split, random: np.random.Generator) -> list[RunScore]:
@@ -64,7 +68,7 @@ def held_out_scores(question: Question, trial: Trial, split: Split, random: np.r
         question: data and model.
         trial: the extension, and where fits of it start.
         split: the halves.
-        random: for the spread of predictions that are far off.
+        random: for the intervals, and the spread of predictions that are far off.
     """
     found: list[RunScore] = []
     for half in (split.swapped, split):
@@ -73,7 +77,7 @@ def held_out_scores(question: Question, trial: Trial, split: Split, random: np.r
         simulator = Simulator(extended(question.model, trial.extension), TOLERANCES).around(fitted.model)
         own = _own_unknowns(trial)
         for recording in half.validation:
-            score = _scored(simulator, recording, question.noise, own)
+            score = _scored(simulator, recording, question.noise, own, random)
             if score.seen is not None and score.position > _FAR * score.floor:
                 models = drawn_models(fitted, random, _DRAWS)
                 others = [free_run(simulator.around(model), recording, question.noise, own) for model in models]
@@ -125,7 +129,9 @@ def _closed(before: RunScore, after: RunScore) -> float:
     return (before.position - after.position) / (before.position - before.floor)
 
 
-def _scored(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...]) -> RunScore:
+def _scored(
+    simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...], random: np.random.Generator
+) -> RunScore:
     run = begun(simulator, recording, noise, own)
     began = time.process_time()
     seen = None if run is None else run.simulate()
@@ -134,7 +140,11 @@ def _scored(simulator: Simulator, recording: Recording, noise: Noise, own: tuple
     if seen is None:
         return RunScore(recording.name, np.inf, np.inf, floor, seconds, None, recording)
     position, rate = position_nrmse(seen, recording), rate_nrmse(seen, recording)
-    return RunScore(recording.name, position, rate, floor, seconds, seen, recording)
+    return RunScore(
+        recording.name, position, rate, floor, seconds, seen, recording,
+        position_interval=nrmse_interval(seen.theta, recording.theta, random),
+        rate_interval=nrmse_interval(seen.theta_rate, measured_rates(recording), random),
+    )  # fmt: skip
 
 
 def _own_unknowns(trial: Trial) -> tuple[Free, ...]:

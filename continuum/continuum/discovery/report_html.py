@@ -7,10 +7,13 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from pathlib import Path
 
+import numpy as np
+
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
 from continuum.discovery.findings import Estimate, Findings
-from continuum.discovery.in_words import cost_in_words, in_full, verdict_in_words, worth_in_words
+from continuum.discovery.in_words import cost_in_words, in_full, verdict_in_words, with_interval, worth_in_words
+from continuum.discovery.motion_phases import PHASES, errors_by_phase
 from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
 from continuum.discovery.residual_torque import ResidualTorque
 from continuum.discovery.round import Round
@@ -28,6 +31,10 @@ td:first-child, th:first-child { text-align: left; } th { border-bottom: 1px sol
 img { max-width: 100%; } .note { color: #666; font-size: .85rem; }
 """
 _FREE = "Free simulation from the first instant, by models that were fitted to"
+_PHASES = (
+    "The same errors by joint and by what the joint is doing, root mean square over all runs [degrees]. A joint is at "
+    "rest below 6 degrees/s, and turns back where that lasts for less than a tenth of a second between two ways."
+)
 _MISSING = (
     "Torque that a model would need beside its own to follow the measurements, by angle and by rate. What it goes with "
     "is a hint to its kind (the less p the surer; above 0.05 it is none); the verdict rests on the effects tried below."
@@ -68,13 +75,21 @@ def write_report(
         _table(
             ("run", "position, refitted", "extended", "noise alone", "rate, refitted", "extended"),
             [
-                (b.name, *(f"{x:.3f}" for x in (b.position, a.position, b.floor, b.rate, a.rate)))
+                (
+                    b.name,
+                    with_interval(b.position, b.position_interval),
+                    with_interval(a.position, a.position_interval),
+                    f"{b.floor:.3f}",
+                    with_interval(b.rate, b.rate_interval),
+                    with_interval(a.rate, a.rate_interval),
+                )
                 for b, a in zip(found.before, found.after, strict=True)
             ],
         ),
-        '<p class="note">Eq. 19 of the thesis: root mean square error by standard deviation, mean over the joints.'
-        + (f" {_worth(found)}" if extended else "")
-        + "</p>",
+        '<p class="note">Eq. 19 of the thesis: root mean square error by standard deviation, mean over the joints, '
+        "with 95 % intervals from stretches of the run." + (f" {_worth(found)}" if extended else "") + "</p>",
+        f'<p class="note">{_PHASES}</p>',
+        _phases(found, extended),
         "<h2>What is missing</h2>",
         f'<p class="note">{_MISSING}</p>',
         _image(torque_picture(*torques)),
@@ -122,6 +137,21 @@ def _run_numbers(diagnosis: Diagnosis, found: Findings) -> str:
         return ""
     names = [f"run {i} is {recording.name}" for i, recording in enumerate(diagnosis.question.recordings, 1)]
     return f'<p class="note">{escape("; ".join(names))}.</p>'
+
+
+def _phases(found: Findings, extended: bool) -> str:
+    before, after = np.rad2deg(errors_by_phase(found.before)), np.rad2deg(errors_by_phase(found.after))
+    rows = [
+        (phase, *(_changed(b, a, extended) for b, a in zip(*errors, strict=True)))
+        for phase, *errors in zip(PHASES, before, after, strict=True)
+    ]
+    return _table(
+        ("refitted -> extended" if extended else "", *(f"joint {j + 1}" for j in range(before.shape[1]))), rows
+    )
+
+
+def _changed(before: float, after: float, extended: bool) -> str:
+    return " -> ".join("-" if np.isnan(x) else f"{x:.2f}" for x in ((before, after) if extended else (before,)))
 
 
 def _others(diagnosis: Diagnosis) -> str:

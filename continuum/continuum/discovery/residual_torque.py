@@ -16,12 +16,15 @@ from numpy.typing import NDArray
 from continuum.arrays import Array
 from continuum.discovery.question import Question
 from continuum.discovery.trial import TOLERANCES
+from continuum.discovery.turns import way_since_turn
 from continuum.dynamics.effect import Effect, Own
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
+from continuum.dynamics.planar.motion import Motion
 from continuum.dynamics.simulator import Simulator
+from continuum.effects.parts.joint_force import joint_force
 from continuum.identification.arrow_least_squares import reduced
 from continuum.identification.fit import fit
 from continuum.identification.free import Free
@@ -54,6 +57,8 @@ class ResidualTorque:
         torque, deviation: missing torque and its standard deviation by noise alone, (n_windows, n_joints) [N m].
         theta, theta_rate: joint angles and rates there, (n_windows, n_joints) [rad, rad/s].
         tension: of the cables, (n_windows, n_cables) [N].
+        load: force that each joint passes on, (n_windows, n_joints) [N].
+        way_since_turn: how far each joint has gone since it last turned back, (n_windows, n_joints) [rad].
     """
 
     run: str
@@ -63,6 +68,8 @@ class ResidualTorque:
     theta: Array
     theta_rate: Array
     tension: Array
+    load: Array
+    way_since_turn: Array
 
     @property
     def is_told(self) -> NDArray[np.bool_]:
@@ -97,16 +104,24 @@ def residual_torques(question: Question, model: Model) -> list[ResidualTorque]:
         times = recording.times[middle]
         rate = np.gradient(recording.theta, recording.times, axis=0)
         rate = rate if recording.theta_rate is None else recording.theta_rate
-        tension = np.array([recording.pull.at(t) for t in times])
+        theta, tension = recording.theta[middle], np.array([recording.pull.at(t) for t in times])
         found.append(
             ResidualTorque(
                 recording.name,
                 times,
                 np.array(torque),
                 np.array(deviation),
-                recording.theta[middle],
+                theta,
                 rate[middle],
                 tension,
+                np.array([_load(model, *at) for at in zip(theta, rate[middle], tension, strict=True)]),
+                way_since_turn(recording.theta)[middle],
             )
         )
     return found
+
+
+def _load(model: Model, theta: Array, theta_rate: Array, u: Array) -> Array:
+    """Size of the force that each joint passes on, (n,) [N], the plate at rest."""
+    motion = Motion(theta, theta_rate, np.zeros(theta.size), *np.zeros((3, 1)))
+    return np.linalg.norm(joint_force(Instant(motion, u, model.changed_parameters)), axis=1)

@@ -1,4 +1,4 @@
-"""Does the missing torque go with something: position, direction, speed, tension, load, time, order of runs?
+"""Does the missing torque go with something: position, direction, speed, tension, load, turns, time, order?
 
 Correlations by ranks, so that few large values do not decide. Their probability by chance respects that neighbouring
 windows are alike: what chance gives is seen by turning each run's series against the other by random amounts (Theiler
@@ -17,18 +17,27 @@ from continuum.arrays import Array
 from continuum.discovery.residual_torque import ResidualTorque
 
 _DRAWS = 400
+_ROUNDING = 1e-12
+
+_QUICK, _SOON = 0.05, 0.03  # rad/s beyond which a direction is clear; rad after a turn that are soon after it
 
 _LOOKS: dict[str, Callable[[ResidualTorque, int], Array]] = {
     "position": lambda r, j: r.theta[:, j],
-    "direction of motion": lambda r, j: np.tanh(r.theta_rate[:, j] / 0.05),
+    "direction of motion": lambda r, j: _direction(r, j),
     "speed": lambda r, j: r.theta_rate[:, j],
     "speed squared, signed": lambda r, j: r.theta_rate[:, j] * np.abs(r.theta_rate[:, j]),
     "cube of the angle": lambda r, j: r.theta[:, j] ** 3,
     "difference of tensions": lambda r, _: r.tension[:, 0] - r.tension[:, 1],
-    "direction times tension": lambda r, j: np.tanh(r.theta_rate[:, j] / 0.05) * r.tension.sum(axis=1),
+    "direction times tension": lambda r, j: _direction(r, j) * r.tension.sum(axis=1),
+    "direction times load": lambda r, j: _direction(r, j) * r.load[:, j],
+    "direction soon after a reversal": lambda r, j: _direction(r, j) * np.exp(-r.way_since_turn[:, j] / _SOON),
     "position of the whole arm": lambda r, _: r.theta.sum(axis=1),
     "time within the run": lambda r, _: r.times - r.times[0],
 }
+
+
+def _direction(r: ResidualTorque, joint: int) -> Array:
+    return np.tanh(r.theta_rate[:, joint] / _QUICK)
 
 
 @dataclass(frozen=True)
@@ -72,19 +81,22 @@ def structure_tests(residuals: Sequence[ResidualTorque], random: np.random.Gener
 def _tested(
     joint: int, against: str, torque: Sequence[Array], other: Sequence[Array], random: np.random.Generator
 ) -> StructureTest:
-    y = rankdata(np.concatenate(other))
-    found = _correlation(np.concatenate(torque), y)
+    x, y = _unit_ranks(torque), _unit_ranks(other)
+    ranks = np.concatenate(y)
+    found = float(np.concatenate(x) @ ranks)
     draws = np.empty(_DRAWS)
     for i in range(_DRAWS):
-        turned = [np.roll(series, random.integers(series.size)) for series in torque]
+        turned = [np.roll(series, random.integers(series.size)) for series in x]
         if against == "order of the runs":
             turned = [turned[k] for k in random.permutation(len(turned))]
-        draws[i] = _correlation(np.concatenate(turned), y)
-    p_value = (1 + np.sum(np.abs(draws) >= abs(found))) / (1 + _DRAWS)
+        draws[i] = np.concatenate(turned) @ ranks
+    p_value = (1 + np.sum(np.abs(draws) >= abs(found) - _ROUNDING)) / (1 + _DRAWS)
     return StructureTest(joint, against, found, float(p_value))
 
 
-def _correlation(x: Array, ranks: Array) -> float:
-    if np.ptp(x) == 0:  # nothing told of this joint
-        return 0.0
-    return float(np.corrcoef(rankdata(x), ranks)[0, 1])
+def _unit_ranks(series: Sequence[Array]) -> list[Array]:
+    """Ranks of all runs' values together, run by run, less their mean and of unit length; 0 where all are alike."""
+    ranks = rankdata(np.concatenate(series))
+    away = ranks - ranks.mean()
+    size = float(np.linalg.norm(away))
+    return np.split(away / size if size > 0 else away, np.cumsum([one.size for one in series])[:-1])

@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from continuum.discovery.findings import Estimate, Findings
+from continuum.discovery.measured_gain import RunScore
+from continuum.discovery.motion_phases import PHASES, errors_by_phase
 from continuum.discovery.verdict import Cause, Kind
 from continuum.whole_file import write_whole
 
@@ -36,6 +38,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
         "nrmse_position": _scores(found, "position"),
         "nrmse_velocity": _scores(found, "rate"),
         "gap_closed": found.closed,
+        "errors_by_phase": {"unit": "rad", "before": _by_phase(found.before), "after": _by_phase(found.after)},
         "parameters": [{"name": str(e.unknown), **_estimate(e)} for e in found.estimates],
         "complete": not (unknown or verdict.nearly),
         "vague": verdict.vague,
@@ -63,11 +66,27 @@ def _estimate(e: Estimate) -> dict[str, Any]:
     return {"value": e.value, "low": e.low, "high": e.high, "unit": e.unit, "at_limit": e.at_limit}
 
 
-def _scores(found: Findings, what: str) -> dict[str, dict[str, float | None]]:
-    """By run; null where a model could not be simulated."""
+def _scores(found: Findings, what: str) -> dict[str, dict[str, object]]:
+    """By run, with 95 % intervals; null where a model could not be simulated."""
+    told: dict[str, dict[str, object]] = {}
+    for b, a in zip(found.before, found.after, strict=True):
+        between = [getattr(score, f"{what}_interval") for score in (b, a)]
+        told[b.name] = {
+            "before": _number(getattr(b, what)),
+            "after": _number(getattr(a, what)),
+            "before_interval": [_number(end) for end in between[0]],
+            "after_interval": [_number(end) for end in between[1]],
+        }
+    return told
 
-    def number(score: object) -> float | None:
-        value = float(getattr(score, what))
-        return value if math.isfinite(value) else None
 
-    return {b.name: {"before": number(b), "after": number(a)} for b, a in zip(found.before, found.after, strict=True)}
+def _by_phase(scores: Sequence[RunScore]) -> dict[str, list[float | None]]:
+    """Error of free runs in every phase of motion, joint by joint; null where no joint was in it."""
+    return {
+        phase: [_number(error) for error in errors]
+        for phase, errors in zip(PHASES, errors_by_phase(scores), strict=True)
+    }
+
+
+def _number(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None

@@ -19,12 +19,11 @@ from typing import ClassVar
 import numpy as np
 
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.expressions import Numbers, positive_part, smooth_sign, suffix_sum
+from continuum.dynamics.expressions import Numbers, smooth_sign
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.eq13_joint_friction import dry_friction
-from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.links import along, sum_before
+from continuum.effects.parts.joint_force import joint_force
 
 _LEAST_FORCE = 0.1  # N
 
@@ -51,13 +50,3 @@ class LoadFriction(Effect):
         size = np.sqrt((force * force).sum(axis=1) + _LEAST_FORCE**2)
         rubbing = replace(p, coulomb_friction=own["radius"] * size, stribeck_gain=own["stribeck"])
         return dry_friction(w, rubbing) * smooth_sign(w, p.friction_slope)
-
-
-def joint_force(now: Instant) -> Numbers:
-    """Force of what lies before each joint on what lies beyond it, (n, 2) in (x, z) [N]; accelerations as 0."""
-    move, p = now.motion, now.p
-    phi, turning = move.link_angle, (move.link_rate**2)[:, None] * along(move.link_angle)
-    inwards = sum_before(p.joint_spacing[:, None] * turning) + p.center_of_mass[:, None] * turning
-    down = p.gravity * np.concatenate([-np.sin(p.hang_angle), np.cos(p.hang_angle)])
-    pull = (tension_propagation(move.theta, move.theta_rate, p) * positive_part(now.u)).sum(axis=1)
-    return pull[:, None] * along(phi - move.theta / 2) - suffix_sum(p.mass[:, None] * (inwards + down))

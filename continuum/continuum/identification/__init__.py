@@ -13,6 +13,7 @@ arrow_least_squares.py  Levenberg-Marquardt for shared unknowns and unknowns of 
 likeliest.py            of unknowns that mean the same arm those that are likeliest
 fit.py                  all of it together; free_run.py: one run simulated from its first instant
 nrmse.py, swarm.py      the thesis's objective (Eq. 19) and its particle swarm (Table 2)
+nrmse_interval.py       how well the objective is known of one run
 fisher.py               what the data can tell; bootstrap.py: intervals
 ======================  ============================================================================
 """
