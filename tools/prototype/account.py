@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.discovery.answer import answer
 from continuum.discovery.candidate import Addition
-from continuum.discovery.diagnose import Diagnosis, diagnose
+from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
-from continuum.discovery.findings import findings
 from continuum.discovery.in_words import verdict_in_words
 from continuum.discovery.trial import Trial, fit_extension, judged
 from continuum.discovery.verdict_json import as_mapping
@@ -113,7 +113,7 @@ def account(tell: Tell, processes: int | None = None, seed: int = 0) -> Account:
         seed: of intervals and swarm.
     """
     measured, author = (read_recording_csv(DATA / f"rep7_{name}.csv") for name in ("measured", "simulated"))
-    model, noise, random = load_model("lamecc_prototype.yaml"), estimate_noise([measured]), np.random.default_rng(seed)
+    model, noise = load_model("lamecc_prototype.yaml"), estimate_noise([measured])
     tell("the thesis's parameters", 0.0)
     published = Simulated(
         "the author's own simulation, as published",
@@ -126,15 +126,14 @@ def account(tell: Tell, processes: int | None = None, seed: int = 0) -> Account:
         free(model, measured, noise, "its parameters, begun as the first window asks"),
         whole(model, measured, noise, "its parameters, begun as the whole run asks", ()),
     ]
-    diagnosis = diagnose(Dataset((measured,)), model, processes=processes, tell=tell)
-    found = findings(diagnosis, random)
+    diagnosis, found = answer(Dataset((measured,)), model, seed, processes, tell)
     tell("refitting to the whole run", 0.0)
     five = tuple(Free(name) for name in THESIS_PARAMETERS)
     refitted = [
         free(found.refitted, measured, noise, "refitted by windows, begun as the first window asks"),
         whole(found.refitted, measured, noise, "refitted to the whole run, from there", five),
         whole(model, measured, noise, "refitted to the whole run, from the thesis's parameters", five),
-        swarmed(model, measured, noise, random),
+        swarmed(model, measured, noise, np.random.default_rng(seed)),
     ]
     extended = None
     if found.verdict.extension:

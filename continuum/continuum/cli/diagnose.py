@@ -56,19 +56,14 @@ def run(options: argparse.Namespace) -> int:
 
 def _diagnose(options: argparse.Namespace, model: Model, recordings: Sequence[Recording]) -> int:
     # Here, so that the other commands, and data that are refused, need not wait for numba.
-    import numpy as np
-
     from continuum.cli.progress import told
-    from continuum.discovery.diagnose import diagnose
-    from continuum.discovery.findings import findings
+    from continuum.discovery.answer import answer
     from continuum.discovery.verdict_json import write_json
     from continuum.dynamics.model_file import save_model
     from continuum.identification.dataset import Dataset
 
     with told() as tell:
-        diagnosis = diagnose(Dataset(tuple(recordings)), model, processes=options.processes, tell=tell)
-        tell("predicting runs that were held out", 1.0)
-        found = findings(diagnosis, np.random.default_rng(options.seed))
+        diagnosis, found = answer(Dataset(tuple(recordings)), model, options.seed, options.processes, tell)
     _show(found)
     if options.json is not None:
         write_json(found, options.json)

@@ -1,7 +1,8 @@
 """Discovery: what a simulation gets wrong, the cause by name, the model extended by it, and the gain measured.
 
 =====================  =============================================================================
-diagnose.py            all of it for a dataset; question.py: what stays the same throughout
+answer.py              all of it for a dataset, and no cause that may as well be absent
+diagnose.py            from data to a verdict; question.py: what stays the same throughout
 candidate.py           an effect as an extension of a model: what of it is unknown; joints.py: at which joints
 trial.py               one extension fitted; held_out.py: and tested on runs that it has not seen
 evidence.py            what trials say against each other, and whether what they leave is noise

@@ -33,7 +33,8 @@ def runs_picture(before: Sequence[RunScore], after: Sequence[RunScore], extended
             if row == 0:
                 ax.set_title(f"joint {joint + 1}", fontsize=8)
         axes[row, 0].set_ylabel(f"{old.name} [deg]", fontsize=7)
-    axes[0, 0].legend(fontsize=6, frameon=False)
+    lines = axes[0, 0].get_legend_handles_labels()
+    figure.legend(*lines, loc="outside upper right", ncols=3, fontsize=7, frameon=False)
     for ax in axes[-1]:
         ax.set_xlabel("time [s]", fontsize=7)
     return _png(figure)

@@ -13,6 +13,7 @@ from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
 from continuum.discovery.findings import Estimate, Findings
 from continuum.discovery.in_words import cost_in_words, in_full, verdict_in_words, with_interval, worth_in_words
+from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.motion_phases import PHASES, errors_by_phase
 from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
 from continuum.discovery.residual_torque import ResidualTorque
@@ -73,18 +74,8 @@ def write_report(
         f'<p class="note">{_FREE} {_others(diagnosis)}.</p>',
         _image(runs_picture(found.before, found.after, extended)),
         _table(
-            ("run", "position, refitted", "extended", "noise alone", "rate, refitted", "extended"),
-            [
-                (
-                    b.name,
-                    with_interval(b.position, b.position_interval),
-                    with_interval(a.position, a.position_interval),
-                    f"{b.floor:.3f}",
-                    with_interval(b.rate, b.rate_interval),
-                    with_interval(a.rate, a.rate_interval),
-                )
-                for b, a in zip(found.before, found.after, strict=True)
-            ],
+            ("run", "", "refitted", "extended", "noise alone"),
+            [row for b, a in zip(found.before, found.after, strict=True) for row in _scores(b, a)],
         ),
         '<p class="note">Eq. 19 of the thesis: root mean square error by standard deviation, mean over the joints, '
         "with 95 % intervals from stretches of the run." + (f" {_worth(found)}" if extended else "") + "</p>",
@@ -137,6 +128,12 @@ def _run_numbers(diagnosis: Diagnosis, found: Findings) -> str:
         return ""
     names = [f"run {i} is {recording.name}" for i, recording in enumerate(diagnosis.question.recordings, 1)]
     return f'<p class="note">{escape("; ".join(names))}.</p>'
+
+
+def _scores(before: RunScore, after: RunScore) -> Iterable[Sequence[str]]:
+    position = [with_interval(one.position, one.position_interval) for one in (before, after)]
+    yield before.name, "position", *position, f"{before.floor:.3f}"
+    yield "", "rate", *(with_interval(one.rate, one.rate_interval) for one in (before, after)), ""
 
 
 def _phases(found: Findings, extended: bool) -> str:

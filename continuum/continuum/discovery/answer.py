@@ -1,0 +1,75 @@
+"""The whole answer: a diagnosis and its findings, in which no effect is named whose size may as well be none.
+
+An effect may help by what it leaves open beside its size, such as the tension with which a run begins. Where no size of
+an effect that is named is told from none by its interval, all is diagnosed again without that effect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from continuum.discovery.diagnose import Diagnosis, diagnose
+from continuum.discovery.findings import Findings, findings
+from continuum.discovery.search import Tell, tell_nobody
+from continuum.discovery.verdict import Kind
+from continuum.dynamics.effect_lookup import effect_named, effect_names
+from continuum.dynamics.model import Model
+from continuum.identification.dataset import Dataset
+
+_NEXT_TO_NONE = 1e-3  # of a typical size
+
+
+def answer(
+    dataset: Dataset,
+    model: Model,
+    seed: int = 0,
+    processes: int | None = None,
+    tell: Tell = tell_nobody,
+    effects: Sequence[str] | None = None,
+) -> tuple[Diagnosis, Findings]:
+    """Diagnose a model by data, and work out all that there is to tell.
+
+    Args:
+        dataset: runs of the arm.
+        model: with nominal values.
+        seed: of the intervals.
+        processes: how many work at once; as many as there are cores without.
+        tell: told of progress.
+        effects: names of those to try; all that are installed without.
+
+    Raises:
+        InvalidValueError: as of `continuum.discovery.diagnose.diagnose`.
+    """
+    tried = list(effects or effect_names())
+    while True:
+        diagnosis = diagnose(dataset, model, processes=processes, tell=tell, effects=tried)
+        tell("predicting runs that were held out", 1.0)
+        found = findings(diagnosis, np.random.default_rng(seed))
+        absent = absent_causes(found)
+        if not absent:
+            return diagnosis, found
+        tell(f"once more without {', '.join(sorted(absent))}, which may as well be absent", 0.0)
+        tried = [name for name in tried if name not in absent]
+
+
+def absent_causes(found: Findings) -> set[str]:
+    """Effects that are named, as causes or alternatives, and of which no size is told from none."""
+    verdict = found.verdict
+    if verdict.kind not in (Kind.CAUSE, Kind.AMBIGUOUS):
+        return set()
+    told = {
+        estimate.unknown.name.split(".")[0]
+        for estimate in (*found.estimates, *(one for own in found.others for one in own))
+        if "." in estimate.unknown.name and _is_there(estimate.unknown.name, estimate.low, estimate.high)
+    }
+    return {cause.addition.effect for cause in (*verdict.causes, *verdict.alternatives)} - told
+
+
+def _is_there(name: str, low: float, high: float) -> bool:
+    """Whether an interval tells a size from none; what is no size only says what an effect looks like."""
+    effect, parameter = name.split(".")
+    meant = effect_named(effect).parameters[parameter]
+    margin = _NEXT_TO_NONE * (meant.typical or 1.0)
+    return meant.default == 0 and (low > margin or high < -margin)

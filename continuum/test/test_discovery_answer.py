@@ -1,0 +1,82 @@
+"""No effect is named that may as well be absent."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from discovery_laws import a_round, trial
+from discovery_verdicts import BAD, WORSE, found, judged
+from identification_laws import releases, small_simulator
+
+import continuum.discovery.answer as asked
+from continuum.discovery.candidate import Addition
+from continuum.discovery.findings import Estimate, Findings
+from continuum.discovery.judgement import judge
+from continuum.discovery.verdict import Kind
+from continuum.identification.dataset import Dataset
+from continuum.identification.free import Free
+
+
+def named(effect: str, *estimates: Estimate) -> Findings:
+    """Findings that name one effect."""
+    verdict = judge(BAD, [a_round(BAD, trial(effect, seed=1), WORSE)])
+    assert verdict.kind is Kind.CAUSE
+    return replace(found(verdict), estimates=estimates)
+
+
+def of(name: str, low: float, high: float, run: int | None = None) -> Estimate:
+    return Estimate(Free(name, None, run), (low + high) / 2, low, high, "kg")
+
+
+def test_a_size_that_is_told_from_none_is_enough() -> None:
+    assert not asked.absent_causes(named("tip_payload", of("tip_payload.mass", 0.02, 0.05)))
+    assert not asked.absent_causes(named("base_tilt", of("base_tilt.angle", -0.05, -0.02)))
+    offsets = [of("angle_offset.offset", -0.1, 0.1, 0), of("angle_offset.offset", 0.1, 0.2, 1)]
+    assert not asked.absent_causes(named("angle_offset", *offsets))
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.0, 0.1), (-0.1, 0.1), (1e-6, 0.1), (0.0, 0.0)])
+def test_a_size_that_may_as_well_be_none_is_no_cause(low: float, high: float) -> None:
+    assert asked.absent_causes(named("tip_payload", of("tip_payload.mass", low, high))) == {"tip_payload"}
+
+
+def test_what_only_says_what_an_effect_looks_like_is_no_size() -> None:
+    stiff = [of("elastic_cable.lag", 0.0, 0.06), of("elastic_cable.stiffness", 800.0, 1200.0)]
+    assert asked.absent_causes(named("elastic_cable", *stiff)) == {"elastic_cable"}
+
+
+def test_alternatives_are_held_to_the_same() -> None:
+    both = replace(found(judged()[Kind.AMBIGUOUS]), estimates=(of("tip_payload.mass", 0.02, 0.05),))
+    assert not asked.absent_causes(replace(both, others=((of("base_tilt.angle", 0.01, 0.02),),)))
+    assert asked.absent_causes(replace(both, others=((of("base_tilt.angle", -0.01, 0.02),),))) == {"base_tilt"}
+
+
+@pytest.mark.parametrize("kind", [Kind.ADEQUATE, Kind.UNKNOWN])
+def test_where_nothing_is_named_nothing_is_absent(kind: Kind) -> None:
+    assert not asked.absent_causes(replace(found(judged()[kind]), estimates=(of("tip_payload.mass", 0.0, 1.0),)))
+
+
+def test_all_is_asked_again_without_what_may_as_well_be_absent(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried: list[list[str]] = []
+    told: list[str] = []
+
+    def diagnosed(*_given: object, effects: list[str], **_options: object) -> str:
+        tried.append(effects)
+        return effects[0]
+
+    def worked_out(effect: str, _random: np.random.Generator) -> Findings:
+        return named(effect, of(f"{effect}.{'mass' if effect == 'tip_payload' else 'drag'}", *sizes[effect]))
+
+    sizes = {"tip_payload": (0.0, 0.1), "quadratic_drag": (1.0, 2.0)}
+    monkeypatch.setattr(asked, "diagnose", diagnosed)
+    monkeypatch.setattr(asked, "findings", worked_out)
+    runs = Dataset(tuple(releases(2, small_simulator(), 0)))
+    diagnosis, answered = asked.answer(
+        runs, small_simulator().model, tell=lambda what, _part: told.append(what), effects=list(sizes)
+    )
+    assert tried == [["tip_payload", "quadratic_drag"], ["quadratic_drag"]]
+    assert diagnosis == "quadratic_drag"
+    assert answered.verdict.causes[0].addition == Addition("quadratic_drag")
+    assert sum("without tip_payload" in what for what in told) == 1
