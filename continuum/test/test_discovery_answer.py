@@ -31,31 +31,31 @@ def of(name: str, low: float, high: float, run: int | None = None) -> Estimate:
 
 
 def test_a_size_that_is_told_from_none_is_enough() -> None:
-    assert not asked.absent_causes(named("tip_payload", of("tip_payload.mass", 0.02, 0.05)))
-    assert not asked.absent_causes(named("base_tilt", of("base_tilt.angle", -0.05, -0.02)))
+    assert None is asked.absent_cause(named("tip_payload", of("tip_payload.mass", 0.02, 0.05)))
+    assert None is asked.absent_cause(named("base_tilt", of("base_tilt.angle", -0.05, -0.02)))
     offsets = [of("angle_offset.offset", -0.1, 0.1, 0), of("angle_offset.offset", 0.1, 0.2, 1)]
-    assert not asked.absent_causes(named("angle_offset", *offsets))
+    assert None is asked.absent_cause(named("angle_offset", *offsets))
 
 
 @pytest.mark.parametrize(("low", "high"), [(0.0, 0.1), (-0.1, 0.1), (1e-6, 0.1), (0.0, 0.0)])
 def test_a_size_that_may_as_well_be_none_is_no_cause(low: float, high: float) -> None:
-    assert asked.absent_causes(named("tip_payload", of("tip_payload.mass", low, high))) == {"tip_payload"}
+    assert asked.absent_cause(named("tip_payload", of("tip_payload.mass", low, high))) == "tip_payload"
 
 
 def test_what_only_says_what_an_effect_looks_like_is_no_size() -> None:
     stiff = [of("elastic_cable.lag", 0.0, 0.06), of("elastic_cable.stiffness", 800.0, 1200.0)]
-    assert asked.absent_causes(named("elastic_cable", *stiff)) == {"elastic_cable"}
+    assert asked.absent_cause(named("elastic_cable", *stiff)) == "elastic_cable"
 
 
 def test_alternatives_are_held_to_the_same() -> None:
     both = replace(found(judged()[Kind.AMBIGUOUS]), estimates=(of("tip_payload.mass", 0.02, 0.05),))
-    assert not asked.absent_causes(replace(both, others=((of("base_tilt.angle", 0.01, 0.02),),)))
-    assert asked.absent_causes(replace(both, others=((of("base_tilt.angle", -0.01, 0.02),),))) == {"base_tilt"}
+    assert None is asked.absent_cause(replace(both, others=((of("base_tilt.angle", 0.01, 0.02),),)))
+    assert asked.absent_cause(replace(both, others=((of("base_tilt.angle", -0.01, 0.02),),))) == "base_tilt"
 
 
 @pytest.mark.parametrize("kind", [Kind.ADEQUATE, Kind.UNKNOWN])
 def test_where_nothing_is_named_nothing_is_absent(kind: Kind) -> None:
-    assert not asked.absent_causes(replace(found(judged()[kind]), estimates=(of("tip_payload.mass", 0.0, 1.0),)))
+    assert None is asked.absent_cause(replace(found(judged()[kind]), estimates=(of("tip_payload.mass", 0.0, 1.0),)))
 
 
 def test_all_is_asked_again_without_what_may_as_well_be_absent(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -63,20 +63,40 @@ def test_all_is_asked_again_without_what_may_as_well_be_absent(monkeypatch: pyte
     told: list[str] = []
 
     def diagnosed(*_given: object, effects: list[str], **_options: object) -> str:
-        tried.append(effects)
-        return effects[0]
+        tried.append(list(effects))
+        return effects[0] if effects else "none"
 
     def worked_out(effect: str, _random: np.random.Generator) -> Findings:
+        if effect == "none":
+            return found(judged()[Kind.ADEQUATE])
         return named(effect, of(f"{effect}.{'mass' if effect == 'tip_payload' else 'drag'}", *sizes[effect]))
 
     sizes = {"tip_payload": (0.0, 0.1), "quadratic_drag": (1.0, 2.0)}
     monkeypatch.setattr(asked, "diagnose", diagnosed)
     monkeypatch.setattr(asked, "findings", worked_out)
-    runs = Dataset(tuple(releases(2, small_simulator(), 0)))
-    diagnosis, answered = asked.answer(
-        runs, small_simulator().model, tell=lambda what, _part: told.append(what), effects=list(sizes)
-    )
+    runs, model = Dataset(tuple(releases(2, small_simulator(), 0))), small_simulator().model
+    diagnosis, answered = asked.answer(runs, model, tell=lambda what, _part: told.append(what), effects=list(sizes))
     assert tried == [["tip_payload", "quadratic_drag"], ["quadratic_drag"]]
     assert diagnosis == "quadratic_drag"
     assert answered.verdict.causes[0].addition == Addition("quadratic_drag")
     assert sum("without tip_payload" in what for what in told) == 1
+    assert any("tip_payload" in note for note in answered.notes)
+    tried.clear()
+    _, answered = asked.answer(runs, model, effects=["tip_payload"])
+    assert tried == [["tip_payload"], []]
+    assert answered.verdict.kind is Kind.ADEQUATE
+
+
+def test_of_two_that_hang_together_the_weaker_is_left_out_first() -> None:
+    first, second = a_round(BAD, trial("tip_payload", bad=0.15, seed=1)), trial("tip_payload", bad=0.15, seed=1)
+    both = replace(trial("base_tilt", seed=2), extension=(*second.extension, Addition("base_tilt")))
+    verdict = judge(BAD, [first, a_round(second, both)])
+    assert verdict.kind is Kind.CAUSE
+    weaker = min(verdict.causes, key=lambda cause: cause.gain.log_likelihood).addition.effect
+    sizes = (of("tip_payload.mass", 0.0, 0.1), of("base_tilt.angle", -0.1, 0.1))
+    assert asked.absent_cause(replace(found(verdict), estimates=sizes)) == weaker
+
+
+def test_no_effects_to_try_are_none() -> None:
+    runs = Dataset(tuple(releases(2, small_simulator(), 0)))
+    assert not asked.diagnose(runs, small_simulator().model, processes=1, effects=[]).rounds[0].looks

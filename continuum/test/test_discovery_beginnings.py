@@ -51,3 +51,10 @@ def test_effects_that_name_no_beginnings_begin_as_always() -> None:
     without = judged((), fit_extension(question, ()))
     assert with_likeliest_beginning(question, (Addition("quadratic_drag"),), without, 3) is without
     assert with_likeliest_beginning(question, (), without, 3) is without
+
+
+def test_what_was_fitted_is_not_begun_anew() -> None:
+    question = question_about(0.012, 0.9)
+    without = judged((), fit_extension(question, ()))
+    best = judged(SLACK, fit_extension(question, SLACK, with_likeliest_beginning(question, SLACK, without, 3)))
+    assert with_likeliest_beginning(question, SLACK, best, 3) is best

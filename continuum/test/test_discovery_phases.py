@@ -48,13 +48,26 @@ def test_a_joint_that_rests_between_two_ways_has_not_turned_back() -> None:
 def test_errors_are_told_where_they_are() -> None:
     run = recording(a_swing_and_a_rest())
     wrong = np.where(phases(run) == PHASES.index("slowing down"), 0.02, 0.0)
-    seen = Reading(run.times, run.theta + wrong, run.theta_rate, 0.0)
-    one = replace(score("run", 0.1), recording=run, seen=seen)
-    found = errors_by_phase([one, replace(one, seen=None)])
+    one = replace(score("run", 0.1), recording=run, seen=Reading(run.times, run.theta + wrong, run.theta_rate, 0.0))
+    right = replace(one, seen=Reading(run.times, run.theta, run.theta_rate, 0.0))
+    found, better = errors_by_phase([one, one], [right, replace(one, seen=None)])
     assert found[PHASES.index("slowing down"), 0] == pytest.approx(0.02)
     assert found[PHASES.index("speeding up"), 0] == 0.0
     assert np.isnan(found[PHASES.index("turning back"), 1])
-    assert np.all(np.isnan(errors_by_phase([replace(one, seen=None)])))
+    assert np.nanmax(better) == 0.0
+    assert np.all(np.isnan(errors_by_phase([replace(one, seen=None)], [one])))
+
+
+@pytest.mark.parametrize("rate", [60, 100, 120, 200])
+@pytest.mark.parametrize(("size", "frequency"), [(0.8, 1.5), (0.5, 2.0), (0.3, 0.5)])
+def test_every_turn_is_told_however_quick_and_however_often_sampled(size: float, frequency: float, rate: int) -> None:
+    times = np.arange(0, 4.0, 1 / rate)
+    theta = size * np.cos(2 * np.pi * frequency * times)[:, None]
+    slope = -2 * np.pi * frequency * size * np.sin(2 * np.pi * frequency * times)[:, None]
+    turning = phases(Recording("run", times, theta, slope))[:, 0] == PHASES.index("turning back")
+    turns = np.arange(1, 2 * frequency * times[-1]) / (2 * frequency)
+    assert all(turning[np.argmin(np.abs(times - turn))] for turn in turns)
+    assert np.mean(turning) == pytest.approx(0.1 * turns.size / 4.0, rel=0.25)
 
 
 ANGLES = st.lists(st.floats(-2, 2), min_size=2, max_size=40)

@@ -9,6 +9,7 @@ from dynamics_laws import active, moving, prototype_model, random_parameters
 from effects_laws import LOOSE, RELEASED, N, effect_of, extended, resting_state, simulator, torque_of
 
 from continuum.dynamics.planar.instant import Instant
+from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions, slack
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.effects.parts.cables import lengthening, lengthening_rate
@@ -98,6 +99,20 @@ def test_a_release_without_pull_does_not_know_of_the_cables(name: str) -> None:
         )
         runs.append(simulator(name).around(model).run(resting_state(model, RELEASED, slack().at(0.0)), times).theta)
     np.testing.assert_allclose(runs[0], runs[1], atol=1e-9)
+
+
+@pytest.mark.parametrize("first", ["slack_cable", "elastic_cable"])
+def test_a_cable_that_was_let_go_stays_so_however_loose(first: str) -> None:
+    """Whichever of two effects comes first: what one makes of the tension is the other's command."""
+    sizes = {"slack_cable": {"slack": 0.02}, "elastic_cable": {"lag": 0.01}}
+    names = [first, *(name for name in sizes if name != first)]
+    plain = prototype_model(N)
+    model = replace(plain, effects=tuple(active(effect_of(name), N, **sizes[name]) for name in names))
+    times, let_go = np.linspace(0, 0.3, 7), slack()
+    with_both, without = (
+        Simulator(one).run(resting_state(one, RELEASED, let_go.at(0.0)), times, let_go).theta for one in (model, plain)
+    )
+    np.testing.assert_allclose(with_both, without, atol=1e-3)
 
 
 def wound_up(slack: float, speed: float, times: np.ndarray, u: Tensions) -> tuple[np.ndarray, np.ndarray]:

@@ -21,7 +21,7 @@ SECONDS = 2.0  # of a driven recording
 
 KNOWN_MISSES = {
     "backlash": "a loose joint's stops forget nothing: states handed from window to window are not good enough",
-    "slack_cable": "near taut a tenth of a millimetre is a newton, and the plant's winch switches at another tension",
+    "slack_cable": "it helps and its size is right, but one that comes taut half a millisecond late is off by newtons",
 }
 """What is not found, by effect, or "clean, DATASET", and why; a wrong cause fails all the same."""
 

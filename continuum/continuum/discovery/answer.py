@@ -7,6 +7,7 @@ an effect that is named is told from none by its interval, all is diagnosed agai
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -42,29 +43,40 @@ def answer(
     Raises:
         InvalidValueError: as of `continuum.discovery.diagnose.diagnose`.
     """
-    tried = list(effects or effect_names())
+    tried = list(effect_names() if effects is None else effects)
+    left_out: list[str] = []
     while True:
         diagnosis = diagnose(dataset, model, processes=processes, tell=tell, effects=tried)
         tell("predicting runs that were held out", 1.0)
         found = findings(diagnosis, np.random.default_rng(seed))
-        absent = absent_causes(found)
-        if not absent:
-            return diagnosis, found
-        tell(f"once more without {', '.join(sorted(absent))}, which may as well be absent", 0.0)
-        tried = [name for name in tried if name not in absent]
+        absent = absent_cause(found)
+        if absent is None:
+            return diagnosis, replace(found, notes=(*found.notes, *map(_told, left_out)))
+        tell(f"once more without {absent}, which may as well be absent", 0.0)
+        left_out.append(absent)
+        tried.remove(absent)
 
 
-def absent_causes(found: Findings) -> set[str]:
-    """Effects that are named, as causes or alternatives, and of which no size is told from none."""
+def absent_cause(found: Findings) -> str | None:
+    """An effect that is named, as cause or alternative, and of which no size is told from none: that of least gain.
+
+    One at a time: where two hang together each may seem to be needless beside the other.
+    """
     verdict = found.verdict
     if verdict.kind not in (Kind.CAUSE, Kind.AMBIGUOUS):
-        return set()
+        return None
     told = {
         estimate.unknown.name.split(".")[0]
         for estimate in (*found.estimates, *(one for own in found.others for one in own))
         if "." in estimate.unknown.name and _is_there(estimate.unknown.name, estimate.low, estimate.high)
     }
-    return {cause.addition.effect for cause in (*verdict.causes, *verdict.alternatives)} - told
+    absent = [cause for cause in (*verdict.causes, *verdict.alternatives) if cause.addition.effect not in told]
+    least = min(absent, key=lambda cause: cause.gain.log_likelihood, default=None)
+    return None if least is None else least.addition.effect
+
+
+def _told(effect: str) -> str:
+    return f"{effect} was left out: it helps, but its size may as well be none"
 
 
 def _is_there(name: str, low: float, high: float) -> bool:

@@ -69,7 +69,7 @@ def diagnose(
     recordings = with_likelier_rows(Simulator(ready, TOLERANCES), dataset.recordings, noise, unknowns)
     question = Question(ready, unknowns, recordings, noise)
     present = {active.effect.name for active in model.effects}
-    asked = [name for name in effects or effect_names() if name not in present]
+    asked = [name for name in (effect_names() if effects is None else effects) if name not in present]
     tried = [name for name in asked if driven or not effect_named(name).needs_tension]
 
     question, rounds, verdict = _answered(question, tried, processes or os.cpu_count() or 1, tell, driven)

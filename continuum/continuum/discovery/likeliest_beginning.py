@@ -30,12 +30,14 @@ def with_likeliest_beginning(question: Question, extension: Extension, near: Tri
     Args:
         question: data and model.
         extension: to be fitted.
-        near: a trial to start from, without the last effect.
+        near: a trial to start from; one with the last effect is the start.
         steps: of each window's first state, at most.
     """
     if not extension:
         return near
     effect = effect_named(extension[-1].effect)
+    if any(unknown.name.startswith(f"{effect.name}.") for unknown in near.unknowns):
+        return near
 
     def hoped_for(start: Trial) -> float:
         fitted = fit_extension(question, extension, start, _ITERATIONS, 0, steps)

@@ -68,7 +68,7 @@ def held_out_scores(question: Question, trial: Trial, split: Split, random: np.r
         question: data and model.
         trial: the extension, and where fits of it start.
         split: the halves.
-        random: for the intervals, and the spread of predictions that are far off.
+        random: for the spread of predictions that are far off.
     """
     found: list[RunScore] = []
     for half in (split.swapped, split):
@@ -77,7 +77,7 @@ def held_out_scores(question: Question, trial: Trial, split: Split, random: np.r
         simulator = Simulator(extended(question.model, trial.extension), TOLERANCES).around(fitted.model)
         own = _own_unknowns(trial)
         for recording in half.validation:
-            score = _scored(simulator, recording, question.noise, own, random)
+            score = _scored(simulator, recording, question.noise, own)
             if score.seen is not None and score.position > _FAR * score.floor:
                 models = drawn_models(fitted, random, _DRAWS)
                 others = [free_run(simulator.around(model), recording, question.noise, own) for model in models]
@@ -129,9 +129,7 @@ def _closed(before: RunScore, after: RunScore) -> float:
     return (before.position - after.position) / (before.position - before.floor)
 
 
-def _scored(
-    simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...], random: np.random.Generator
-) -> RunScore:
+def _scored(simulator: Simulator, recording: Recording, noise: Noise, own: tuple[Free, ...]) -> RunScore:
     run = begun(simulator, recording, noise, own)
     began = time.process_time()
     seen = None if run is None else run.simulate()
@@ -142,8 +140,8 @@ def _scored(
     position, rate = position_nrmse(seen, recording), rate_nrmse(seen, recording)
     return RunScore(
         recording.name, position, rate, floor, seconds, seen, recording,
-        position_interval=nrmse_interval(seen.theta, recording.theta, random),
-        rate_interval=nrmse_interval(seen.theta_rate, measured_rates(recording), random),
+        position_interval=nrmse_interval(seen.theta, recording.theta),
+        rate_interval=nrmse_interval(seen.theta_rate, measured_rates(recording)),
     )  # fmt: skip
 
 

@@ -34,7 +34,7 @@ img { max-width: 100%; } .note { color: #666; font-size: .85rem; }
 _FREE = "Free simulation from the first instant, by models that were fitted to"
 _PHASES = (
     "The same errors by joint and by what the joint is doing, root mean square over all runs [degrees]. A joint is at "
-    "rest below 6 degrees/s, and turns back where that lasts for less than a tenth of a second between two ways."
+    "rest below 6 degrees/s, unless it turns back within a tenth of a second. Runs count that both models can simulate."
 )
 _MISSING = (
     "Torque that a model would need beside its own to follow the measurements, by angle and by rate. What it goes with "
@@ -137,7 +137,7 @@ def _scores(before: RunScore, after: RunScore) -> Iterable[Sequence[str]]:
 
 
 def _phases(found: Findings, extended: bool) -> str:
-    before, after = np.rad2deg(errors_by_phase(found.before)), np.rad2deg(errors_by_phase(found.after))
+    before, after = np.rad2deg(errors_by_phase(found.before, found.after))
     rows = [
         (phase, *(_changed(b, a, extended) for b, a in zip(*errors, strict=True)))
         for phase, *errors in zip(PHASES, before, after, strict=True)

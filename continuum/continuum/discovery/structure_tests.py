@@ -30,7 +30,7 @@ _LOOKS: dict[str, Callable[[ResidualTorque, int], Array]] = {
     "difference of tensions": lambda r, _: r.tension[:, 0] - r.tension[:, 1],
     "direction times tension": lambda r, j: _direction(r, j) * r.tension.sum(axis=1),
     "direction times load": lambda r, j: _direction(r, j) * r.load[:, j],
-    "direction soon after a reversal": lambda r, j: _direction(r, j) * np.exp(-r.way_since_turn[:, j] / _SOON),
+    "direction soon after a reversal": lambda r, j: np.where(r.way_since_turn[:, j] < _SOON, _direction(r, j), 0.0),
     "position of the whole arm": lambda r, _: r.theta.sum(axis=1),
     "time within the run": lambda r, _: r.times - r.times[0],
 }

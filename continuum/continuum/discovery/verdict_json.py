@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from continuum.discovery.findings import Estimate, Findings
-from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.motion_phases import PHASES, errors_by_phase
 from continuum.discovery.verdict import Cause, Kind
 from continuum.whole_file import write_whole
@@ -38,7 +37,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
         "nrmse_position": _scores(found, "position"),
         "nrmse_velocity": _scores(found, "rate"),
         "gap_closed": found.closed,
-        "errors_by_phase": {"unit": "rad", "before": _by_phase(found.before), "after": _by_phase(found.after)},
+        "errors_by_phase": {"unit": "rad", **_by_phase(found)},
         "parameters": [{"name": str(e.unknown), **_estimate(e)} for e in found.estimates],
         "complete": not (unknown or verdict.nearly),
         "vague": verdict.vague,
@@ -80,11 +79,11 @@ def _scores(found: Findings, what: str) -> dict[str, dict[str, object]]:
     return told
 
 
-def _by_phase(scores: Sequence[RunScore]) -> dict[str, list[float | None]]:
+def _by_phase(found: Findings) -> dict[str, dict[str, list[float | None]]]:
     """Error of free runs in every phase of motion, joint by joint; null where no joint was in it."""
     return {
-        phase: [_number(error) for error in errors]
-        for phase, errors in zip(PHASES, errors_by_phase(scores), strict=True)
+        when: {phase: [_number(error) for error in of_joints] for phase, of_joints in zip(PHASES, errors, strict=True)}
+        for when, errors in zip(("before", "after"), errors_by_phase(found.before, found.after), strict=True)
     }
 
 

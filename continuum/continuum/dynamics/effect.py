@@ -37,8 +37,8 @@ class Effect:
             units; 0 where it is certain.
         needs_tension: whether only a cable that pulls can show it.
         shifts_time: whether a little of it looks as if all tensions came later.
-        beginnings: values of some of its parameters; a fit begins at those that promise most. For effects from whose
-            usual beginning no slope leads to what is right.
+        beginnings: values of some of its parameters that belong to the whole arm; a fit begins at those that promise
+            most. For effects from whose usual beginning no slope leads to what is right.
     """
 
     name: ClassVar[str]

@@ -22,7 +22,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.expressions import Numbers, positive_part
+from continuum.dynamics.expressions import Numbers, positive_part, where_positive
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.planar.instant import Instant
@@ -56,7 +56,8 @@ class SlackCable(Effect):
         return len(SIDES)
 
     def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
-        return u * np.exp(-((state / own["taut"]) ** 2))
+        pulling = u * np.exp(-((state / own["taut"]) ** 2))
+        return where_positive(-u, u, pulling)  # one that was let go is, however loose
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         winding = np.tanh(_SHARP * (now.u / own["least"] - 1))
