@@ -52,9 +52,7 @@ EFFECTS = {
     "backlash": (Free("backlash.gap", 0),),
     "slack_cable": tuple(Free(f"slack_cable.{name}") for name in ("slack", "speed", "least", "taut")),
 }
-SUDDEN = Tolerances(3e-9, 3e-10, 0.001)
-"""For differences where a motor that is told ever less suddenly lets go."""
-
+SUDDEN = Tolerances(3e-9, 3e-10, 0.001)  # where a motor that is told ever less suddenly lets go
 STEP = 0.004
 """Of the differences, in units of the coordinates."""
 
