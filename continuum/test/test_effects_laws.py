@@ -150,6 +150,8 @@ def test_compiled_equations_are_those_of_numbers(name: str) -> None:
 @pytest.mark.parametrize("times_typical", [0.0, 1.0, 3.0])
 def test_a_release_of_the_prototype_and_its_slopes(name: str, times_typical: float) -> None:
     """By the effect's own parameters, against differences of runs; at the lower bound to one side."""
+    if name == "slack_cable":
+        pytest.xfail("its motors switch within less than a step of these runs: differences are rougher than slopes")
     model = prototype_with(name, times_typical)
     fast, own = simulator(name).around(model), effect_of(name).parameters
     slots, p = parameter_slots(model), parameter_vector(model)
