@@ -26,6 +26,10 @@ LOOSE = np.zeros(2)
 PULLS = Tensions([0.0, 0.14, 0.16, 0.24, 0.31], [[0.0, 0.0], [0.0, 0.0], [9.0, 1.0], [2.0, 8.0], [2.0, 8.0]])
 """Nothing for half of a short run, then one cable and the other."""
 
+EXACT = Tolerances(1e-8, 1e-9, 0.01)
+SUDDEN = {"slack_cable": Tolerances(3e-10, 3e-11, 0.0005)}
+"""Where motors switch within a millisecond: differences of less exact runs are rougher than their slopes."""
+
 
 @lru_cache
 def effect_of(name: str) -> Effect:
@@ -79,9 +83,9 @@ def random_with(name: str, seed: int) -> Model:
 
 
 @lru_cache
-def simulator(name: str) -> Simulator:
+def simulator(name: str, tolerances: Tolerances = EXACT) -> Simulator:
     """Of any model with this effect, by `around`; exact enough for differences of its runs."""
-    return Simulator(prototype_with(name, 0.0), Tolerances(1e-8, 1e-9, 0.01), fourth_order())
+    return Simulator(prototype_with(name, 0.0), tolerances, fourth_order())
 
 
 def resting_state(model: Model, theta: np.ndarray, u: np.ndarray) -> np.ndarray:
