@@ -16,7 +16,6 @@ from continuum.printable import printable
 if TYPE_CHECKING:
     from continuum.discovery.diagnose import Diagnosis
     from continuum.discovery.findings import Estimate, Findings
-    from continuum.discovery.measured_gain import RunScore
     from continuum.dynamics.model import Model
     from continuum.identification.recording import Recording
 
@@ -103,7 +102,7 @@ def read_recording(path: str) -> Recording:
 
 
 def _show(found: Findings) -> None:
-    from continuum.discovery.in_words import cost_in_words, verdict_in_words, with_interval, worth_in_words
+    from continuum.discovery.in_words import cost_in_words, scores_in_words, verdict_in_words, worth_in_words
     from continuum.discovery.verdict import Kind
 
     verdict = found.verdict
@@ -116,26 +115,14 @@ def _show(found: Findings) -> None:
     for cause, own in zip(verdict.alternatives, found.others, strict=True):
         print(f"\n{cause.addition} instead:")
         print_pairs([_estimate(one) for one in own])
-    for what, of in (("Position", _position), ("Rate", _rate)):
-        print(f"\n{what}: Eq. 19 (95 %) on runs that were held out, refitted -> extended model")
-        print_pairs(
-            [
-                (b.name, f"{with_interval(*of(b))} -> {with_interval(*of(a))}")
-                for b, a in zip(found.before, found.after, strict=True)
-            ]
-        )
+    scores = [(b.name, scores_in_words(b), scores_in_words(a)) for b, a in zip(found.before, found.after, strict=True)]
+    for what in ("position", "rate"):
+        print(f"\n{what.capitalize()}: Eq. 19 (95 %) on runs that were held out, refitted -> extended model")
+        print_pairs([(name, f"{once[what]} -> {now[what]}") for name, once, now in scores])
     if verdict.extension:
         print(f"{worth_in_words(found.closed)}; {cost_in_words(found.before, found.after)}.")
     for line in (*found.notes, *([f"Mind: {found.weakness}."] if found.weakness else [])):
         print(line)
-
-
-def _position(score: RunScore) -> tuple[float, tuple[float, float]]:
-    return score.position, score.position_interval
-
-
-def _rate(score: RunScore) -> tuple[float, tuple[float, float]]:
-    return score.rate, score.rate_interval
 
 
 def _estimate(one: Estimate) -> tuple[str, str]:

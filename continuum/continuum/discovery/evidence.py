@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.stats import binom, chi2
@@ -55,8 +55,7 @@ class Gain:
 
 def unexplained(trial: Trial) -> float:
     """Share of windows that noise does not explain, 0 to 1."""
-    sizes = np.concatenate(trial.sizes)
-    return float(np.mean(trial.relative > np.maximum(_UNEXPLAINED, chi2.isf(_RARE, sizes) / sizes)))
+    return float(np.mean(np.concatenate(_unexplained_windows(trial))))
 
 
 def beyond_noise(trial: Trial) -> float:
@@ -69,21 +68,26 @@ def is_adequate(trial: Trial) -> bool:
 
     A motion that none of the other runs has may be the only one to show what is missing.
     """
-    runs = [
-        replace(trial, held_out=(run,), sizes=(size,)) for run, size in zip(trial.held_out, trial.sizes, strict=True)
-    ]
-    return _chance(trial) > _CHANCE and min(map(_chance, runs)) > _CHANCE / len(runs)
+    runs = _unexplained_windows(trial)
+    return _chance(np.concatenate(runs)) > _CHANCE and min(map(_chance, runs)) > _CHANCE / len(runs)
 
 
 def explains_all(trial: Trial) -> bool:
     """Whether its effects explain so much that they may be named."""
-    return _chance(trial) > _CHANCE_OF_CAUSE
+    return _chance(np.concatenate(_unexplained_windows(trial))) > _CHANCE_OF_CAUSE
 
 
-def _chance(trial: Trial) -> float:
-    """Probability that a right model leaves as many windows unexplained."""
-    n = trial.relative.size
-    return float(binom.sf(round(unexplained(trial) * n) - 1, n, _BY_CHANCE))
+def _unexplained_windows(trial: Trial) -> list[Array]:
+    """Whether noise does not explain it, of every window of each run."""
+    return [
+        misfit / size > np.maximum(_UNEXPLAINED, chi2.isf(_RARE, size) / size)
+        for misfit, size in zip(trial.held_out, trial.sizes, strict=True)
+    ]
+
+
+def _chance(windows: Array) -> float:
+    """Probability that a right model leaves as many of these windows unexplained."""
+    return float(binom.sf(np.sum(windows) - 1, windows.size, _BY_CHANCE))
 
 
 def gain(trial: Trial, over: Trial) -> Gain:

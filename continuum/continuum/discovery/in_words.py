@@ -93,8 +93,15 @@ def worth_in_words(closed: float) -> str:
     return f"The extension closes {100 * closed:.0f} % of the distance to the noise"
 
 
-def with_interval(score: float, interval: tuple[float, float]) -> str:
-    """A score and its 95 % interval."""
+def scores_in_words(score: RunScore) -> dict[str, str]:
+    """Eq. 19 of position and rate with their 95 % intervals."""
+    return {
+        "position": _with_interval(score.position, score.position_interval),
+        "rate": _with_interval(score.rate, score.rate_interval),
+    }
+
+
+def _with_interval(score: float, interval: tuple[float, float]) -> str:
     low, high = interval
     return f"{score:.3f} ({low:.3f} to {high:.3f})" if math.isfinite(high) else f"{score:.3f}"
 

@@ -12,7 +12,7 @@ import numpy as np
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
 from continuum.discovery.findings import Estimate, Findings
-from continuum.discovery.in_words import cost_in_words, in_full, verdict_in_words, with_interval, worth_in_words
+from continuum.discovery.in_words import cost_in_words, in_full, scores_in_words, verdict_in_words, worth_in_words
 from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.motion_phases import PHASES, errors_by_phase
 from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
@@ -131,9 +131,9 @@ def _run_numbers(diagnosis: Diagnosis, found: Findings) -> str:
 
 
 def _scores(before: RunScore, after: RunScore) -> Iterable[Sequence[str]]:
-    position = [with_interval(one.position, one.position_interval) for one in (before, after)]
-    yield before.name, "position", *position, f"{before.floor:.3f}"
-    yield "", "rate", *(with_interval(one.rate, one.rate_interval) for one in (before, after)), ""
+    once, now = scores_in_words(before), scores_in_words(after)
+    yield before.name, "position", once["position"], now["position"], f"{before.floor:.3f}"
+    yield "", "rate", once["rate"], now["rate"], ""
 
 
 def _phases(found: Findings, extended: bool) -> str:
