@@ -37,7 +37,7 @@ def test_a_size_that_is_told_from_none_is_enough() -> None:
     assert None is asked.absent_cause(named("angle_offset", *offsets))
 
 
-@pytest.mark.parametrize(("low", "high"), [(0.0, 0.1), (-0.1, 0.1), (1e-6, 0.1), (0.0, 0.0)])
+@pytest.mark.parametrize(("low", "high"), [(0.0, 0.1), (-0.1, 0.1), (1e-6, 0.1), (0.0, 0.0), (-0.1, -1e-6)])
 def test_a_size_that_may_as_well_be_none_is_no_cause(low: float, high: float) -> None:
     assert asked.absent_cause(named("tip_payload", of("tip_payload.mass", low, high))) == "tip_payload"
 

@@ -41,8 +41,15 @@ def test_what_a_swinging_joint_does(rates: bool) -> None:
 
 
 def test_a_joint_that_rests_between_two_ways_has_not_turned_back() -> None:
-    halts = np.interp(TIMES, [0, 0.5, 1.5, 2.0, 3.0], [0.0, 0.5, 0.5, 0.0, 0.0])[:, None]
+    halts = np.interp(TIMES, [0, 0.5, 0.7, 1.2, 3.0], [0.0, 0.5, 0.5, 0.0, 0.0])[:, None]
     assert "turning back" not in np.array(PHASES)[phases(recording(halts))]
+
+
+def test_a_joint_that_creeps_rests() -> None:
+    """Below 0.1 rad/s."""
+    creeping, going = phases(recording(np.column_stack([0.07 * TIMES, 0.13 * TIMES]))).T
+    assert np.all(creeping == PHASES.index("at rest"))
+    assert not np.any(going == PHASES.index("at rest"))
 
 
 def test_errors_are_told_where_they_are() -> None:
@@ -89,6 +96,10 @@ def test_a_way_begins_where_the_joint_turned_back() -> None:
     way = way_since_turn(np.concatenate([out, back])[:, None])[:, 0]
     np.testing.assert_allclose(way[:50], out)
     np.testing.assert_allclose(way[50:], 1 - back, atol=1e-12)
+
+
+def test_a_joint_that_is_seen_seldom_has_turned_where_it_was_seen_last() -> None:
+    np.testing.assert_allclose(way_since_turn(np.array([[0.0], [0.1], [-0.1]]))[:, 0], [0.0, 0.1, 0.2])
 
 
 def test_noise_is_no_turn() -> None:
