@@ -14,6 +14,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
+from ros2_standin.end_signals import ends_are_heard
 from ros2_standin.errors import UserError
 
 _POLL = 0.05
@@ -42,8 +43,16 @@ class Session:
         while not done():
             if deadline is not None and time.monotonic() >= deadline:
                 return False
-            self._executor.spin_once(timeout_sec=_POLL)
+            self._spin_once()
         return True
+
+    def _spin_once(self) -> None:
+        with ends_are_heard() as raise_again:
+            try:
+                self._executor.spin_once(timeout_sec=_POLL)
+            except RuntimeError:
+                raise_again()
+                raise
 
     def spin_for(self, duration: float) -> None:
         """Serve callbacks for ``duration`` [s]."""
