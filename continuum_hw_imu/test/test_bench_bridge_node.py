@@ -65,12 +65,13 @@ def active(bridge):
     bridge.probe.wait_until(lambda: not any(bridge.bench.status["set_points"]), "slack cables")
 
 
-def angles_beside_truth(bridge, joints):
-    """Joint angles as published, and the true ones at their stamps, (n, n_joints) each [rad]."""
+def angles_beside_truth(bridge, joints, earlier=0.0):
+    """Joint angles as published, (n, n_joints), and the true ones at their stamps or ``earlier`` [s], each [rad]."""
     truth = bridge.bench.truth()
     at = np.array([bridge.monotonic(message) for message in joints])
     inside = (at > truth["monotonic_s"][0]) & (at < truth["monotonic_s"][-1])
-    real = np.stack([np.interp(at[inside], truth["monotonic_s"], column) for column in truth["theta"].T], axis=1)
+    then = at[inside] - np.asarray(earlier)[..., None]
+    real = np.stack([np.interp(then, truth["monotonic_s"], column) for column in truth["theta"].T], axis=-1)
     return np.array([message.position[1:-1] for message in joints])[inside], real
 
 
