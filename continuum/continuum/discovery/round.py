@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from continuum.discovery.candidate import Addition, Extension
-from continuum.discovery.evidence import gain, is_adequate
+from continuum.discovery.candidate import Addition
+from continuum.discovery.evidence import gain, is_adequate, unexplained
 from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
 from continuum.discovery.window_beginnings import with_beginnings_of
@@ -22,6 +22,7 @@ from continuum.identification.arrow_least_squares import FitStatus
 _LEADERS = 5
 _LEADING = 0.35  # of the best one's hope
 _LITTLE = 0.1  # of what is left to explain: with no better hope, effects are looked at for longer
+_VERY_WRONG = 0.5  # of windows unexplained: its windows sit in places from which no slope leads away
 _HOPELESS = 4.0  # log-likelihood on half of the runs
 CONTENDING = 0.5
 """Part of the best one's gain, beyond which another may be the one as well."""
@@ -64,10 +65,16 @@ def one_round(
     """
     known = {addition.effect for addition in before.extension}
     extensions = [before.extension, *((*before.extension, Addition(name)) for name in effects if name not in known)]
-    without, looks = _looks(make, extensions, before, FIRST_LOOK, lambda part: tell(0.25 * part))
+    afresh = not before.extension and unexplained(before) > _VERY_WRONG
+    first = [first_look(extension, before, FIRST_LOOK, afresh) for extension in extensions]
+    without, looks = _looks(make, first, before, lambda part: tell(0.25 * part))
     if not (before.extension or is_adequate(before)) and _is_little(looks, without):
-        without, looks = _looks(make, extensions, before, LONG_LOOK, lambda part: tell(0.25 + 0.25 * part))
-    leading = [Task(look.extension, carried(look, before), _LEADER_ITERATIONS) for look in _leading(looks, without)]
+        longer = [first_look(extension, before, LONG_LOOK, afresh) for extension in extensions]
+        without, looks = _looks(make, longer, before, lambda part: tell(0.25 + 0.25 * part))
+    leading = [
+        Task(look.extension, carried(look, before), _LEADER_ITERATIONS, afresh=afresh)
+        for look in _leading(looks, without)
+    ]
     leaders = list(make(leading))
     tell(0.75)
     contenders = _contending(leaders, before)
@@ -103,13 +110,13 @@ def _beside_an_earlier_one(make: Make, before: Trial, ended: Sequence[Trial], ea
 
 
 def _looks(
-    make: Make, extensions: Sequence[Extension], before: Trial, iterations: int, tell: Callable[[float], None]
+    make: Make, tasks: Sequence[Task], before: Trial, tell: Callable[[float], None]
 ) -> tuple[Trial, list[Trial]]:
     """What became of the model as it was, and of every effect added to it, the most promising first."""
     looks: list[Trial] = []
-    for trial in make([first_look(extension, before, iterations) for extension in extensions]):
+    for trial in make(tasks):
         looks.append(trial)
-        tell(len(looks) / len(extensions))
+        tell(len(looks) / len(tasks))
     (without,) = [trial for trial in looks if trial.extension == before.extension]
     return without, sorted((trial for trial in looks if trial is not without), key=_hoped_for)
 

@@ -35,6 +35,7 @@ class Task:
         iterations: of the fit, at most.
         find_joints: whether to find out at which joints the last effect acts, and to fit it there alone.
         is_look: whether half of the runs are enough, and their first states need not be found well.
+        afresh: whether windows begin as measured, and not as in ``near``.
     """
 
     extension: Extension
@@ -42,11 +43,12 @@ class Task:
     iterations: int
     find_joints: bool = False
     is_look: bool = False
+    afresh: bool = False
 
 
-def first_look(extension: Extension, near: Trial, iterations: int = FIRST_LOOK) -> Task:
+def first_look(extension: Extension, near: Trial, iterations: int = FIRST_LOOK, afresh: bool = False) -> Task:
     """A few iterations on half of the runs."""
-    return Task(extension, near, iterations, is_look=True)
+    return Task(extension, near, iterations, is_look=True, afresh=afresh)
 
 
 def make(question: Question, task: Task) -> Trial:
@@ -55,9 +57,11 @@ def make(question: Question, task: Task) -> Trial:
         part, near = question, task.near
         if len(question.recordings) >= _MANY_RUNS:
             part, near = some_runs(question, task.near)
+        near = replace(near, own=()) if task.afresh else near
         near = with_likeliest_beginning(part, task.extension, near, _LOOK_STEPS)
         return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, 0, _LOOK_STEPS))
-    fitted = fit_extension(question, task.extension, task.near, task.iterations)
+    near = replace(task.near, own=()) if task.near is not None and task.afresh else task.near
+    fitted = fit_extension(question, task.extension, near, task.iterations)
     whole = judged(task.extension, fitted)
     last = task.extension[-1] if task.extension else None
     if not task.find_joints or last is None or not acts_at_joints(last.effect) or not fitted.parts:
