@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from identification_laws import BENDS, recorded, small_simulator, white_noise
 
-from continuum.discovery.candidate import Addition
+from continuum.discovery import workers
+from continuum.discovery.candidate import Addition, Extension
 from continuum.discovery.likeliest_beginning import with_likeliest_beginning
 from continuum.discovery.question import Question
 from continuum.discovery.trial import Trial, fit_extension, judged
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.tensions import Tensions
+from continuum.identification.fit import Fit
 from continuum.identification.free import Free
 
 FREE = tuple(Free(name) for name in ("stiffness", "viscous_friction", "coulomb_friction"))
@@ -58,3 +60,20 @@ def test_what_was_fitted_is_not_begun_anew() -> None:
     without = judged((), fit_extension(question, ()))
     best = judged(SLACK, fit_extension(question, SLACK, with_likeliest_beginning(question, SLACK, without, 3)))
     assert with_likeliest_beginning(question, SLACK, best, 3) is best
+
+
+@pytest.mark.parametrize("is_look", [True, False])
+def test_windows_begun_afresh_forget_where_the_start_has_them(is_look: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    question = question_about(0.0, 0.3)
+    without = judged((), fit_extension(question, ()))
+    begun: list[Trial] = []
+
+    def fitted(question: Question, extension: Extension, near: Trial, *options: object) -> Fit:
+        begun.append(near)
+        return fit_extension(question, extension, near, *options)
+
+    monkeypatch.setattr(workers, "fit_extension", fitted)
+    for afresh in (True, False):
+        workers.make(question, workers.Task((), without, 1, is_look=is_look, afresh=afresh))
+    assert [near.own for near in begun] == [(), without.own]
+    assert begun[0].unknowns == without.unknowns

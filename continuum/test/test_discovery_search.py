@@ -155,6 +155,16 @@ def test_effects_are_looked_at_for_longer_where_first_looks_promise_nothing() ->
         assert (effects_of(rounds[0].best.extension) == ["base_tilt"]) == longer
 
 
+@pytest.mark.parametrize("hidden", [0.4, 0.6])
+def test_windows_begin_afresh_where_the_model_is_very_wrong(hidden: float) -> None:
+    """In the first round, in looks and leaders; of what helps and of the model as it is they are good enough."""
+    fits = Fits({(): hidden, ("tip_payload",): 0.3, ("tip_payload", "base_tilt"): 0.0, ("base_tilt",): 0.5})
+    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+    afresh = {(len(task.extension), task.is_look, task.find_joints) for task in fits.asked if task.afresh}
+    assert afresh == ({(0, True, False), (1, True, False), (1, False, False)} if hidden > 0.5 else set())
+    assert len(rounds[-1].best.extension) == 2
+
+
 def test_a_first_effect_that_the_second_makes_needless_is_dropped() -> None:
     """The drag helped only as long as the payload was unknown."""
     late = {(): 0.5, ("quadratic_drag",): 0.2, ("tip_payload",): 0.4, ("quadratic_drag", "tip_payload"): 0.0}
@@ -172,6 +182,23 @@ def test_a_first_effect_that_the_second_makes_needless_is_dropped() -> None:
     assert rounds[1].best is rounds[1].before
     led = [effects_of(one.extension)[-1] for one in rounds[0].leaders]
     assert len(set(led)) == len(led)
+
+
+@pytest.mark.parametrize("alone", [0.0, 0.25])
+def test_an_effect_that_the_one_sought_anew_makes_needless_is_dropped(alone: float) -> None:
+    """The payload leads, the tilt is found beside it, and beside the tilt the drag, which needs neither."""
+    shares = {
+        (): 0.6, ("tip_payload",): 0.4, ("base_tilt",): 0.45, ("tip_payload", "base_tilt"): 0.2,
+        ("base_tilt", "quadratic_drag"): 0.0, ("quadratic_drag",): 0.6, ("tip_payload", "quadratic_drag"): 0.6,
+    }  # fmt: skip
+    fits = Fits(shares, {("quadratic_drag",): alone})
+    baseline, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+    if alone:
+        assert set(effects_of(rounds[-1].best.extension)) == {"base_tilt", "quadratic_drag"}
+        return
+    assert [effects_of(one.best.extension) for one in rounds] == [["quadratic_drag"]]
+    assert rounds[0].before is baseline
+    assert judge(baseline, rounds).kind is Kind.CAUSE
 
 
 def test_progress_goes_from_nothing_to_done() -> None:

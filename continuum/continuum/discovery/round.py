@@ -3,6 +3,9 @@
 A first look of a few iterations sorts out what does not help: friction makes the way to the best fit rugged, so that
 what the slopes promise counts as well as what was gained; where they promise little for the first effect, the look is a
 longer one. What leads is fitted to all data, and what then contends is fitted to the end and found its joints.
+
+Where the model without any effect is very wrong, its windows begin in places from which no slope leads to the right
+one: looks and leaders then begin theirs as measured.
 """
 
 from __future__ import annotations
@@ -22,7 +25,7 @@ from continuum.identification.arrow_least_squares import FitStatus
 _LEADERS = 5
 _LEADING = 0.35  # of the best one's hope
 _LITTLE = 0.1  # of what is left to explain: with no better hope, effects are looked at for longer
-_VERY_WRONG = 0.5  # of windows unexplained: its windows sit in places from which no slope leads away
+_VERY_WRONG = 0.5  # of windows unexplained
 _HOPELESS = 4.0  # log-likelihood on half of the runs
 CONTENDING = 0.5
 """Part of the best one's gain, beyond which another may be the one as well."""

@@ -64,13 +64,14 @@ def search(
     begun = None if earlier is None else earlier.baseline if earlier.best.extension else earlier.best
     (baseline,) = make([Task((), begun, _BASELINE_ITERATIONS)])
     rounds: list[Round] = []
-    before, asked = baseline, None
+    before, asked, is_anew = baseline, None, False
     while True:
         known = earlier.best if earlier and not rounds else None
         rounds.append(one_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}"), known))
         if len(rounds) == 1:
             baseline = rounds[0].before
-        if len(rounds) == 2 and _may_have_misled(rounds[1], rounds[0]):
+        if len(rounds) == 2 and not is_anew and _may_have_misled(rounds[1], rounds[0]):
+            is_anew = True
             rounds = _first_anew(make, rounds[0], rounds[1], effects, partial(tell, "the first effect anew"))
         best = rounds[-1].best
         if best.extension != asked and until(best):
@@ -106,11 +107,27 @@ def _may_have_misled(second: Round, first: Round) -> bool:
 def _first_anew(
     make: Make, first: Round, second: Round, effects: Sequence[str], tell: Callable[[float], None]
 ) -> list[Round]:
-    """The first effect sought once more, now beside the second: it was found while that one was still unknown."""
-    (alone,) = make([Task(second.best.extension[-1:], second.best, ITERATIONS)])
+    """The first effect sought once more, now beside the second: it was found while that one was still unknown.
+
+    What then stands beside the second may be another one, which the second is needless beside.
+    """
+    alone = _newest_alone(make, second)
     again = one_round(make, alone, effects, tell)
     if again.best is again.before:  # the second one alone does it
-        effect = alone.extension[-1].effect
-        others = [trial for trial in first.leaders if trial.extension[-1].effect != effect]  # it is no rival of itself
-        return [replace(first, leaders=(again.before, *others)), again]
+        return [_first_led_by(again.before, first), again]
+    if again.best.extension[-1].effect != first.best.extension[-1].effect:
+        newest = _newest_alone(make, again)
+        if not gain(again.best, newest).is_significant:
+            return [_first_led_by(newest, first)]
     return [second, again]
+
+
+def _newest_alone(make: Make, one: Round) -> Trial:
+    (alone,) = make([Task(one.best.extension[-1:], one.best, ITERATIONS)])
+    return alone
+
+
+def _first_led_by(alone: Trial, first: Round) -> Round:
+    """The first round, as if it had found this one; which is no rival of itself."""
+    effect = alone.extension[-1].effect
+    return replace(first, leaders=(alone, *(one for one in first.leaders if one.extension[-1].effect != effect)))
