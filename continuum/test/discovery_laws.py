@@ -33,7 +33,7 @@ def trial(*effects: str | Addition, bad: float = 0.0, misfit: float = 1.0, seed:
     extension: Extension = tuple(Addition(one) if isinstance(one, str) else one for one in effects)
     none = np.zeros(0)
     return Trial(
-        extension, FitStatus.CONVERGED, (), none, none, (), 0.0,
+        extension, FitStatus.CONVERGED, (), none, none, (), SIZE * float(relative.sum()) / 2,
         tuple(SIZE * run for run in relative.reshape(RUNS, WINDOWS)), (np.full(WINDOWS, SIZE),) * RUNS, 1,
     )  # fmt: skip
 

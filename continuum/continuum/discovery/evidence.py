@@ -8,6 +8,7 @@ import numpy as np
 from scipy.stats import binom, chi2
 
 from continuum.arrays import Array
+from continuum.discovery.information import information_gain
 from continuum.discovery.trial import Trial
 
 _UNEXPLAINED = 2.0  # misfit of a window beside that of noise, ...
@@ -31,16 +32,18 @@ class Gain:
         log_likelihood: sum over all windows.
         deviation: standard deviation of that sum, from stretches of windows.
         rest: the same sum without the run that gains most; of a single run, without its best quarter.
+        information: what the fit gains on all windows, less the price of its unknowns.
     """
 
     log_likelihood: float
     deviation: float
     rest: float
+    information: float
 
     @property
     def is_significant(self) -> bool:
-        """Whether it is more than chance gives with some forty hypotheses tried, and not the doing of one run."""
-        return self.rest > _SIGNIFICANT and self._is_spread
+        """Whether it is more than chance gives with some forty hypotheses tried, worth it, and not one run's doing."""
+        return self.rest > _SIGNIFICANT and self._is_spread and self.information > 0
 
     @property
     def is_distinct(self) -> bool:
@@ -96,7 +99,8 @@ def gain(trial: Trial, over: Trial) -> Gain:
     stretches = np.concatenate(each)
     total = float(stretches.sum())
     best = max(float(run.sum()) for run in each)
-    return Gain(total, float(np.std(stretches) * np.sqrt(stretches.size)), total - best)
+    deviation = float(np.std(stretches) * np.sqrt(stretches.size))
+    return Gain(total, deviation, total - best, information_gain(trial, over))
 
 
 def _stretched(run: Array) -> Array:

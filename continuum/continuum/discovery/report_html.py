@@ -165,10 +165,9 @@ def _evidence(number: int, one: Round) -> Iterable[str]:
     rows = []
     for trial in one.leaders:
         won = gain(trial, one.before)
-        rows.append(
-            (str(trial.extension[-1]), f"{won.log_likelihood:.0f}", f"{won.deviation:.0f}", _share(unexplained(trial)))
-        )
-    yield _table(("effect", "gain", "deviation", "data left unexplained"), rows)
+        gains = [f"{x:.0f}" for x in (won.log_likelihood, won.deviation, won.information)]
+        rows.append((str(trial.extension[-1]), *gains, _share(unexplained(trial))))
+    yield _table(("effect", "gain", "deviation", "information", "data left unexplained"), rows)
     others = ", ".join(str(trial.extension[-1]) for trial in one.looks[len(one.leaders) :])
     yield f'<p class="note">Set aside after a first look: {escape(others)}.</p>'
 

@@ -55,6 +55,7 @@ def _cause(cause: Cause, estimates: Sequence[Estimate]) -> dict[str, Any]:
         "joints": joints,
         "confidence": cause.confidence,
         "gain": cause.gain.log_likelihood,
+        "information": cause.gain.information,
         "parameters": {
             str(e.unknown)[len(prefix) :]: _estimate(e) for e in estimates if e.unknown.name.startswith(prefix)
         },
