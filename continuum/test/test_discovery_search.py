@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from discovery_fits import EFFECTS, Fits, effects_of
 from discovery_laws import RUNS, SIZE, WINDOWS, trial
 
-from continuum.discovery.candidate import Extension
-from continuum.discovery.evidence import gain
+from continuum.discovery.evidence import gain, unexplained
 from continuum.discovery.judgement import judge
 from continuum.discovery.search import Earlier, search, tell_nobody
 from continuum.discovery.trial import Trial
@@ -18,41 +18,6 @@ from continuum.discovery.verdict import Kind
 from continuum.discovery.window_beginnings import with_beginnings_of
 from continuum.discovery.workers import FIRST_LOOK, LONG_LOOK, Task
 from continuum.identification.arrow_least_squares import FitStatus
-
-EFFECTS = ("tip_payload", "base_tilt", "quadratic_drag")
-
-
-class Fits:
-    """Gives every extension the share of windows that it leaves unexplained; the cost goes with it.
-
-    Attributes:
-        asked: every task, in order.
-    """
-
-    def __init__(self, shares: dict[tuple[str, ...], float], better: dict[tuple[str, ...], float] | None = None):
-        self._shares, self._better, self.asked = shares, better or {}, list[Task]()
-
-    def __call__(self, tasks: Sequence[Task]) -> Iterator[Trial]:
-        for task in tasks:
-            self.asked.append(task)
-            yield self.fitted(task)
-
-    def fitted(self, task: Task) -> Trial:
-        names = tuple(addition.effect for addition in task.extension)
-        known = {frozenset(key): share for key, share in self._shares.items()}
-        share = known[frozenset(names)] if frozenset(names) in known else known[frozenset(names[:-1])]
-        is_from_another = task.near is not None and len(task.near.extension) > len(task.extension)
-        if is_from_another and names in self._better:
-            share = self._better[names]
-        made = trial(*names, bad=share, seed=len(names))
-        return replace(made, extension=task.extension, cost=made.misfit / 2)
-
-    def times(self, *names: str) -> int:
-        return sum(tuple(a.effect for a in task.extension) == names for task in self.asked)
-
-
-def effects_of(extension: Extension) -> list[str]:
-    return [addition.effect for addition in extension]
 
 
 def test_nothing_is_added_where_nothing_helps() -> None:
@@ -113,33 +78,6 @@ def test_what_the_model_without_it_gains_by_the_same_search_is_no_gain() -> None
     np.testing.assert_array_less(baseline.relative, 2.0)
 
 
-def test_two_effects_are_found_and_the_first_is_sought_anew_beside_the_second() -> None:
-    both = ("tip_payload", "base_tilt")
-    fits = Fits({(): 0.4, ("tip_payload",): 0.2, ("base_tilt",): 0.3, both: 0.0})
-    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
-    assert set(effects_of(rounds[-1].best.extension)) == set(both)
-    assert fits.times("base_tilt", "tip_payload") > 0
-    assert rounds[-1].best is not rounds[-1].before
-
-
-def test_a_second_effect_that_is_small_beside_the_first_leaves_it_where_it_is() -> None:
-    both = ("tip_payload", "base_tilt")
-    fits = Fits({(): 0.6, ("tip_payload",): 0.1, ("base_tilt",): 0.6, both: 0.1})
-    fitted = fits.fitted
-
-    def a_little_better(task: Task) -> Trial:
-        made = fitted(task)
-        if effects_of(task.extension) != ["tip_payload", "base_tilt"]:
-            return made
-        return replace(made, held_out=tuple(0.97 * run for run in made.held_out), cost=0.97 * made.cost)
-
-    fits.fitted = a_little_better  # type: ignore[method-assign]
-    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
-    assert [effects_of(one.best.extension) for one in rounds[:2]] == [["tip_payload"], ["tip_payload", "base_tilt"]]
-    assert rounds[1].best is not rounds[1].before
-    assert fits.times("base_tilt", "tip_payload") == 0
-
-
 def test_effects_are_looked_at_for_longer_where_first_looks_promise_nothing() -> None:
     for hidden, longer in ((0.3, True), (0.0, False)):
         fits = Fits({(): hidden, ("base_tilt",): 0.0})
@@ -161,44 +99,34 @@ def test_windows_begin_afresh_where_the_model_is_very_wrong(hidden: float) -> No
     fits = Fits({(): hidden, ("tip_payload",): 0.3, ("tip_payload", "base_tilt"): 0.0, ("base_tilt",): 0.5})
     _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
     afresh = {(len(task.extension), task.is_look, task.find_joints) for task in fits.asked if task.afresh}
-    assert afresh == ({(0, True, False), (1, True, False), (1, False, False)} if hidden > 0.5 else set())
+    assert afresh == ({(n, look, False) for n in (0, 1) for look in (True, False)} if hidden > 0.5 else set())
     assert len(rounds[-1].best.extension) == 2
 
 
-def test_a_first_effect_that_the_second_makes_needless_is_dropped() -> None:
-    """The drag helped only as long as the payload was unknown."""
-    late = {(): 0.5, ("quadratic_drag",): 0.2, ("tip_payload",): 0.4, ("quadratic_drag", "tip_payload"): 0.0}
-    fits = Fits(late, {})
+def test_what_a_fresh_start_gains_is_no_gain_of_an_effect() -> None:
+    fits = Fits({(): 0.6, ("tip_payload",): 0.3})
     fitted = fits.fitted
 
-    def alone_is_enough(task: Task) -> Trial:
-        if effects_of(task.extension) == ["tip_payload"] and task.near is not None and len(task.near.extension) == 2:
-            return replace(trial("tip_payload", bad=0.0, seed=1), cost=0.0)
-        return fitted(task)
+    def better_afresh(task: Task) -> Trial:
+        is_it = task.afresh and not task.is_look and not task.extension
+        return replace(trial(bad=0.3), extension=()) if is_it else fitted(task)
 
-    fits.fitted = alone_is_enough  # type: ignore[method-assign]
-    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
-    assert [effects_of(one.best.extension) for one in rounds] == [["tip_payload"], ["tip_payload"]]
-    assert rounds[1].best is rounds[1].before
-    led = [effects_of(one.extension)[-1] for one in rounds[0].leaders]
-    assert len(set(led)) == len(led)
-
-
-@pytest.mark.parametrize("alone", [0.0, 0.25])
-def test_an_effect_that_the_one_sought_anew_makes_needless_is_dropped(alone: float) -> None:
-    """The payload leads, the tilt is found beside it, and beside the tilt the drag, which needs neither."""
-    shares = {
-        (): 0.6, ("tip_payload",): 0.4, ("base_tilt",): 0.45, ("tip_payload", "base_tilt"): 0.2,
-        ("base_tilt", "quadratic_drag"): 0.0, ("quadratic_drag",): 0.6, ("tip_payload", "quadratic_drag"): 0.6,
-    }  # fmt: skip
-    fits = Fits(shares, {("quadratic_drag",): alone})
+    fits.fitted = better_afresh  # type: ignore[method-assign]
     baseline, rounds = search(fits, EFFECTS, lambda _what, _part: None)
-    if alone:
-        assert set(effects_of(rounds[-1].best.extension)) == {"base_tilt", "quadratic_drag"}
-        return
-    assert [effects_of(one.best.extension) for one in rounds] == [["quadratic_drag"]]
-    assert rounds[0].before is baseline
-    assert judge(baseline, rounds).kind is Kind.CAUSE
+    assert rounds[0].best is rounds[0].before is baseline
+    assert unexplained(baseline) == pytest.approx(0.3, abs=0.01)
+
+
+def test_the_best_of_those_that_are_still_behind_is_fitted_to_the_end() -> None:
+    fits = Fits({(): 0.3, ("base_tilt",): 0.0})
+    fitted = fits.fitted
+
+    def slow(task: Task) -> Trial:
+        return fitted(task) if task.is_look or task.find_joints or not task.extension else trial("base_tilt", bad=0.4)
+
+    fits.fitted = slow  # type: ignore[method-assign]
+    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+    assert effects_of(rounds[0].best.extension) == ["base_tilt"]
 
 
 def test_progress_goes_from_nothing_to_done() -> None:
@@ -312,15 +240,3 @@ def test_what_explains_nearly_all_names_every_effect_of_its_model() -> None:
     assert verdict.nearly
     assert {cause.addition.effect for cause in verdict.causes} == set(both)
     assert set(effects_of(verdict.extension)) == set(both)
-
-
-def test_of_two_that_do_as_well_beside_a_small_second_effect_none_is_named_alone() -> None:
-    """The first round alone tells them apart, and it did not know the second effect."""
-    shares = {
-        (): 1.0, ("quadratic_drag",): 0.08, ("tip_payload",): 0.14, ("base_tilt",): 0.99,
-        ("quadratic_drag", "base_tilt"): 0.0, ("tip_payload", "base_tilt"): 0.0,
-    }  # fmt: skip
-    baseline, rounds = search(Fits(shares), EFFECTS, lambda _what, _part: None)
-    verdict = judge(baseline, rounds)
-    assert verdict.kind is Kind.AMBIGUOUS
-    assert {c.addition.effect for c in (*verdict.causes, *verdict.alternatives)} == set(EFFECTS)

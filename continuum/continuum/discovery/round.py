@@ -80,6 +80,9 @@ def one_round(
     ]
     leaders = list(make(leading))
     tell(0.75)
+    if afresh:  # what they gain by that alone is no gain
+        (other,) = make([Task((), before, _LEADER_ITERATIONS, afresh=True)])
+        before = other if other.cost < before.cost else before
     contenders = _contending(leaders, before)
     begun = [with_beginnings_of(trial, (before, *leaders)) for trial in contenders]
     ended = list(make([Task(trial.extension, trial, ITERATIONS, True) for trial in begun]))
@@ -151,7 +154,8 @@ def _contending(leaders: Sequence[Trial], before: Trial) -> list[Trial]:
     """Those not far behind the best of those that help for sure, if any do: luck in one stretch hides none."""
     gains = [gain(trial, before) for trial in leaders]
     sure = [gained.log_likelihood for gained in gains if gained.is_significant]
-    least = CONTENDING * max(sure or [gained.log_likelihood for gained in gains], default=0.0)
+    most = max(sure or [gained.log_likelihood for gained in gains], default=0.0)
+    least = min(CONTENDING * most, most)  # of those behind it, too, the best may come to lead
     return [trial for trial, gained in zip(leaders, gains, strict=True) if gained.log_likelihood >= least]
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from continuum.discovery.evidence import beyond_noise, explains_all, gain
+from continuum.discovery.evidence import DISTINCT, beyond_noise, explains_all, gain
 from continuum.discovery.round import CONTENDING, ITERATIONS, Round, one_round
 from continuum.discovery.trial import Trial
 from continuum.discovery.workers import Make, Task
@@ -64,15 +64,16 @@ def search(
     begun = None if earlier is None else earlier.baseline if earlier.best.extension else earlier.best
     (baseline,) = make([Task((), begun, _BASELINE_ITERATIONS)])
     rounds: list[Round] = []
-    before, asked, is_anew = baseline, None, False
+    before, asked, may_stand_alone = baseline, None, True
     while True:
         known = earlier.best if earlier and not rounds else None
         rounds.append(one_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}"), known))
+        if len(rounds) == 2 and _may_have_misled(rounds[1], rounds[0]):
+            tell_of = partial(tell, "the first effect anew")
+            rounds = _first_anew(make, rounds[0], rounds[1], effects, tell_of, may_stand_alone)
+            may_stand_alone &= len(rounds) > 1
         if len(rounds) == 1:
             baseline = rounds[0].before
-        if len(rounds) == 2 and not is_anew and _may_have_misled(rounds[1], rounds[0]):
-            is_anew = True
-            rounds = _first_anew(make, rounds[0], rounds[1], effects, partial(tell, "the first effect anew"))
         best = rounds[-1].best
         if best.extension != asked and until(best):
             break
@@ -105,20 +106,31 @@ def _may_have_misled(second: Round, first: Round) -> bool:
 
 
 def _first_anew(
-    make: Make, first: Round, second: Round, effects: Sequence[str], tell: Callable[[float], None]
+    make: Make,
+    first: Round,
+    second: Round,
+    effects: Sequence[str],
+    tell: Callable[[float], None],
+    may_stand_alone: bool,
 ) -> list[Round]:
     """The first effect sought once more, now beside the second: it was found while that one was still unknown.
 
-    What then stands beside the second may be another one, which the second is needless beside.
+    What then stands beside the second, and no other with it, may be a third one, which explains alone what the two do,
+    and more than the first two: all are sought once more, and that one from as good a beginning.
     """
     alone = _newest_alone(make, second)
     again = one_round(make, alone, effects, tell)
     if again.best is again.before:  # the second one alone does it
-        return [_first_led_by(again.before, first), again]
-    if again.best.extension[-1].effect != first.best.extension[-1].effect:
+        effect = alone.extension[-1].effect
+        others = [trial for trial in first.leaders if trial.extension[-1].effect != effect]  # it is no rival of itself
+        return [replace(first, leaders=(again.before, *others)), again]
+    is_alone = all(gain(again.best, other).is_distinct for other in again.leaders[1:])
+    if may_stand_alone and is_alone and again.best.extension[-1].effect != first.best.extension[-1].effect:
         newest = _newest_alone(make, again)
-        if not gain(again.best, newest).is_significant:
-            return [_first_led_by(newest, first)]
+        if _does_as_well(newest, again.best) and gain(newest, second.best).is_distinct:
+            anew = one_round(make, first.before, effects, tell, newest)
+            if _does_as_well(anew.best, again.best):
+                return [anew]
     return [second, again]
 
 
@@ -127,7 +139,5 @@ def _newest_alone(make: Make, one: Round) -> Trial:
     return alone
 
 
-def _first_led_by(alone: Trial, first: Round) -> Round:
-    """The first round, as if it had found this one; which is no rival of itself."""
-    effect = alone.extension[-1].effect
-    return replace(first, leaders=(alone, *(one for one in first.leaders if one.extension[-1].effect != effect)))
+def _does_as_well(trial: Trial, other: Trial) -> bool:
+    return gain(other, trial).log_likelihood < DISTINCT

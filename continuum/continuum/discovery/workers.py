@@ -57,10 +57,10 @@ def make(question: Question, task: Task) -> Trial:
         part, near = question, task.near
         if len(question.recordings) >= _MANY_RUNS:
             part, near = some_runs(question, task.near)
-        near = with_likeliest_beginning(part, task.extension, _begun(near, task), _LOOK_STEPS)
+        near = with_likeliest_beginning(part, task.extension, _start(near, task), _LOOK_STEPS)
         return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, 0, _LOOK_STEPS))
-    begun = None if task.near is None else _begun(task.near, task)
-    fitted = fit_extension(question, task.extension, begun, task.iterations)
+    start = None if task.near is None else _start(task.near, task)
+    fitted = fit_extension(question, task.extension, start, task.iterations)
     whole = judged(task.extension, fitted)
     last = task.extension[-1] if task.extension else None
     if not task.find_joints or last is None or not acts_at_joints(last.effect) or not fitted.parts:
@@ -68,7 +68,7 @@ def make(question: Question, task: Task) -> Trial:
     return _at_few_joints(question, task, whole, acting_joints(fitted, last.effect))
 
 
-def _begun(near: Trial, task: Task) -> Trial:
+def _start(near: Trial, task: Task) -> Trial:
     return replace(near, own=()) if task.afresh else near
 
 

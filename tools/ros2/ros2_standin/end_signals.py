@@ -13,22 +13,21 @@ from types import FrameType
 
 @contextmanager
 def ends_are_heard() -> Iterator[Callable[[], None]]:
-    """Note the SIGINT and SIGTERM that come; gives what raises once more what the handler of the last one raised."""
+    """Note the SIGINT and SIGTERM that come; gives what raises once more what the handler of the last one raised.
+
+    A signal that no handler of Python's takes is left alone.
+    """
     came: list[int] = []
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    before = {int(number): handler for number, handler in handlers.items() if callable(handler)}
 
     def take(number: int, frame: FrameType | None) -> None:
         came.append(number)
-        handle(number, frame)
-
-    def handle(number: int, frame: FrameType | None) -> None:
-        handler = before[signal.Signals(number)]
-        if callable(handler):
-            handler(number, frame)
+        before[number](number, frame)
 
     def raise_again() -> None:
         if came:
-            handle(came[-1], None)
+            before[came[-1]](came[-1], None)
 
     for number in before:
         signal.signal(number, take)

@@ -50,9 +50,8 @@ class Session:
         with ends_are_heard() as raise_again:
             try:
                 self._executor.spin_once(timeout_sec=_POLL)
-            except RuntimeError:
+            finally:
                 raise_again()
-                raise
 
     def spin_for(self, duration: float) -> None:
         """Serve callbacks for ``duration`` [s]."""

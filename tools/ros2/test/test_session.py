@@ -5,14 +5,16 @@ import signal
 
 import pytest
 
+from ros2_standin.end_signals import ends_are_heard
 from ros2_standin.session import Session
 
 
 class LosingExecutor:
     """Interrupted in the middle of a message: as rclpy does, it makes another error of what the handler raised."""
 
-    def __init__(self, number: signal.Signals | None) -> None:
+    def __init__(self, number: signal.Signals | None, error: Exception | None) -> None:
         self._number = number
+        self._error = error
 
     def spin_once(self, timeout_sec: float) -> None:
         try:
@@ -21,7 +23,8 @@ class LosingExecutor:
             signal.sigtimedwait([], min(timeout_sec, 0.01))  # signals are heard here
         except (KeyboardInterrupt, SystemExit):
             pass
-        raise RuntimeError("Unable to convert call argument '0' to Python object")
+        if self._error is not None:
+            raise self._error
 
 
 @pytest.fixture
@@ -36,13 +39,31 @@ def ended():
     signal.signal(signal.SIGTERM, before)
 
 
-@pytest.mark.parametrize(
-    ("number", "raised"),
-    [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit), (None, RuntimeError)],
-)
+UNABLE = "Unable to convert call argument '0' to Python object"
+
+
+@pytest.mark.parametrize("error", [RuntimeError(UNABLE), SystemError(UNABLE), None])
+@pytest.mark.parametrize(("number", "raised"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)])
 @pytest.mark.usefixtures("ended")
-def test_what_ends_the_command_is_not_lost(number: signal.Signals | None, raised: type[BaseException]) -> None:
+def test_what_ends_the_command_is_not_lost(
+    number: signal.Signals, raised: type[BaseException], error: Exception | None
+) -> None:
     handlers = [signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM)]
     with pytest.raises(raised):
-        Session(None, LosingExecutor(number), 0.0).spin_for(10.0)
+        Session(None, LosingExecutor(number, error), 0.0).spin_for(10.0)
     assert [signal.getsignal(one) for one in (signal.SIGINT, signal.SIGTERM)] == handlers
+
+
+@pytest.mark.usefixtures("ended")
+def test_an_error_without_a_signal_is_what_it_is() -> None:
+    with pytest.raises(RuntimeError, match="Unable"):
+        Session(None, LosingExecutor(None, RuntimeError(UNABLE)), 0.0).spin_for(10.0)
+
+
+def test_a_signal_that_nobody_takes_is_left_alone() -> None:
+    before = signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    try:
+        with ends_are_heard():
+            assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+    finally:
+        signal.signal(signal.SIGTERM, before)
