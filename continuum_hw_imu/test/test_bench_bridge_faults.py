@@ -9,7 +9,7 @@ import pytest
 from ament_index_python.packages import get_package_prefix
 from emulated_bench import CABLES, Bridge, Ears, bridge_at, emulated_bench
 from harness import NodeProcess, Probe, ended_in_any_case
-from test_bench_bridge_node import angles_beside_truth
+from test_bench_bridge_node import WAITING, angles_beside_truth
 
 from continuum_hw_imu.bench_bridge import AUTOSTART_PERIOD
 from continuum_hw_imu.protocol.messages import ReceiverLimits
@@ -31,9 +31,6 @@ NOTICED = {signal.SIGKILL: 0.0, signal.SIGSTOP: LIMITS.heartbeat_timeout}
 
 BUSY = 0.1
 """What rows of the truth and a busy machine add to a time [s]."""
-
-WAITING = 0.05
-"""By which a busy machine may hear all frames late, and nobody can know by how much [s]."""
 
 
 @pytest.fixture(scope="module")
@@ -95,8 +92,7 @@ def slack_time_after(bench, instant: float) -> float:
 
 def assert_no_wrong_angle(bridge: Bridge, joints) -> None:
     """None but for a lag, one for each quarter of a second: a bridge that waits for its turn hears all frames late."""
-    measured, real = angles_beside_truth(bridge, joints, np.linspace(0.0, WAITING, 11))
-    off = np.abs(measured - real).max(axis=-1)
+    off = np.abs(np.subtract(*angles_beside_truth(bridge, joints, np.linspace(0.0, WAITING, 11)))).max(axis=-1)
     stretches = [off[:, i : i + 15].max(axis=1).min() for i in range(0, off.shape[1], 15)]
     assert max(stretches) < FARTHEST, np.degrees(stretches)
 

@@ -15,6 +15,9 @@ pytestmark = pytest.mark.ros
 
 MODEL = load_model("lamecc_prototype.yaml")
 MOST, FASTEST, TIMEOUT, SLACK_TIME = 12.0, 60.0, 0.6, 0.3
+WAITING = 0.05
+"""By which a busy machine may let a process wait: it hears all frames late, and catches up with what it says [s]."""
+
 LIMITS = {"max_tension": MOST, "max_tension_rate": FASTEST, "command_timeout": TIMEOUT, "slack_time": SLACK_TIME}
 
 
@@ -139,7 +142,9 @@ def test_tension_follows_within_limits_and_lets_go_when_commands_stop(active):
     truth = bench.truth()
     time, pulled = truth["monotonic_s"][before:], truth["set_point"][before:]
     assert pulled.max() <= MOST + 1e-6
-    assert np.all(np.diff(pulled, axis=0) <= FASTEST / 60 * 2.5)  # set points of the node come 60 times a second
+    for rows in range(1, 20):  # one that waited for its turn catches up
+        rise = pulled[rows:] - pulled[:-rows]
+        assert np.all(rise <= FASTEST * (time[rows:] - time[:-rows] + WAITING)[:, None]), rise.max()
     slack = time[(time > last) & ~pulled.any(axis=1)][0]
     assert slack - last <= TIMEOUT + SLACK_TIME + 0.1
     assert active.state == "active"
