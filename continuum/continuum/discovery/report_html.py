@@ -40,6 +40,10 @@ _MISSING = (
     "Torque that a model would need beside its own to follow the measurements, by angle and by rate. What it goes with "
     "is a hint to its kind (the less p the surer; above 0.05 it is none); the verdict rests on the effects tried below."
 )
+_GAINS = (
+    "Gain: log-likelihood on runs that were held out, and its standard deviation; information: what the fit to all "
+    "runs gains, less the price of its unknowns (BIC)."
+)
 
 
 def write_report(
@@ -168,8 +172,9 @@ def _evidence(number: int, one: Round) -> Iterable[str]:
         gains = [f"{x:.0f}" for x in (won.log_likelihood, won.deviation, won.information)]
         rows.append((str(trial.extension[-1]), *gains, _share(unexplained(trial))))
     yield _table(("effect", "gain", "deviation", "information", "data left unexplained"), rows)
-    others = ", ".join(str(trial.extension[-1]) for trial in one.looks[len(one.leaders) :])
-    yield f'<p class="note">Set aside after a first look: {escape(others)}.</p>'
+    led = {trial.extension[-1].effect for trial in one.leaders}
+    others = ", ".join(str(look.extension[-1]) for look in one.looks if look.extension[-1].effect not in led)
+    yield f'<p class="note">{_GAINS} Set aside after a first look: {escape(others)}.</p>'
 
 
 def _share(share: float) -> str:
