@@ -95,7 +95,7 @@ def test_effects_are_looked_at_for_longer_where_first_looks_promise_nothing() ->
 
 @pytest.mark.parametrize("hidden", [0.4, 0.6])
 def test_windows_begin_afresh_where_the_model_is_very_wrong(hidden: float) -> None:
-    """In the first round, in looks and leaders; of what helps and of the model as it is they are good enough."""
+    """In the first round: looks, leaders, and once more the model as it is; what helps has good enough ones then."""
     fits = Fits({(): hidden, ("tip_payload",): 0.3, ("tip_payload", "base_tilt"): 0.0, ("base_tilt",): 0.5})
     _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
     afresh = {(len(task.extension), task.is_look, task.find_joints) for task in fits.asked if task.afresh}

@@ -5,7 +5,7 @@ what the slopes promise counts as well as what was gained; where they promise li
 longer one. What leads is fitted to all data, and what then contends is fitted to the end and found its joints.
 
 Where the model without any effect is very wrong, its windows begin in places from which no slope leads to the right
-one: looks and leaders then begin theirs as measured.
+one: looks and leaders then begin theirs as measured, and so does that model once more.
 """
 
 from __future__ import annotations
