@@ -20,8 +20,8 @@ demo: setup ## follow the thesis's helix with real nodes, results in out/demo; V
 bench-demo: setup ## emulated bench, bridge and simulated arm: pulled, released, recorded, diagnosed; results in out/bench_demo
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.bench_demo $(ARGS)
 
-test: check browser ## run the checks and every test, on up to 4 cores (ARGS="-k name" are given to pytest)
-	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 pytest --numprocesses auto --maxprocesses 4 --dist loadfile $(ARGS)
+test: check browser ## run the checks and every test, the library's on up to 4 cores (ARGS="-k name" are given to pytest)
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.run_tests $(ARGS)
 
 browser: setup ## Chromium and Playwright for the viewer's tests, into out/browser; what cannot be had is left out
 	@$(IN_WORKSPACE) test -d out/browser/extra/playwright || \

@@ -32,6 +32,25 @@ def pytest_configure(config: pytest.Config) -> None:
     settings.load_profile("untimed")
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Let ``make test`` run the tests in two parts."""
+    parser.addoption("--library", choices=("only", "left-out"), help="tests of the library, which start no nodes")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out the part that ``--library`` names."""
+    if (part := config.getoption("library")) is None:
+        return
+    left_out = [item for item in items if _is_of_the_library(item.path) != (part == "only")]
+    config.hook.pytest_deselected(items=left_out)
+    items[:] = [item for item in items if item not in set(left_out)]
+
+
+def _is_of_the_library(path: Path) -> bool:
+    """Whether a test only computes, and may run beside others that do."""
+    return any(path.is_relative_to(Path(__file__).parent / folder) for folder in ("continuum/test", "test/blind"))
+
+
 sys.path.append(str(Path(__file__).parent / "test"))  # for the package harness
 
 

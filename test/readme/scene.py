@@ -28,7 +28,7 @@ ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+")
 ENDS_BY_CTRL_C = (0, signal.SIGINT, 128 + signal.SIGINT, -signal.SIGINT)
 """Exit codes of what ends in good order by Ctrl-C: of nodes, of `ros2`, of shells, and of what does not take it."""
 
-PATIENCE = 20 * LONG
+PATIENCE = 5 * LONG
 """For a diagnosis on a machine that is busy [s]."""
 
 

@@ -1,0 +1,1 @@
+"""Run every test: what starts nodes alone, what only computes on all cores."""
