@@ -6,6 +6,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+
 from tools.run_tests import __main__ as run_tests
 
 ROOT = Path(__file__).parents[3]
