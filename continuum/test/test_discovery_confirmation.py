@@ -45,6 +45,12 @@ def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
         assert doubted.kind is (Kind.UNKNOWN if named else kind)
         assert not (named and doubted.alternatives)
         assert ("does not predict runs" in verdict_in_words(doubted)) == named
+        for after in (scores(0.05, 0.31), scores(0.05, np.inf)):  # far off in one run
+            assert confirmed(verdict, scores(0.45, 0.45), after).kind is (Kind.UNKNOWN if named else kind)
+            assert confirmed(verdict, scores(0.05, 0.04), after).kind is (Kind.UNKNOWN if named else kind)
+        worse = scores(0.9, 0.10, 0.10, 0.10), scores(0.05, 0.12, 0.12, 0.12)  # in most runs
+        assert confirmed(verdict, *worse).kind is (Kind.UNKNOWN if named else kind)
+        assert confirmed(verdict, scores(0.9, 0.9, 0.1, 0.1), scores(0.05, 0.05, 0.12, 0.12)) is verdict
     needless = judge(GOOD, [a_round(GOOD, trial("base_tilt", misfit=0.6, seed=3))])
     assert needless.kind is Kind.CAUSE
     assert confirmed(needless, scores(0.14), scores(0.13)).kind is Kind.ADEQUATE

@@ -89,6 +89,48 @@ def test_a_cause_and_what_it_gains() -> None:
     assert verdict.unexplained == (pytest.approx(0.3), 0.0)
 
 
+def test_a_model_that_is_a_little_wrong_everywhere_is_wrong() -> None:
+    """No window by itself shows it."""
+    loud = trial(misfit=1.6)
+    assert unexplained(loud) == 0
+    assert not is_adequate(loud)
+    assert not explains_all(loud)
+    assert judge(loud, []).kind is Kind.UNKNOWN
+    assert is_adequate(trial(misfit=1.2))
+
+
+def test_a_rival_that_just_fails_to_help_for_sure_is_one() -> None:
+    """Two that explain the same are as likely, whichever of them the bar for chance falls between."""
+    best, rival = (trial(name, misfit=misfit, seed=9) for name, misfit in (("rest_angle", 0.9), ("base_tilt", 0.9005)))
+    bar = replace(GOOD, cost=rival.cost)  # the fits say that only the best one is worth its price
+    verdict = judge(bar, [a_round(bar, best, rival)])
+    assert gain(best, bar).is_significant
+    assert not gain(rival, bar).is_significant
+    assert [cause.addition.effect for cause in (*verdict.causes, *verdict.alternatives)] == ["rest_angle", "base_tilt"]
+    assert verdict.kind is Kind.AMBIGUOUS
+
+
+EVEN, UNEVEN = (0.6, 0.6, 0.6, 0.6), (1.2, 1.2, 0.0, 0.0)
+"""Misfit of a rival's windows beyond the best one's, in units of noise: all explained, and half of them not."""
+
+
+@pytest.mark.parametrize(("stretches", "more", "kind"), [
+    (2, EVEN, Kind.AMBIGUOUS), (3, EVEN, Kind.AMBIGUOUS), (3, UNEVEN, Kind.CAUSE), (6, EVEN, Kind.CAUSE),
+])  # fmt: skip
+def test_what_would_do_by_itself_is_told_apart_only_by_a_sure_lead(
+    stretches: int, more: tuple[float, ...], kind: Kind
+) -> None:
+    """A lead of 48 in each of some stretches, which is a few deviations: about the root of their number."""
+    rival = replace(trial("base_tilt", seed=1), held_out=tuple(run.copy() for run in PAYLOAD.held_out))
+    for number in range(stretches):
+        first = 4 if number < RUNS else 12
+        rival.held_out[number % RUNS][first : first + 4] += SIZE * np.array(more)
+    lead = gain(PAYLOAD, rival)
+    assert lead.rest > 15
+    assert lead.log_likelihood / lead.deviation == pytest.approx(np.sqrt(stretches), rel=0.15)
+    assert judge(BAD, [a_round(BAD, PAYLOAD, rival)]).kind is kind
+
+
 def test_causes_that_cannot_be_told_apart_share_the_confidence() -> None:
     verdict = judged()[Kind.AMBIGUOUS]
     named = [*verdict.causes, *verdict.alternatives]

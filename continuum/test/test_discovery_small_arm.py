@@ -56,16 +56,6 @@ def test_a_run_is_predicted_as_by_a_fit_without_it(left_out: int) -> None:
     )  # decisions are made at 16
 
 
-def test_what_a_run_has_for_itself_is_paid_for() -> None:
-    """Half the logarithm of the number of errors for each unknown, twice in a misfit."""
-    simulator, random = small_simulator("angle_offset", TOLERANCES), np.random.default_rng(1)
-    runs = [recorded(small_simulator(), bend, random) for bend in BENDS[:2]]
-    own = fit(simulator, runs, white_noise(), [Free("angle_offset.offset", j, i) for i in range(2) for j in range(N)])
-    for predicted, misfits in zip(held_out_misfits(own), own.misfits, strict=True):
-        errors = 2 * N * runs[0].times.size
-        assert predicted.sum() == pytest.approx(misfits.sum() + N * np.log(errors), rel=1e-6)
-
-
 def test_uncertain_states_of_effects_are_paid_for_where_a_run_begins() -> None:
     """With nothing shared to fit, all else is predicted as it was fitted."""
     simulator = small_simulator("presliding", TOLERANCES)

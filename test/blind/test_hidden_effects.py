@@ -1,6 +1,7 @@
 """An effect hidden in the data is found, and never one that is not there: from files that tell nothing else."""
 
 import os
+import tempfile
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
@@ -34,9 +35,10 @@ class Hidden:
     regimes: tuple[str, ...]
     seed: int
 
-    def diagnose(self, folder: Path) -> tuple[Truth, dict[str, Any]]:
+    def diagnose(self) -> tuple[Truth, dict[str, Any]]:
         case = make_case(self.effects, "medium", self.regimes, self.seed, seconds=SECONDS)
-        return case.truth, diagnosed(write_case(case, folder), DEADLINE)
+        with tempfile.TemporaryDirectory() as folder:  # its name is by chance
+            return case.truth, diagnosed(write_case(case, Path(folder) / "data"), DEADLINE)
 
 
 def small_dataset(effect: str) -> tuple[str, ...]:
@@ -54,13 +56,12 @@ type Verdicts = dict[str, Future[tuple[Truth, dict[str, Any]]]]
 
 
 @pytest.fixture(scope="module")
-def verdicts(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Verdicts]:
+def verdicts(request: pytest.FixtureRequest) -> Iterator[Verdicts]:
     """Of the cases that are asked for, one at a time for each core."""
     chosen = [item.callspec.params["name"] for item in request.session.items if hasattr(item, "callspec")
               and item.path == request.path]  # fmt: skip
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        folders = {name: tmp_path_factory.mktemp("case") / "data" for name in chosen}
-        yield {name: pool.submit(CASES[name].diagnose, folder) for name, folder in folders.items()}
+        yield {name: pool.submit(CASES[name].diagnose) for name in chosen}
         pool.shutdown(cancel_futures=True)
 
 

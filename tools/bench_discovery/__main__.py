@@ -19,7 +19,7 @@ from tools.bench_discovery.campaign import left, run_campaign, run_case
 from tools.bench_discovery.digest import digest_of_sources
 from tools.bench_discovery.page import page
 from tools.bench_discovery.plans import CHOICES, campaign, narrowed
-from tools.bench_discovery.result import Result, append, load
+from tools.bench_discovery.result import Result, append, load, superseded
 from tools.bench_discovery.score import judged, name_of
 
 PAGE = Path("docs/discovery-benchmark.md")
@@ -49,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if not options.page_only:
         _go_on(options, digest, results)
     if results:
-        options.out.write_text(page(results), encoding="utf-8")
+        options.out.write_text(page(results, superseded(options.results)), encoding="utf-8")
         print(f"written: {options.out}, from {len(results)} cases")
 
 

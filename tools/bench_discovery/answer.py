@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from enum import Enum
 from typing import Any
 
+_ALL_JOINTS = [1, 2, 3, 4, 5]  # of the plant's arms
+
 
 class Answer(Enum):
     """From the worst to the best."""
@@ -16,7 +18,7 @@ class Answer(Enum):
     UNKNOWN = "unknown"
     ADEQUATE = "missed: adequate"
     FAILED = "no verdict"
-    PART = "one of two"
+    PART = "in part"
     SET = "in an ambiguous set"
     RIGHT = "right"
 
@@ -28,8 +30,9 @@ type Entry = Mapping[str, Any]
 def answer(hidden: Sequence[Entry], verdict: Mapping[str, Any] | None) -> Answer:
     """Judge a verdict.
 
-    Right is `cause` with every hidden effect and no other, each at its joint where it belongs to one; `unknown` where
-    an effect outside of the library is hidden; `adequate` where nothing is.
+    Right is `cause` with every hidden effect and no other, each at its joint where it belongs to one and else at all;
+    in part it is with one of two effects, or at some of the joints; right is also `unknown` where an effect outside of
+    the library is hidden, and `adequate` where nothing is.
 
     Args:
         hidden: effects as the plant tells them.
@@ -53,8 +56,13 @@ def answer(hidden: Sequence[Entry], verdict: Mapping[str, Any] | None) -> Answer
 
 
 def is_it(effect: Entry, named: Entry) -> bool:
-    """Whether a named effect is the hidden one, at its joint."""
+    """Whether a named effect is the hidden one, at its joint; of the whole arm's one joint is enough."""
     return bool(effect["name"] == named["effect"] and effect["joint"] in (None, named["joint"]))
+
+
+def _is_whole(effect: Entry, named: Entry) -> bool:
+    """Whether it is named at all joints where it is hidden."""
+    return is_it(effect, named) and (effect["joint"] is not None or named["joints"] in (None, _ALL_JOINTS))
 
 
 def _of_causes(hidden: Sequence[Entry], causes: Sequence[Entry]) -> Answer:
@@ -62,7 +70,8 @@ def _of_causes(hidden: Sequence[Entry], causes: Sequence[Entry]) -> Answer:
         return Answer.WRONG_CAUSE
     if not all(any(is_it(effect, cause) for effect in hidden) for cause in causes):
         return Answer.WRONG_JOINT
-    return Answer.RIGHT if len(causes) == len(hidden) else Answer.PART
+    all_named = all(any(_is_whole(effect, cause) for cause in causes) for effect in hidden)
+    return Answer.RIGHT if all_named else Answer.PART
 
 
 def label(verdict: Mapping[str, Any] | None) -> str:

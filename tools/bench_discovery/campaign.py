@@ -10,16 +10,21 @@ import signal
 import subprocess
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from blind.plant import Plan, make_case, write_case
 
 from continuum.cli.diagnose import EXIT_CODES
 from tools.bench_discovery.result import Result
+
+_NEEDED: Final = {
+    *("CC", "PATH", "HOME", "TMPDIR", "LANG", "LC_ALL", "XDG_CACHE_HOME"),
+    *("VIRTUAL_ENV", "PYTHONPATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH"),
+}
 
 
 class DiagnosisFailedError(Exception):
@@ -42,7 +47,7 @@ def diagnosed(files: list[Path], limit: float) -> dict[str, Any]:
         with subprocess.Popen(
             command,
             cwd=folder,
-            env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+            env=surroundings(os.environ),
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
@@ -59,6 +64,11 @@ def diagnosed(files: list[Path], limit: float) -> dict[str, Any]:
             last = errors.strip().splitlines()[-1:] or ["nothing on stderr"]
             raise DiagnosisFailedError(f"exit code {process.returncode}: {last[0]}")
         return dict(json.loads(verdict.read_text(encoding="utf-8")))
+
+
+def surroundings(environment: Mapping[str, str]) -> dict[str, str]:
+    """What of an environment a diagnosis needs; no more, since a test's name is in it, and with it what is hidden."""
+    return {name: value for name, value in environment.items() if name in _NEEDED} | {"OPENBLAS_NUM_THREADS": "1"}
 
 
 def run_case(plan: Plan, digest: str, limit: float) -> Result:

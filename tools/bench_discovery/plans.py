@@ -18,7 +18,7 @@ EIGHT = "eight_releases"
 NOISES = ("ordinary", "low", "ordinary", "high")
 CLEAN_IN_A_ROUND = 2 * len(DATASETS)
 PAIRS_IN_A_ROUND = len(DATASETS)
-_MOST_IN_A_ROUND = 1000
+_MOST_IN_A_ROUND = _MOST_ROUNDS = 1000
 
 CHOICES = ("clean", "one", "pairs", "outside", *LIBRARY, *OUTSIDE)
 """What a campaign may be narrowed to."""
@@ -27,8 +27,13 @@ CHOICES = ("clean", "one", "pairs", "outside", *LIBRARY, *OUTSIDE)
 def campaign(seed: int, rounds: int) -> Iterator[Plan]:
     """Plans of so many rounds; no two have the same seed."""
     for number in range(rounds):
-        seeds = itertools.count(_MOST_IN_A_ROUND * (1000 * seed + number))
+        seeds = itertools.count(_MOST_IN_A_ROUND * (_MOST_ROUNDS * seed + number))
         yield from (Plan(*hidden, next(seeds), noise) for *hidden, noise in one_round(number, seed))
+
+
+def campaign_of(plan: Plan) -> int:
+    """Seed of the campaign that a plan is of."""
+    return plan.seed // (_MOST_IN_A_ROUND * _MOST_ROUNDS)
 
 
 def one_round(number: int, seed: int = 0) -> Iterator[tuple[tuple[str, ...], str, str, str]]:

@@ -54,11 +54,25 @@ def append(result: Result, path: Path) -> None:
 
 
 def load(path: Path, digest: str | None) -> list[Result]:
-    """Results of one version, or of all, of a case the latest; a line that was cut off in the writing is left out."""
-    if not path.exists():
-        return []
+    """Results of one version, or of all, of a case the latest."""
     found: dict[Plan, Result] = {}
-    for line in path.read_text(encoding="utf-8").splitlines():
+    for result in _all(path, digest):
+        found.pop(result.plan, None)
+        found[result.plan] = result
+    return list(found.values())
+
+
+def superseded(path: Path) -> list[Result]:
+    """Results of cases that a later version was asked once more."""
+    results = _all(path, None)
+    latest = {result.plan: result for result in results}
+    return [result for result in results if latest[result.plan] is not result]
+
+
+def _all(path: Path, digest: str | None) -> list[Result]:
+    """In the order in which they were made; a line that was cut off in the writing is left out."""
+    found = []
+    for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else ():
         try:
             fields = json.loads(line)
         except json.JSONDecodeError:
@@ -67,6 +81,5 @@ def load(path: Path, digest: str | None) -> list[Result]:
         fields["plan"] = Plan(**(plan | {"effects": tuple(plan["effects"])}))
         result = Result(**fields)
         if digest in (None, result.digest):
-            found.pop(result.plan, None)
-            found[result.plan] = result
-    return list(found.values())
+            found.append(result)
+    return found

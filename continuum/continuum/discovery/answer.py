@@ -60,7 +60,8 @@ def answer(
 def absent_cause(found: Findings) -> str | None:
     """An effect that is named, as cause or alternative, and of which no size is told from none: that of least gain.
 
-    One at a time: where two hang together each may seem to be needless beside the other.
+    One at a time: where two hang together each may seem to be needless beside the other. Where it is ambiguous and a
+    size of another one is told from none, none is left out: what helps without a size explains the data as well.
     """
     verdict = found.verdict
     if verdict.kind not in (Kind.CAUSE, Kind.AMBIGUOUS):
@@ -70,7 +71,10 @@ def absent_cause(found: Findings) -> str | None:
         for estimate in (*found.estimates, *(one for own in found.others for one in own))
         if "." in estimate.unknown.name and _is_there(estimate.unknown.name, estimate.low, estimate.high)
     }
-    absent = [cause for cause in (*verdict.causes, *verdict.alternatives) if cause.addition.effect not in told]
+    named = [*verdict.causes, *verdict.alternatives]
+    absent = [cause for cause in named if cause.addition.effect not in told]
+    if verdict.kind is Kind.AMBIGUOUS and len(absent) < len(named):
+        return None
     least = min(absent, key=lambda cause: cause.gain.log_likelihood, default=None)
     return None if least is None else least.addition.effect
 

@@ -14,10 +14,11 @@ from continuum.discovery.trial import Trial
 _UNEXPLAINED = 2.0  # misfit of a window beside that of noise, ...
 _RARE = 0.005  # ... or what noise seldom is, where a window holds few errors
 _BY_CHANCE = 0.02  # share of windows that stay so of a right model: sticking joints now and then hold one
+_LOUD = 1.4  # misfit of half of the windows beside that of noise; right models have 0.7 to 1.0
 _CHANCE = 0.01  # probability of as many by chance, below which something is missing
 _CHANCE_OF_CAUSE = 0.1  # the same where a cause is to be named: the wrong one is worse than none
 _SIGNIFICANT = 15.0  # log-likelihood
-_SPREAD = 1.5  # deviations
+_SPREAD, _SURE = 1.5, 2.0  # deviations
 _STRETCH = 4  # windows, over which errors may hang together
 
 DISTINCT = 8.0
@@ -43,17 +44,21 @@ class Gain:
     @property
     def is_significant(self) -> bool:
         """Whether it is more than chance gives with some forty hypotheses tried, worth it, and not one run's doing."""
-        return self.rest > _SIGNIFICANT and self._is_spread and self.information > 0
+        return self.rest > _SIGNIFICANT and self._is_beyond(_SPREAD) and self.information > 0
 
     @property
     def is_distinct(self) -> bool:
         """Whether one of two hypotheses is told from the other by it."""
-        return self.rest > DISTINCT and self._is_spread
+        return self.rest > DISTINCT and self._is_beyond(_SPREAD)
 
     @property
-    def _is_spread(self) -> bool:
-        """Whether more than two stretches make it."""
-        return self.log_likelihood > _SPREAD * self.deviation
+    def is_sure(self) -> bool:
+        """Whether one of two hypotheses is told from the other by it where either would do by itself."""
+        return self.rest > DISTINCT and self._is_beyond(_SURE)
+
+    def _is_beyond(self, deviations: float) -> bool:
+        """Whether more than a few stretches make it."""
+        return self.log_likelihood > deviations * self.deviation
 
 
 def unexplained(trial: Trial) -> float:
@@ -67,17 +72,24 @@ def beyond_noise(trial: Trial) -> float:
 
 
 def is_adequate(trial: Trial) -> bool:
-    """Whether what is left is noise: no more unexplained windows, in all runs and in each, than by chance.
+    """Whether what is left is noise: not loud, and by chance as many windows unexplained, in all runs and in each.
 
     A motion that none of the other runs has may be the only one to show what is missing.
     """
     runs = _unexplained_windows(trial)
+    if _is_loud(trial):
+        return False
     return _chance(np.concatenate(runs)) > _CHANCE and min(map(_chance, runs)) > _CHANCE / len(runs)
 
 
 def explains_all(trial: Trial) -> bool:
     """Whether its effects explain so much that they may be named."""
-    return _chance(np.concatenate(_unexplained_windows(trial))) > _CHANCE_OF_CAUSE
+    return not _is_loud(trial) and _chance(np.concatenate(_unexplained_windows(trial))) > _CHANCE_OF_CAUSE
+
+
+def _is_loud(trial: Trial) -> bool:
+    """Whether most windows hold a little more than noise, each too little to be unexplained by itself."""
+    return bool(np.median(trial.relative) > _LOUD)
 
 
 def _unexplained_windows(trial: Trial) -> list[Array]:

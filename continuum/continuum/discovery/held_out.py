@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.discovery.price_of_own import own_prices
 from continuum.identification.arrow_least_squares import MOST_MISFIT, Part, misfit_of, reduced, weight_of
 from continuum.identification.fit import Fit
 
@@ -16,9 +17,9 @@ from continuum.identification.fit import Fit
 def held_out_misfits(fitted: Fit) -> list[Array]:
     """Misfit of every window of every run, each run predicted by the others.
 
-    What belongs to a run alone, its windows' first states and its sensors' offsets, is the run's own; that is paid
-    for with half the logarithm of the number of errors for each such unknown (Schwarz 1978), and what is uncertain of
-    the effects' states where it begins with what it took of its prior (Laplace's method). With one run, stretches of it
+    What belongs to a run alone, its windows' first states and its sensors' offsets, is the run's own; each such offset
+    is paid for, or as one where it may be the same in all runs (`price_of_own`), and what is uncertain of the effects'
+    states where it begins with what it took of its prior (Laplace's method). With one run, stretches of it
     are held out instead. A model that could not be simulated explains no window.
     """
     groups, single = _groups(fitted), len(fitted.runs) == 1
@@ -28,6 +29,7 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
     slopes = [reduced(part, spread) for part, spread in zip(fitted.parts, fitted.unknowns.own_spread, strict=True)]
     weights = [weight_of(part) for part in fitted.parts]
     found: list[Array] = []
+    prices_of_own, _ = own_prices(fitted)
     for number, group in enumerate(groups):
         mine = np.array([u.recording == number and not single for u in fitted.space.unknowns], dtype=bool)
         square = sum((weights[i] * slopes[i].T @ slopes[i] for i in group), np.zeros_like(fitted.information))
@@ -38,7 +40,7 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
         pull[mine] = 0.0
         step = np.linalg.solve(rest + 1e-9 * np.diag(np.diag(rest)), pull)
         step = np.clip(fitted.coordinates + step, fitted.space.lower, fitted.space.upper) - fitted.coordinates
-        price = int(mine.sum()) * np.log(sum(fitted.parts[i].errors.size for i in group)) / len(group)
+        price = 0.0 if single else prices_of_own[number] / len(group)
         prices = [price + _price_of_states(fitted, i) for i in group]
         found.append(np.array([_predicted(fitted.parts[i], slopes[i] @ step) for i in group]) + prices)
     return found

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from continuum.discovery.evidence import DISTINCT, explains_all, gain, is_adequate, unexplained
+from continuum.discovery.evidence import DISTINCT, Gain, explains_all, gain, is_adequate, unexplained
 from continuum.discovery.measured_gain import RunScore, closed_gap, is_far, is_open, is_vague
 from continuum.discovery.round import Round
 from continuum.discovery.trial import Trial
@@ -14,6 +14,7 @@ from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
 
 _LEAST_CLOSED = 0.25  # of the distance to the noise floor
+_WORSE = 1.05  # times the error without the extension
 _MOST_CLOSED = 0.8  # of it, where windows stay unexplained
 _MOST_LEFT = 1 / 3  # of the unexplained windows, where most is explained
 _OTHERS = 0.5  # of the best one's gain, beyond which another effect may be the one as well
@@ -64,7 +65,8 @@ def _those_that_explain_most(baseline: Trial, added: Sequence[Round]) -> list[Ro
 def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunScore]) -> Verdict:
     """The verdict, unless its model does not predict runs that were held out: then its cause is not the one.
 
-    Windows as short as these are explained by what only looks like the cause, a free run is not. Where the model
+    Windows as short as these are explained by what only looks like the cause, a free run is not: it comes nearer to the
+    noise, where it was away from it, ends far off in no run, and is worse in half of them at most. Where the model
     without it is adequate, nothing has to be explained, and that model it is; but no model is whose free runs end far
     from what was measured. What explains nearly all windows is the cause where free runs come nearly to the noise.
     """
@@ -75,13 +77,20 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
             return replace(verdict, kind=Kind.UNKNOWN, predicts=False)
         return replace(verdict, vague=True) if is_vague(before) else verdict
     named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
-    if not named or not is_open(before) or closed_gap(before, after) >= _LEAST_CLOSED:
+    if not named or _bear_out(before, after):
         return verdict
     if is_adequate(verdict.baseline) and not is_far(before):
         share = verdict.unexplained[0], verdict.unexplained[0]
         best = verdict.baseline
         return Verdict(Kind.ADEQUATE, (), (), best, best, share, vague=is_vague(before))
     return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", predicts=False)
+
+
+def _bear_out(before: Sequence[RunScore], after: Sequence[RunScore]) -> bool:
+    """Whether free runs come nearer to the noise where there is a way to go, none ends far off, and few are worse."""
+    worse = [a.position > _WORSE * max(b.position, b.floor) for b, a in zip(before, after, strict=True)]
+    nearer = not is_open(before) or closed_gap(before, after) >= _LEAST_CLOSED
+    return nearer and not is_far(after) and sum(worse) <= len(worse) / 2
 
 
 def _comes_to_the_noise(before: Sequence[RunScore], after: Sequence[RunScore]) -> bool:
@@ -98,10 +107,13 @@ def _cause(one: Round) -> Cause:
 
 
 def _rivals(one: Round) -> list[Cause]:
-    """Effects that help for sure, too, and explain as much as the best one does."""
-    sure = [trial for trial in one.leaders[1:] if gain(trial, one.before).is_significant]
-    others = [trial for trial in sure if not gain(one.best, trial).is_distinct]
+    """Effects that explain as much as the best one does, and those that explain all and are not surely told from it."""
+    others = [trial for trial in one.leaders[1:] if _may_be_instead(trial, gain(one.best, trial))]
     return [Cause(t.extension[-1], _confidence(one, t), gain(t, one.before), t) for t in others]
+
+
+def _may_be_instead(trial: Trial, lead: Gain) -> bool:
+    return not (lead.is_sure or (lead.is_distinct and not explains_all(trial)))
 
 
 def _confidence(one: Round, trial: Trial) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery.candidate import Extension, beginning, extended, unknowns_of
 from continuum.discovery.held_out import held_out_misfits
+from continuum.discovery.price_of_own import OneForAll, own_prices
 from continuum.discovery.question import Question
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.simulator import Simulator
@@ -34,6 +35,7 @@ class Trial:
         sizes: number of errors in each of these windows, less its own unknowns.
         simulations: how many runs were simulated.
         promised: by how much the cost would fall with more iterations, were the errors linear.
+        one_for_all: what it saves to take values of all recordings for the same, where that is the less dear.
     """
 
     extension: Extension
@@ -47,6 +49,7 @@ class Trial:
     sizes: tuple[Array, ...]
     simulations: int
     promised: float = 0.0
+    one_for_all: OneForAll = OneForAll()
 
     @property
     def misfit(self) -> float:
@@ -118,4 +121,5 @@ def judged(extension: Extension, fitted: Fit) -> Trial:
         tuple(np.split(sizes, np.cumsum([group.size for group in held_out])[:-1])),
         fitted.simulations,
         fitted.promised,
+        own_prices(fitted)[1] if fitted.parts else OneForAll(),
     )

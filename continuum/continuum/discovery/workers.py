@@ -13,6 +13,7 @@ from continuum.discovery.candidate import Addition, Extension, acts_at_joints
 from continuum.discovery.evidence import gain
 from continuum.discovery.joints import acting_joints
 from continuum.discovery.likeliest_beginning import with_likeliest_beginning
+from continuum.discovery.one_value import with_one_value
 from continuum.discovery.question import Question
 from continuum.discovery.some_runs import some_runs
 from continuum.discovery.trial import Trial, fit_extension, judged
@@ -61,7 +62,7 @@ def make(question: Question, task: Task) -> Trial:
         return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, 0, _LOOK_STEPS))
     start = None if task.near is None else _start(task.near, task)
     fitted = fit_extension(question, task.extension, start, task.iterations)
-    whole = judged(task.extension, fitted)
+    whole = _from_one_value(question, judged(task.extension, fitted), task.iterations)
     last = task.extension[-1] if task.extension else None
     if not task.find_joints or last is None or not acts_at_joints(last.effect) or not fitted.parts:
         return whole
@@ -81,10 +82,20 @@ def _at_few_joints(question: Question, task: Task, whole: Trial, joints: Sequenc
     for count in sorted({1, min(2, len(joints)), len(joints)}):
         at = (*task.extension[:-1], Addition(task.extension[-1].effect, tuple(sorted(joints[:count]))))
         there = judged(at, fit_extension(question, at, whole, task.iterations))
+        there = _from_one_value(question, there, task.iterations)
         simulations += there.simulations
         if best is None or gain(there, best).is_distinct:
             best = there
     return replace(best or whole, simulations=simulations)
+
+
+def _from_one_value(question: Question, trial: Trial, iterations: int) -> Trial:
+    """The trial, or a better one from where its values of all recordings are one, if they may be."""
+    if not trial.one_for_all.unknowns:
+        return trial
+    again = judged(trial.extension, fit_extension(question, trial.extension, with_one_value(trial), iterations))
+    best = again if again.cost < trial.cost else trial
+    return replace(best, simulations=trial.simulations + again.simulations)
 
 
 type Make = Callable[[Sequence[Task]], Iterator[Trial]]

@@ -54,6 +54,13 @@ def test_several_joints_are_not_the_one() -> None:
     assert answer([REST], verdict("cause", wide)) is Answer.WRONG_JOINT
 
 
+@pytest.mark.parametrize(
+    ("joints", "worth"), [(None, Answer.RIGHT), ([1, 2, 3, 4, 5], Answer.RIGHT), ([1, 3, 5], Answer.PART)]
+)
+def test_some_joints_of_an_effect_of_the_whole_arm_are_a_part(joints: list[int] | None, worth: Answer) -> None:
+    assert answer([effect("inertia")], verdict("cause", named("inertia") | {"joints": joints})) is worth
+
+
 def test_another_verdict_is_refused() -> None:
     with pytest.raises(ValueError, match="'perhaps'"):
         answer([], verdict("perhaps"))

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import itertools
+import json
+import os
+import re
+import sys
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from blind.plant import EFFECTS, LIBRARY, OUTSIDE, Plan
+from blind.plant import EFFECTS, LIBRARY, OUTSIDE, Plan, make_case, write_case
 from blind.plant.regimes import kinds
 
 from tools.bench_discovery.campaign import DiagnosisFailedError, diagnosed, left, run_campaign
 from tools.bench_discovery.digest import digest
 from tools.bench_discovery.plans import DATASETS, EIGHT, campaign, kind_of, narrowed
-from tools.bench_discovery.result import Result, append, load
+from tools.bench_discovery.result import Result, append, load, superseded
 from tools.bench_discovery.test.results_by_hand import effect, named, result, verdict
 
 PLANS = list(campaign(1, 10))
@@ -95,6 +99,7 @@ def test_of_a_case_that_was_repeated_the_latest_result_counts(tmp_path: Path) ->
         append(one, path)
     assert load(path, None) == [other, new]
     assert load(path, old.digest) == [old, other]
+    assert superseded(path) == [old]
 
 
 def test_what_is_done_is_not_done_again(tmp_path: Path) -> None:
@@ -147,3 +152,22 @@ def test_the_digest_is_of_names_and_contents(tmp_path: Path) -> None:
     second = digest([folder])
     (folder / "a.py").rename(folder / "b.py")
     assert len({first, second, digest([folder])}) == 3
+
+
+def test_an_analysis_is_told_nothing_but_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A test's name, which pytest puts into the environment, is the name of what is hidden."""
+    program = tmp_path / "continuum"
+    program.write_text(
+        f"#!{sys.executable}\nimport json, os, sys\n"
+        "told = {'words': sys.argv, 'environment': dict(os.environ), 'folder': os.listdir()}\n"
+        "open(sys.argv[sys.argv.index('--json') + 1], 'w').write(json.dumps(told))\n"
+    )
+    program.chmod(0o700)
+    monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv("HIDDEN", "backlash")
+    files = write_case(make_case(["backlash"], dataset=["release"], seconds=0.5, seed=11), tmp_path / "data")
+    told = diagnosed(files, 60.0)
+    assert told["words"][-len(files) :] == list(map(str, files))
+    assert "PYTEST_CURRENT_TEST" not in told["environment"]
+    assert told["folder"] == []
+    assert not re.search("|".join(EFFECTS), json.dumps(told))
