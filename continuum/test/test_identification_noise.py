@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from continuum.identification.noise import Channel, SensorKnowledge, estimate_noise
+from continuum.identification.noise import Channel, Noise, SensorKnowledge, estimate_noise
 from continuum.identification.recording import Recording
 
 JOINTS, SECONDS, RATE = 3, 1.6, 120
@@ -94,7 +94,7 @@ def test_what_the_rates_cannot_tell_is_taken_from_what_is_known() -> None:
 
 
 def test_sensors_without_noise_err_by_the_floor() -> None:
-    noise = estimate_noise(runs(0, angle=0.0, gyro=0.0))
+    noise = estimate_noise(runs(0, angle=0.0, gyro=np.deg2rad(0.2)))
     assert noise.rate is not None
     for channel in (noise.angle, noise.rate):
         assert np.all(channel.white >= np.deg2rad(0.1) * 0.99)
@@ -115,3 +115,22 @@ def test_covariance_in_time_is_that_of_its_parts() -> None:
     ramp = 2.0 * random.normal(size=(draws, 1)) * times
     errors = random.normal(size=slow.shape) + np.sqrt(2.0) * slow + walk + ramp
     np.testing.assert_allclose(np.cov(errors.T), channel.in_time(times), rtol=0, atol=0.07)
+
+
+def test_rates_that_no_sensor_has_are_those_of_a_simulation() -> None:
+    """Their error is that of another simulation; a single joint that is read by a sensor makes them measured."""
+    time = np.arange(240) / 120
+    smooth = np.column_stack([np.sin(3 * time), np.cos(2 * time)])
+    random = np.random.default_rng(3)
+
+    def noise_of(loudness: tuple[float, float]) -> Noise:
+        rates = smooth + np.deg2rad(loudness) * random.normal(size=smooth.shape)
+        return estimate_noise([Recording("run", time, smooth, rates)])
+
+    simulated, read = noise_of((0.0, 0.01)), noise_of((0.0, 0.3))
+    assert simulated.is_simulated
+    assert not read.is_simulated
+    assert simulated.rate is not None
+    assert read.rate is not None
+    np.testing.assert_allclose(np.rad2deg(simulated.rate.white), 0.5)
+    np.testing.assert_allclose(np.rad2deg(read.rate.white), [0.1, 0.3], rtol=0.3)

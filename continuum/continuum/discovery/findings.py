@@ -23,6 +23,7 @@ from continuum.identification.free import Free
 
 _ITERATIONS = 8
 _NEAR = 1e-3  # to a limit, of a value
+_SIMULATED = ("the rates are quieter than any sensor's: taken for simulated, and for known to 0.5 deg/s",)
 _WAYS = {
     True: "to hold until their next row, as commands do",
     False: "to change evenly from row to row, as measured ones do",
@@ -103,6 +104,7 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         split.weakness,
         tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes)
         + _rows_told(question)
+        + (_SIMULATED * question.noise.is_simulated)
         + _left_out(verdict),
         fit_extension(question, (), verdict.baseline, 2).model,
         _told(fitted, [r.name for r in question.recordings]),

@@ -17,7 +17,8 @@ from continuum.arrays import Array
 from continuum.identification.recording import Recording
 
 _ANGLE_FLOOR = np.deg2rad(0.1)  # no joint angle from inertial sensors is better [rad]
-_RATE_FLOOR = np.deg2rad(0.1)  # [rad/s]
+_RATE_FLOOR = np.deg2rad(0.1)  # no rate of a joint, which two gyros measure, is better [rad/s]
+_SIMULATED_RATE = np.deg2rad(0.5)  # what another slope of smoothed dry friction changes in a simulated rate [rad/s]
 _STRETCH = 16  # samples
 _LONGEST = 240  # samples in which the wander is looked for at once
 _SHAPE = 3.1  # of the gamma distribution of white noise's mean square in a stretch, measured on white noise
@@ -75,10 +76,16 @@ class Channel:
 
 @dataclass(frozen=True)
 class Noise:
-    """Errors of the angles, and of the rates where they are measured."""
+    """Errors of the angles, and of the rates where they are measured.
+
+    Attributes:
+        angle, rate: of the sensors.
+        is_simulated: whether the rates are quieter than any sensor's: then they err as those of simulations do.
+    """
 
     angle: Channel
     rate: Channel | None
+    is_simulated: bool = False
 
 
 def estimate_noise(recordings: Sequence[Recording], known: SensorKnowledge | None = None) -> Noise:
@@ -89,7 +96,8 @@ def estimate_noise(recordings: Sequence[Recording], known: SensorKnowledge | Non
     rates = [r.theta_rate for r in recordings if r.theta_rate is not None]
     if len(rates) < len(recordings):
         return Noise(Channel(white, known.wander**2 / scale, known.wander_time), None)
-    rate_white = _white_covariance(rates, _RATE_FLOOR)
+    is_simulated = bool(np.all(_white_levels(rates) < _RATE_FLOOR))
+    rate_white = _white_covariance(rates, _SIMULATED_RATE if is_simulated else _RATE_FLOOR)
     wander = _wander(recordings, white, rate_white, known.wander_time)
     bias = known.rate_bias**2
     # angles of gyros are integrals of what the rates show: their noise adds up to a walk, their bias to a ramp
@@ -98,6 +106,7 @@ def estimate_noise(recordings: Sequence[Recording], known: SensorKnowledge | Non
     return Noise(
         Channel(white, wander**2, known.wander_time, walk / scale, bias / scale),
         Channel(rate_white, bias / float(np.mean(np.diag(rate_white))), np.inf),
+        is_simulated,
     )
 
 
@@ -108,13 +117,9 @@ def _white_covariance(signals: Sequence[Array], floor: float) -> Array:
     which they are least are believed; white noise itself would be least somewhere, which the factor takes back.
     """
     n = signals[0].shape[1]
-    stretches = [
-        piece
-        for signal in signals
-        for piece in np.array_split(np.diff(signal, 4, axis=0), max(1, signal.shape[0] // _STRETCH))
-    ]
-    energy = np.array([np.mean(piece**2, axis=0) / 70 for piece in stretches])
-    spread: Array = np.maximum(np.sqrt([_quiet_variance(joint) for joint in energy.T]), floor)
+    stretches = _stretches(signals)
+    energy = _energy(stretches)
+    spread: Array = np.maximum(_white_levels(signals), floor)
     loudest = np.max(energy / spread**2, axis=1)
     limit = max(_STILL, np.sort(loudest)[min(_FEWEST, loudest.size) - 1])
     quiet = [piece for piece, size in zip(stretches, loudest, strict=True) if size <= limit]
@@ -126,6 +131,25 @@ def _white_covariance(signals: Sequence[Array], floor: float) -> Array:
                 np.corrcoef(np.clip(parts, -3 * np.std(parts, axis=0), 3 * np.std(parts, axis=0)).T)
             )
     return np.asarray(0.95 * correlation + 0.05 * np.eye(n)) * np.outer(spread, spread)
+
+
+def _stretches(signals: Sequence[Array]) -> list[Array]:
+    """Fourth differences of short stretches, each (n_times, n)."""
+    return [
+        piece
+        for signal in signals
+        for piece in np.array_split(np.diff(signal, 4, axis=0), max(1, signal.shape[0] // _STRETCH))
+    ]
+
+
+def _energy(stretches: Sequence[Array]) -> Array:
+    """Variance that white noise would have to give these differences, (n_stretches, n)."""
+    return np.array([np.mean(piece**2, axis=0) / 70 for piece in stretches])
+
+
+def _white_levels(signals: Sequence[Array]) -> Array:
+    """Standard deviation of the white part of each joint, (n,)."""
+    return np.sqrt([_quiet_variance(joint) for joint in _energy(_stretches(signals)).T])
 
 
 def _quiet_variance(energy: Array) -> float:
