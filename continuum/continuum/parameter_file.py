@@ -36,7 +36,7 @@ def read_parameter_file(path: str | Path) -> Mapping[str, object]:
         if isinstance(block, Mapping) and key in block:
             block = block[key]
     if not isinstance(block, Mapping):
-        raise FileError(path, f"holds no parameters, but {block!r}")
+        raise FileError(path, f"holds no parameters, but {block!r:.60}")
     try:
         flat = flattened(block)
     except RecursionError as error:

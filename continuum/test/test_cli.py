@@ -92,25 +92,26 @@ def test_an_interrupt_ends_in_one_line(capsys: Captured, monkeypatch: pytest.Mon
     assert capsys.readouterr().err == "continuum: stopped\n"
 
 
-def test_an_interrupt_of_compiled_code_is_one_and_a_fault_is_none(
-    capsys: Captured, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("kind", [SystemError, RuntimeError])
+def test_an_interrupt_of_what_is_at_work_is_one_and_a_fault_is_none(
+    kind: type[Exception], capsys: Captured, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """numba tells of a `KeyboardInterrupt` by a `SystemError`."""
+    """numba tells of a `KeyboardInterrupt` by a `SystemError`, a lock that was being given back by a `RuntimeError`."""
 
     def interrupted(_arguments: list[str]) -> int:
         try:
             raise KeyboardInterrupt
         except KeyboardInterrupt as cause:
-            raise SystemError("returned a result with an exception set") from cause
+            raise kind("returned a result with an exception set") from cause
 
     def faulty(_arguments: list[str]) -> int:
-        raise SystemError("a fault")
+        raise kind("a fault")
 
     monkeypatch.setattr("continuum.cli._run", interrupted)
     assert main(["diagnose"]) == 130
     assert capsys.readouterr().err == "continuum: stopped\n"
     monkeypatch.setattr("continuum.cli._run", faulty)
-    with pytest.raises(SystemError, match="a fault"):
+    with pytest.raises(kind, match="a fault"):
         main(["diagnose"])
 
 

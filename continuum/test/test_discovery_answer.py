@@ -15,6 +15,7 @@ from continuum.discovery.candidate import Addition
 from continuum.discovery.findings import Estimate, Findings
 from continuum.discovery.judgement import judge
 from continuum.discovery.verdict import Kind
+from continuum.errors import InvalidValueError
 from continuum.identification.dataset import Dataset
 from continuum.identification.free import Free
 
@@ -103,6 +104,12 @@ def test_of_two_that_hang_together_the_weaker_is_left_out_first() -> None:
     weaker = min(verdict.causes, key=lambda cause: cause.gain.log_likelihood).addition.effect
     sizes = (of("tip_payload.mass", 0.0, 0.1), of("base_tilt.angle", -0.1, 0.1))
     assert asked.absent_cause(replace(found(verdict), estimates=sizes)) == weaker
+
+
+def test_a_negative_seed_is_refused_before_anything_is_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(asked, "diagnose")
+    with pytest.raises(InvalidValueError, match="seed is -1; allowed: 0 or more"):
+        asked.answer(Dataset(tuple(releases(2, small_simulator(), 0))), small_simulator().model, seed=-1)
 
 
 def test_no_effects_to_try_are_none() -> None:

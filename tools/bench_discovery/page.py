@@ -116,6 +116,11 @@ def _head(results: Sequence[Result]) -> str:
             "process of its own on one core that is handed the files, and nothing else.",
         ),
         paragraph(
+            "What of the plant is not another formula than the library's: a first-order lag (`actuator_lag`) has but one,",
+            "which the plant solves step by step. `kinked_spring` is hidden in driven motions alone: after a release it",
+            "is a softer spring, and named so. `held_cable` is in the library and never hidden.",
+        ),
+        paragraph(
             f"The diagnoses took {hours:.1f} hours of processor time on",
             f"{platform.processor() or platform.machine()}, Python",
             f"{platform.python_version()}, {versions}; sources {digests}.",

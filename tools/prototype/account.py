@@ -138,7 +138,11 @@ def account(tell: Tell, processes: int | None = None, seed: int = 0) -> Account:
     extended = None
     if found.verdict.extension:
         extended = free(
-            found.model, measured, noise, "extended, begun as the first window asks", _own(found.verdict.best)
+            found.model,
+            measured,
+            noise,
+            "extended, begun as the first window asks; offsets and drifts, as the run asks",
+            _own(found.verdict.best),
         )
     return Account(
         measured,

@@ -38,7 +38,7 @@ def main(arguments: list[str] | None = None) -> int:
             return _run(sys.argv[1:] if arguments is None else arguments)
         finally:
             sys.stdout.flush()
-    except (KeyboardInterrupt, SystemError) as error:
+    except (KeyboardInterrupt, SystemError, RuntimeError) as error:
         if not _was_interrupted(error):
             raise
         print("continuum: stopped", file=sys.stderr)
@@ -49,7 +49,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _was_interrupted(error: BaseException | None) -> bool:
-    """Whether an interrupt is behind an error: numba makes a `SystemError` of one that comes while it is at work."""
+    """Whether an interrupt is behind an error: numba makes a `SystemError` of one, a lock in use a `RuntimeError`."""
     while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__cause__ or error.__context__
     return error is not None

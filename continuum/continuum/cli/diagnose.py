@@ -37,7 +37,11 @@ def add_to(commands: Any) -> None:
     )  # fmt: skip
     parser.add_argument("--json", metavar="OUT.json", help="write verdict, parameters and scores for machines")
     parser.add_argument("--report", metavar="OUT.html", help="write a page with pictures that needs no other file")
-    parser.add_argument("--extended", metavar="OUT.yaml", help="write the extended model; every command loads it")
+    parser.add_argument(
+        "--extended",
+        metavar="OUT.yaml",
+        help="write the extended model, for `simulate`, `diagnose` and the node `dynamics`",
+    )
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the intervals; default %(default)s")
     parser.add_argument("--processes", metavar="N", type=int, help="that work at once; default one for each core")
     parser.set_defaults(run=run)

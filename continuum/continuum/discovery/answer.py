@@ -17,6 +17,7 @@ from continuum.discovery.search import Tell, tell_nobody
 from continuum.discovery.verdict import Kind
 from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model import Model
+from continuum.errors import InvalidValueError
 from continuum.identification.dataset import Dataset
 
 _NEXT_TO_NONE = 1e-3  # of a typical size
@@ -41,8 +42,10 @@ def answer(
         effects: names of those to try; all that are installed without.
 
     Raises:
-        InvalidValueError: as of `continuum.discovery.diagnose.diagnose`.
+        InvalidValueError: a negative seed, and as of `continuum.discovery.diagnose.diagnose`.
     """
+    if seed < 0:
+        raise InvalidValueError("seed", seed, "0 or more")
     tried = list(effect_names() if effects is None else effects)
     left_out: list[str] = []
     while True:

@@ -31,7 +31,10 @@ table { border-collapse: collapse; font-size: .85rem; } td, th { padding: .2rem 
 td:first-child, th:first-child { text-align: left; } th { border-bottom: 1px solid #bbb; font-weight: 600; }
 img { max-width: 100%; } .note { color: #666; font-size: .85rem; }
 """
-_FREE = "Free simulation from the first instant, by models that were fitted to"
+_FREE = (
+    "Free simulation from the state that the first tenth of a second asks for (what a recording has for itself, as a "
+    "sensor's offset, is what all of it asks for), by models that were fitted to"
+)
 _PHASES = (
     "The same errors by joint and by what the joint is doing, root mean square over all runs [degrees]. A joint is at "
     "rest below 6 degrees/s, unless it turns back within a tenth of a second. Runs count that both models can simulate."
@@ -82,7 +85,9 @@ def write_report(
             [row for b, a in zip(found.before, found.after, strict=True) for row in _scores(b, a)],
         ),
         '<p class="note">Eq. 19 of the thesis: root mean square error by standard deviation, mean over the joints, '
-        "with 95 % intervals from stretches of the run." + (f" {_worth(found)}" if extended else "") + "</p>",
+        "with 95 % intervals from stretches of the run. A joint that hardly moves counts as others do."
+        + (f" {_worth(found)}" if extended else "")
+        + "</p>",
         f'<p class="note">{_PHASES}</p>',
         _phases(found, extended),
         "<h2>What is missing</h2>",

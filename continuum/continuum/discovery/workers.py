@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import signal
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
@@ -109,13 +110,26 @@ def workers(question: Question, processes: int) -> Iterator[Make]:
         yield lambda tasks: (make(question, task) for task in tasks)
         return
     context, others = multiprocessing.get_context("spawn"), set(multiprocessing.active_children())
-    with ProcessPoolExecutor(processes, context, initializer=_keep, initargs=(question,)) as pool:
-        try:
-            yield lambda tasks: (done.result() for done in as_completed([pool.submit(_make_kept, t) for t in tasks]))
-        except KeyboardInterrupt:  # nobody waits for trials that nobody will see
-            for worker in set(multiprocessing.active_children()) - others:
-                worker.terminate()
-            raise
+    heard = signal.getsignal(signal.SIGINT)
+    try:
+        with ProcessPoolExecutor(processes, context, initializer=_keep, initargs=(question,)) as pool:
+            try:
+                yield lambda tasks: (
+                    made.result() for made in as_completed([pool.submit(_make_kept, t) for t in tasks])
+                )
+            except KeyboardInterrupt:  # nobody waits for trials that nobody will see
+                _set_interrupts(signal.SIG_IGN)  # a second one would leave the pool's locks as they are
+                for worker in set(multiprocessing.active_children()) - others:
+                    worker.terminate()
+                raise
+    finally:
+        _set_interrupts(heard)
+
+
+def _set_interrupts(handler: signal.Handlers | Callable[..., object] | int | None) -> None:
+    """Take interrupts otherwise, where this thread may say how."""
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, handler)
 
 
 _kept: list[Question] = []

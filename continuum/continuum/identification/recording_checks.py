@@ -17,6 +17,7 @@ _LONGEST_GAP = 0.25  # s; the arm may do anything in a longer one
 _MOST_BAD = 0.1  # of all rows
 _CLIPPED_ROWS = 3  # of the same extreme value one after the other
 _CLIPPED_STEP = 3  # units of the last digit, by which a signal jumps to its limit
+_LARGEST_ANGLE = np.pi
 _LEAST_ANGLE = np.deg2rad(1.0)  # that a run must reach; sensors err by tenths of a degree
 _LEAST_MOTION, _QUIETED = (
     np.deg2rad(1.5),
@@ -86,7 +87,8 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
         )
     bad = samples.times.size - good.times.size
     if bad > _MOST_BAD * samples.times.size:
-        raise FileError(good.path, f"has {bad} bad {good.row}s of {samples.times.size}: " + "; ".join(notes))
+        allowed = f"a tenth may be: {'; '.join(notes)}"
+        raise FileError(good.path, f"has {bad} bad {good.row}s of {samples.times.size}; at most {allowed}")
     _refuse_gaps(good)
     _refuse_pushing(good)
     _refuse_units(good)
@@ -153,8 +155,10 @@ def _refuse_pushing(samples: Samples) -> None:
 def _refuse_units(samples: Samples) -> None:
     """Refuse what is too large or small for its unit."""
     largest = float(np.max(np.abs(samples.theta)))
-    if largest > 2 * np.pi:
-        raise FileError(samples.path, f"has a joint angle of {largest:.3g} rad: degrees taken for radians?")
+    if largest > _LARGEST_ANGLE:
+        at = int(np.argmax(np.max(np.abs(samples.theta), axis=1)))
+        told = f"{samples.row} {samples.numbers[at]}: a joint angle of {largest:.3g} rad"
+        raise FileError(samples.path, f"{told}; no joint turns by more than 3.14: degrees taken for radians?")
     if largest < _LEAST_ANGLE:
         raise FileError(
             samples.path,
@@ -169,7 +173,8 @@ def _refuse_units(samples: Samples) -> None:
         (samples.pull, _LARGEST_TENSION, "tension of {:.3g} N: another unit?"),
     ):
         if block is not None and np.max(np.abs(block)) > limit:
-            raise FileError(samples.path, "has a " + what.format(np.max(np.abs(block))))
+            at = samples.numbers[int(np.argmax(np.max(np.abs(block), axis=1)))]
+            raise FileError(samples.path, f"{samples.row} {at}: a " + what.format(np.max(np.abs(block))))
     if samples.rate is not None:
         slopes = np.gradient(samples.theta, samples.times, axis=0)
         for joint, (slope, rate) in enumerate(zip(slopes.T, samples.rate.T, strict=True), start=1):
@@ -183,8 +188,11 @@ def _largest_motion(theta: Array) -> float:
 
 
 def _refuse_mixed(path: Path, joint: int, slope: Array, rate: Array) -> None:
-    """Refuse a joint whose rate is not of the size of its angle's slope."""
-    if np.std(slope) == 0 or np.std(rate) == 0 or np.corrcoef(slope, rate)[0, 1] < _ALIKE:
+    """Refuse a joint whose rate is not of the sign and size of its angle's slope."""
+    alike = 0.0 if np.std(slope) == 0 or np.std(rate) == 0 else np.corrcoef(slope, rate)[0, 1]
+    if alike < -_ALIKE:
+        raise FileError(path, f"joint {joint}: its rate is negative where its angle grows: one has the other sign")
+    if alike < _ALIKE:
         return  # too noisy to judge by
     ratio = np.sum(slope * rate) / np.sum(slope**2)
     if not 1 / 15 < ratio < 15:

@@ -59,7 +59,11 @@ def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             cells = [[cell.strip() for cell in row] for row in csv.reader(file)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except OSError as error:
+        raise FileError(path, f"cannot be read: {error.strerror or error}") from error
+    except UnicodeDecodeError as error:
+        raise FileError(path, "is no text file: a CSV file in UTF-8 is needed") from error
+    except csv.Error as error:
         raise FileError(path, f"cannot be read as CSV ({error})") from error
     lines = [(number, row) for number, row in enumerate(cells, start=1) if any(row)]
     if not lines:
