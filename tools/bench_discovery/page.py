@@ -116,9 +116,9 @@ def _head(results: Sequence[Result]) -> str:
             "process of its own on one core that is handed the files, and nothing else.",
         ),
         paragraph(
-            "What of the plant is not another formula than the library's: a first-order lag (`actuator_lag`) has but one,",
-            "which the plant solves step by step. `kinked_spring` is hidden in driven motions alone: after a release it",
-            "is a softer spring, and named so. `held_cable` is in the library and never hidden.",
+            "Not of another formula than the library's is the plant's `actuator_lag`: a first-order lag has but one,",
+            "which the plant solves step by step. `kinked_spring` is hidden in driven motions alone: after a release",
+            "it is a softer spring, and named so. `held_cable` is in the library and never hidden.",
         ),
         paragraph(
             f"The diagnoses took {hours:.1f} hours of processor time on",
