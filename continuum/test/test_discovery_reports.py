@@ -6,18 +6,21 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from discovery_laws import a_round, trial
 from discovery_verdicts import BAD, found, judged, score
 
 from continuum.discovery.candidate import Addition
-from continuum.discovery.in_words import cost_in_words, verdict_in_words, worth_in_words
+from continuum.discovery.in_words import cost_in_words, identifiability_in_words, verdict_in_words, worth_in_words
 from continuum.discovery.judgement import judge
 from continuum.discovery.motion_phases import PHASES
 from continuum.discovery.verdict import Kind
 from continuum.discovery.verdict_json import as_mapping, write_json
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.errors import FileError
+from continuum.identification.fisher import Identifiability
+from continuum.identification.free import Free
 
 
 def test_every_kind_in_words() -> None:
@@ -83,3 +86,16 @@ def test_joints_for_machines_count_from_one(joints: tuple[int, ...] | None, join
 def test_a_file_that_cannot_be_written(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="cannot be written"):
         write_json(found(judged()[Kind.CAUSE]), tmp_path)
+
+
+def test_what_the_data_tell_at_all_is_told() -> None:
+    told = as_mapping(found(judged()[Kind.CAUSE]))["identifiability"]
+    assert told["rank"] <= told["unknowns"]
+    assert told["condition"] == 10.0
+    one, other = Free("stiffness"), Free("tip_payload.mass")
+    tied = Identifiability((one, other), np.array([1.0, 0.1]), np.array([[1.0, -0.97], [-0.97, 1.0]]), 300.0, 1)
+    lines = " ".join(identifiability_in_words(tied))
+    assert "1 directions among 2 unknowns" in lines
+    assert "300 times" in lines
+    assert "stiffness and tip_payload.mass (-0.97)" in lines
+    assert "tell little: tip_payload.mass." in lines

@@ -127,6 +127,20 @@ def test_the_extended_model_is_a_model(tmp_path: Path) -> None:
     assert "run_0, run_1" in loaded.sources["tip_payload.mass"]
 
 
+@pytest.mark.parametrize("seed", [1, 2, 4])
+def test_a_zero_that_is_wrong_alike_in_every_run_is_not_called_a_rest_angle_for_sure(seed: int) -> None:
+    """It is one unknown as a rest angle is, and explains all as well."""
+    random, truth = np.random.default_rng(seed), {"angle_offset.offset": np.array([0.035, 0.0])}
+    runs = tuple(
+        recorded(simulator("angle_offset"), (2 * bend[0], 2 * bend[1]), random, truth, 0.7, name=f"run_{i}")
+        for i, bend in enumerate(BENDS)
+    )
+    verdict = diagnose(Dataset(runs), prototype_model(N), processes=1, effects=["rest_angle", "angle_offset"]).verdict
+    named = {cause.addition.effect for cause in (*verdict.causes, *verdict.alternatives)}
+    assert "angle_offset" in named
+    assert verdict.kind is Kind.AMBIGUOUS or named == {"angle_offset"}
+
+
 def test_data_of_the_model_itself_accuse_nothing() -> None:
     diagnosis = diagnosed(None, 2)
     assert diagnosis.verdict.kind is Kind.ADEQUATE

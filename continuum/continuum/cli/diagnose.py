@@ -106,7 +106,13 @@ def read_recording(path: str) -> Recording:
 
 
 def _show(found: Findings) -> None:
-    from continuum.discovery.in_words import cost_in_words, scores_in_words, verdict_in_words, worth_in_words
+    from continuum.discovery.in_words import (
+        cost_in_words,
+        identifiability_in_words,
+        scores_in_words,
+        verdict_in_words,
+        worth_in_words,
+    )
     from continuum.discovery.verdict import Kind
 
     verdict = found.verdict
@@ -119,6 +125,7 @@ def _show(found: Findings) -> None:
     for cause, own in zip(verdict.alternatives, found.others, strict=True):
         print(f"\n{cause.addition} instead:")
         print_pairs([_estimate(one) for one in own])
+    print("", *identifiability_in_words(found.identifiability), sep="\n")
     scores = [(b.name, scores_in_words(b), scores_in_words(a)) for b, a in zip(found.before, found.after, strict=True)]
     for what in ("position", "rate"):
         print(f"\n{what.capitalize()}: Eq. 19 (95 %) on runs that were held out, refitted -> extended model")

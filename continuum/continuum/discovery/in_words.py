@@ -10,6 +10,7 @@ import numpy as np
 from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
+from continuum.identification.fisher import Identifiability
 
 _VAGUE = (
     " They leave much open, though: left to itself the simulation ends far from what was measured, and so it does with "
@@ -110,3 +111,15 @@ def cost_in_words(before: Sequence[RunScore], after: Sequence[RunScore]) -> str:
     """What the extension costs in simulation time."""
     once, now = (1e3 * float(np.median([score.seconds for score in scores])) for scores in (before, after))
     return f"simulating a run takes {now:.0f} ms instead of {once:.0f} ms"
+
+
+def identifiability_in_words(told: Identifiability) -> list[str]:
+    """What the data tell of the parameters at all, and of which they do not."""
+    pairs = [f"{a} and {b} ({r:+.2f})" for a, b, r in told.entangled]
+    untold = [str(unknown) for unknown in told.untold]
+    rank = f"{told.rank} directions among {len(told.unknowns)} unknowns"
+    surest = f"the surest is known {told.condition:.2g} times as well as the least sure"
+    lines = [f"The data tell of {rank} more than was known before; {surest}."]
+    lines += [f"Estimates that hang together: {', '.join(pairs)}."] if pairs else []
+    lines += [f"Of these the data tell little: {', '.join(untold)}."] if untold else []
+    return lines

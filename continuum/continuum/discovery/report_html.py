@@ -12,7 +12,14 @@ import numpy as np
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
 from continuum.discovery.findings import Estimate, Findings
-from continuum.discovery.in_words import cost_in_words, in_full, scores_in_words, verdict_in_words, worth_in_words
+from continuum.discovery.in_words import (
+    cost_in_words,
+    identifiability_in_words,
+    in_full,
+    scores_in_words,
+    verdict_in_words,
+    worth_in_words,
+)
 from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.motion_phases import PHASES, errors_by_phase
 from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
@@ -103,7 +110,7 @@ def write_report(
         _estimates(found.estimates),
         _run_numbers(diagnosis, found),
         *(part for one in zip(found.verdict.alternatives, found.others, strict=True) for part in _instead(*one)),
-        _entangled(found),
+        *(f'<p class="note">{escape(line)}</p>' for line in identifiability_in_words(found.identifiability)),
         f'<p class="note">{escape(made)}</p>',
     ]
     page = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(kind)}</title><style>{_STYLE}</style>'
@@ -185,14 +192,6 @@ def _evidence(number: int, one: Round) -> Iterable[str]:
 
 def _share(share: float) -> str:
     return f"{100 * share:.1f} %"
-
-
-def _entangled(found: Findings) -> str:
-    pairs = [f"{a} and {b} ({r:+.2f})" for a, b, r in found.identifiability.entangled]
-    untold = [str(unknown) for unknown in found.identifiability.untold]
-    lines = [f"Estimates that hang together: {', '.join(pairs)}."] if pairs else []
-    lines += [f"Of these the data tell little: {', '.join(untold)}."] if untold else []
-    return "".join(f'<p class="note">{escape(line)}</p>' for line in lines)
 
 
 def _image(png: bytes) -> str:

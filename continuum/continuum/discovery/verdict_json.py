@@ -39,6 +39,13 @@ def as_mapping(found: Findings) -> dict[str, Any]:
         "gap_closed": found.closed,
         "errors_by_phase": {"unit": "rad", **_by_phase(found)},
         "parameters": [{"name": str(e.unknown), **_estimate(e)} for e in found.estimates],
+        "identifiability": {
+            "unknowns": len(found.identifiability.unknowns),
+            "rank": found.identifiability.rank,
+            "condition": _number(found.identifiability.condition),
+            "entangled": [[str(a), str(b), r] for a, b, r in found.identifiability.entangled],
+            "untold": [str(unknown) for unknown in found.identifiability.untold],
+        },
         "complete": not (unknown or verdict.nearly),
         "vague": verdict.vague,
         "weakness": found.weakness,
