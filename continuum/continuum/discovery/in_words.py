@@ -118,7 +118,7 @@ def identifiability_in_words(told: Identifiability) -> list[str]:
     pairs = [f"{a} and {b} ({r:+.2f})" for a, b, r in told.entangled]
     untold = [str(unknown) for unknown in told.untold]
     rank = f"{told.rank} directions among {len(told.unknowns)} unknowns"
-    surest = f"the surest is known {told.condition:.2g} times as well as the least sure"
+    surest = f"the surest is known {told.condition:,.0f} times as well as the least sure"
     lines = [f"The data tell of {rank} more than was known before; {surest}."]
     lines += [f"Estimates that hang together: {', '.join(pairs)}."] if pairs else []
     lines += [f"Of these the data tell little: {', '.join(untold)}."] if untold else []
