@@ -16,6 +16,7 @@ _VAGUE = (
     " They leave much open, though: left to itself the simulation ends far from what was measured, and so it does with "
     "other parameters that explain these data as well. More recordings, of other motions, would tell more."
 )
+_NOTHING_TOLD = 1e5  # conditioning, beyond which some direction is not told at all
 _NOTICED = 0.02  # of the distance to the noise floor
 
 
@@ -91,7 +92,7 @@ def worth_in_words(closed: float) -> str:
         return "The extension predicts runs that it was not fitted to worse than the refitted model"
     if closed <= 0.0:
         return "The extension predicts runs that it was not fitted to no better"
-    return f"The extension closes {100 * closed:.0f} % of the distance to the noise"
+    return f"The extension closes {100 * min(closed, 1.0):.0f} % of the distance to the noise"
 
 
 def scores_in_words(score: RunScore) -> dict[str, str]:
@@ -118,8 +119,8 @@ def identifiability_in_words(told: Identifiability) -> list[str]:
     pairs = [f"{a} and {b} ({r:+.2f})" for a, b, r in told.entangled]
     untold = [str(unknown) for unknown in told.untold]
     rank = f"{told.rank} directions among {len(told.unknowns)} unknowns"
-    surest = f"the surest is known {told.condition:,.0f} times as well as the least sure"
-    lines = [f"The data tell of {rank} more than was known before; {surest}."]
+    surest = f"; the surest is known {told.condition:,.0f} times as well as the least sure"
+    lines = [f"The data tell of {rank} more than was known before{surest * (told.condition < _NOTHING_TOLD)}."]
     lines += [f"Estimates that hang together: {', '.join(pairs)}."] if pairs else []
     lines += [f"Of these the data tell little: {', '.join(untold)}."] if untold else []
     return lines
