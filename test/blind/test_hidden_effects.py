@@ -67,12 +67,15 @@ def verdicts(request: pytest.FixtureRequest) -> Iterator[Verdicts]:
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_answer_fits_what_is_hidden(name: str, verdicts: Verdicts) -> None:
-    """A library's effect is named, or in an ambiguous set; one outside of it is `unknown`; none is `adequate`."""
+    """A library's effect is named, or in an ambiguous set; one outside of it is `unknown`; none is `adequate`.
+
+    Of an effect of the whole arm some joints are enough here; the benchmark counts them apart.
+    """
     truth, verdict = verdicts[name].result()
     given = answer(truth.plain()["effects"], verdict)
     told = f"{given.value}: hidden {shown(truth)}, verdict {verdict['verdict']} {named(verdict)}"
     assert given not in (Answer.WRONG_CAUSE, Answer.WRONG_JOINT), told  # never, known misses included
-    good = (Answer.RIGHT, Answer.SET) if truth.in_a_library else (Answer.RIGHT,)
+    good = (Answer.RIGHT, Answer.PART, Answer.SET) if truth.in_a_library else (Answer.RIGHT,)
     if given not in good and name in KNOWN_MISSES:
         pytest.xfail(f"{KNOWN_MISSES[name]}; {told}")
     assert given in good, told
