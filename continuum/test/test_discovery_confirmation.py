@@ -45,6 +45,7 @@ def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
         assert doubted.kind is (Kind.UNKNOWN if named else kind)
         assert not (named and doubted.alternatives)
         assert ("does not predict runs" in verdict_in_words(doubted)) == named
+        assert confirmed(verdict, scores(0.03, 0.03), scores(0.045, 0.045)) is verdict  # nothing to be worse than
         for after in (scores(0.05, 0.31), scores(0.05, np.inf)):  # far off in one run
             assert confirmed(verdict, scores(0.45, 0.45), after).kind is (Kind.UNKNOWN if named else kind)
             assert confirmed(verdict, scores(0.05, 0.04), after).kind is (Kind.UNKNOWN if named else kind)

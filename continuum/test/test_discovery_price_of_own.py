@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -54,6 +56,25 @@ def test_what_may_be_the_same_is_paid_for_as_one_and_as_what_it_takes_to_be_one(
     assert saved.misfit == pytest.approx(2 * (of_one.cost - found.cost), abs=2.0)  # by a fit of one value
     assert paid.sum() == pytest.approx(N * np.log(3 * errors_of_a_run(found)) + saved.misfit)
     assert np.ptp(paid) == 0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_it_takes_to_be_one_is_the_least_misfit_of_all_that_are(seed: int) -> None:
+    """The others follow: by minimising the parabola over what is shared and one value for each joint."""
+    random, unknowns = np.random.default_rng(seed), (Free("stiffness"), *EACH)
+    root = random.normal(size=(20, len(unknowns)))
+    ended = 0.3 * random.normal(size=len(unknowns))
+    one_value = np.zeros((len(unknowns), 1 + N))
+    one_value[0, 0] = 1.0
+    one_value[1:, 1:] = np.tile(np.eye(N), (3, 1))
+    least = np.linalg.lstsq(root @ one_value, root @ ended)[1][0]
+    run = SimpleNamespace(errors_by_window=np.full(10, 1e9))
+    found = SimpleNamespace(
+        runs=3 * [run], space=SimpleNamespace(unknowns=unknowns), coordinates=ended, information=root.T @ root
+    )
+    saved = own_prices(cast(Fit, found))[1]
+    assert saved.unknowns == 2 * N  # so many errors make each unknown dear
+    assert saved.misfit == pytest.approx(least)
 
 
 def test_a_shared_unknown_costs_no_run_anything() -> None:
