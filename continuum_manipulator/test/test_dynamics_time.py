@@ -42,6 +42,10 @@ class SimulatedTime:
     def step_until(self, seconds: float, condition: Callable[[], object]) -> None:
         self._probe.wait_until(lambda: (self.step(seconds), condition())[1], "it, by simulated time")
 
+    def repeat_until(self, condition: Callable[[], object]) -> None:
+        """Say the same time again: a machine that was busy may have lost it."""
+        self.step_until(0.0, condition)
+
 
 def dynamics(domain: int, **parameters) -> NodeProcess:
     return NodeProcess("continuum_manipulator", "dynamics", domain, parameters={"integrator": "esdirk", **parameters})
@@ -58,18 +62,19 @@ def test_simulated_time_sets_the_pace(domain, probe):
         probe.wait_for_nodes("dynamics")
         clock = SimulatedTime(probe)
         clock.step_until(0.1, lambda: len(joints) > 60)
+        clock.repeat_until(lambda: stamps(joints)[-1] >= clock.now - 2 * PERIOD)
         probe.listen_until_quiet()
         stood = len(joints)
-        assert clock.now - 2 * PERIOD <= stamps(joints)[-1] <= clock.now
+        assert stamps(joints)[-1] <= clock.now
         probe.listen_until_quiet(0.5)
         assert len(joints) == stood
         clock.step(5.0)
-        probe.wait_until(lambda: stamps(joints)[-1] >= clock.now - 2 * PERIOD, "the end of the leap")
+        clock.repeat_until(lambda: stamps(joints)[-1] >= clock.now - 2 * PERIOD)
         assert np.all(np.abs(np.diff(stamps(joints)) - PERIOD) <= 1)
         assert abs(sum(joints[-1].position)) < 0.1 < 1.0 < sum(joints[0].position)  # released at the first instant
         back = clock.now - 400 * NANOSECONDS
         clock.step(-500.0)
-        node.wait_for_line("time went back: by 500.000 s; the arm goes on from its posture")
+        clock.repeat_until(lambda: "time went back: by 500.000 s; the arm goes on from its posture" in node.stderr)
         clock.step_until(0.02, lambda: stamps(joints)[-1] < back)
         assert node.stop() == 0
 

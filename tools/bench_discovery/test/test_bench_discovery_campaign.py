@@ -158,7 +158,7 @@ def test_an_analysis_is_told_nothing_but_the_files(tmp_path: Path, monkeypatch: 
     """A test's name, which pytest puts into the environment, is the name of what is hidden."""
     program = tmp_path / "continuum"
     program.write_text(
-        f"#!{sys.executable}\nimport json, os, sys\n"
+        "#!/usr/bin/env python3\nimport json, os, sys\n"
         "told = {'words': sys.argv, 'environment': dict(os.environ), 'folder': os.listdir()}\n"
         "open(sys.argv[sys.argv.index('--json') + 1], 'w').write(json.dumps(told))\n"
     )
