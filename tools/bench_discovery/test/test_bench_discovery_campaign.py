@@ -6,7 +6,6 @@ import itertools
 import json
 import os
 import re
-import sys
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
