@@ -41,9 +41,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Leave out the part that ``--library`` names."""
     if (part := config.getoption("library")) is None:
         return
-    left_out = [item for item in items if _is_of_the_library(item.path) != (part == "only")]
+    kept: list[pytest.Item] = []
+    left_out: list[pytest.Item] = []
+    for item in items:
+        (kept if _is_of_the_library(item.path) == (part == "only") else left_out).append(item)
     config.hook.pytest_deselected(items=left_out)
-    items[:] = [item for item in items if item not in set(left_out)]
+    items[:] = kept
 
 
 def _is_of_the_library(path: Path) -> bool:

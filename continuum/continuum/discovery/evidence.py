@@ -76,9 +76,9 @@ def is_adequate(trial: Trial) -> bool:
 
     A motion that none of the other runs has may be the only one to show what is missing.
     """
-    runs = _unexplained_windows(trial)
     if _is_loud(trial):
         return False
+    runs = _unexplained_windows(trial)
     return _chance(np.concatenate(runs)) > _CHANCE and min(map(_chance, runs)) > _CHANCE / len(runs)
 
 
