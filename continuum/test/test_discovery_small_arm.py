@@ -164,7 +164,7 @@ def test_a_number_of_processes_that_is_none(processes: int) -> None:
 
 
 def test_an_arm_of_another_number_of_joints() -> None:
-    with pytest.raises(InvalidValueError, match="joints in the recordings is 2; allowed: 5, as the model has"):
+    with pytest.raises(InvalidValueError, match=r"joints of run_\d is 2; allowed: 5, as the model has"):
         diagnose(Dataset(runs_of(None, 0)[:1]), prototype_model(5), processes=1)
 
 

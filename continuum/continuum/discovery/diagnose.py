@@ -59,7 +59,8 @@ def diagnose(
     if processes is not None and processes < 1:
         raise InvalidValueError("processes", processes, "1 or more")
     if dataset.n_joints != model.n_joints:
-        raise InvalidValueError("joints in the recordings", dataset.n_joints, f"{model.n_joints}, as the model has")
+        name = dataset.recordings[0].name
+        raise InvalidValueError(f"joints of {name}", dataset.n_joints, f"{model.n_joints}, as the model has")
     ready = with_dry_friction(model)
     noise = estimate_noise(dataset.recordings, known)
     unknowns = tuple(baseline_unknowns(ready))

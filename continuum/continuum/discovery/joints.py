@@ -1,4 +1,8 @@
-"""At which joints an effect acts, when it was fitted to all of them: the fewest that explain what all explain."""
+"""At which joints an effect acts, when it was fitted to all of them: the fewest that explain what all explain.
+
+Or all of them, where one value for all joints explains no less than those few: an effect of the whole arm is one
+cause with fewer unknowns, and the few stand for it.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +13,7 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.identification.fit import Fit
 
 _PART = 0.85  # of what all joints gain must be gained by those named
-_PART_OF_RUNS = 0.98  # the same, of an effect whose every joint has a value of its own in every run, as sensors' zeros
+_PART_OF_RUNS = 0.995  # the same, of an effect whose every joint has a value of its own in every run, as sensors' zeros
 _ENOUGH = 8.0  # or all but this much log-likelihood
 
 
@@ -39,11 +43,25 @@ def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
         chosen.append(best)
         if losses[best] < least:
             break
+    left = _loss(precision, found, common + [at for j in chosen for at in by_joint[j]])
+    if not anew and len(chosen) > 1 and _loss_of_one(precision, found, common, by_joint) <= left:
+        return (*chosen, *(j for j in by_joint if j not in chosen))
     return tuple(chosen)
 
 
 def _joints(fitted: Fit, mine: list[int]) -> list[int]:
     return sorted({j for i in mine if (j := fitted.space.unknowns[i].joint) is not None})
+
+
+def _loss_of_one(precision: Array, found: Array, common: list[int], by_joint: dict[int, list[int]]) -> float:
+    """The same with each of the effect's values one and the same at all joints, and what is common free."""
+    at_joints = np.array([by_joint[j] for j in by_joint])  # (n_joints, n_values)
+    free = np.zeros((found.size, at_joints.shape[1] + len(common)))
+    for k in range(at_joints.shape[1]):
+        free[at_joints[:, k], k] = 1.0
+    free[common, np.arange(at_joints.shape[1], free.shape[1])] = 1.0
+    away = found - free @ np.linalg.solve(free.T @ precision @ free, free.T @ precision @ found)
+    return float(away @ precision @ away / 2)
 
 
 def _loss(precision: Array, found: Array, free: list[int]) -> float:

@@ -127,8 +127,8 @@ def workers(question: Question, processes: int) -> Iterator[Make]:
 
 
 def _set_interrupts(handler: signal.Handlers | Callable[..., object] | int | None) -> None:
-    """Take interrupts otherwise, where this thread may say how."""
-    if threading.current_thread() is threading.main_thread():
+    """Take interrupts otherwise, where this thread may say how; None is a handler that Python cannot set back."""
+    if handler is not None and threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, handler)
 
 
