@@ -55,7 +55,10 @@ def _of_nothing(header: Sequence[str]) -> list[str]:
 
 
 def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:
-    """Header, numbers of the rows that are not blank, and what they hold, (rows, columns); an empty cell is NaN."""
+    """Header, numbers of the rows that are not blank, and what they hold, (rows, columns).
+
+    An empty cell is NaN, and so is what stands in a column that is not understood, a remark perhaps.
+    """
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             cells = [[cell.strip() for cell in row] for row in csv.reader(file)]
@@ -74,12 +77,13 @@ def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:
     for name in header:
         if header.count(name) > 1:
             raise FileError(path, f"has the column {name!r} twice")
-    table = np.full((len(lines) - 1, len(header)), np.nan)
+    table, others = np.full((len(lines) - 1, len(header)), np.nan), _of_nothing(header)
     for row, (number, values) in zip(table, lines[1:], strict=True):
         if len(values) != len(header):
             hint = hint_of_row(values, len(header))
             raise FileError(path, f"row {number} has {len(values)} cells, the header {len(header)}{hint}")
-        row[:] = [_number(path, number, column, value) for column, value in zip(header, values, strict=True)]
+        for i, (column, value) in enumerate(zip(header, values, strict=True)):
+            row[i] = np.nan if column in others else _number(path, number, column, value)
     return header, np.array([number for number, _ in lines[1:]], dtype=np.int64), table
 
 
