@@ -127,7 +127,7 @@ def test_rates_that_no_sensor_has_are_those_of_a_simulation() -> None:
         rates = smooth + np.deg2rad(loudness) * random.normal(size=smooth.shape)
         return estimate_noise([Recording("run", time, smooth, rates)])
 
-    simulated, read = noise_of((0.0, 0.01)), noise_of((0.0, 0.3))
+    simulated, read = noise_of((0.0, 0.05)), noise_of((0.0, 0.3))
     assert simulated.is_simulated
     assert not read.is_simulated
     assert simulated.rate is not None
