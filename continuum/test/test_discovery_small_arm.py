@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from html import unescape
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,10 @@ from continuum.cli import main
 from continuum.discovery.diagnose import Diagnosis, diagnose
 from continuum.discovery.findings import Findings, findings
 from continuum.discovery.held_out import held_out_misfits
+from continuum.discovery.in_words import identifiability_in_words, verdict_in_words
+from continuum.discovery.report_html import write_report
+from continuum.discovery.residual_torque import residual_torques
+from continuum.discovery.structure_tests import structure_tests
 from continuum.discovery.trial import TOLERANCES
 from continuum.discovery.verdict import Kind
 from continuum.discovery.verdict_json import as_mapping
@@ -125,6 +130,20 @@ def test_the_extended_model_is_a_model(tmp_path: Path) -> None:
     for name, values in found.model.values().items():
         np.testing.assert_array_equal(loaded.values()[name], values)
     assert "run_0, run_1" in loaded.sources["tip_payload.mass"]
+
+
+def test_the_page_tells_the_verdict_and_all_that_it_rests_on(tmp_path: Path) -> None:
+    found, diagnosis = payload_found(), diagnosed("tip_payload", 3, mass=0.4)
+    torques = residual_torques(diagnosis.question, found.refitted)
+    tests = structure_tests(torques, np.random.default_rng(0))
+    write_report(tmp_path / "page.html", diagnosis, found, (torques, None), tests, "Made by hand.")
+    page = unescape((tmp_path / "page.html").read_text(encoding="utf-8"))
+    told = (verdict_in_words(found.verdict), *identifiability_in_words(found.identifiability), "Made by hand.")
+    for part in (*told, f"The surest of {len(tests)} comparisons, of which chance puts one in twenty below 0.05"):
+        assert part in page
+    for cell in (*(one.unknown for one in found.estimates), *(run.name for run in found.before)):
+        assert f"<td>{cell}</td>" in page
+    assert page.count("data:image/png;base64,") == 2 + len(diagnosis.rounds)
 
 
 @pytest.mark.parametrize("seed", [1, 2, 4])
