@@ -11,11 +11,14 @@ import numpy as np
 import pytest
 from identification_laws import BENDS, N, recorded, small_simulator, white_noise
 
+from continuum.discovery.candidate import Addition
 from continuum.discovery.held_out import held_out_misfits
 from continuum.discovery.information import effective_number, information_gain
 from continuum.discovery.one_value import with_one_value
 from continuum.discovery.price_of_own import OneForAll, own_prices
-from continuum.discovery.trial import TOLERANCES, judged
+from continuum.discovery.question import Question
+from continuum.discovery.trial import TOLERANCES, fit_extension, judged
+from continuum.discovery.workers import Task, make
 from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free
 
@@ -96,3 +99,19 @@ def test_one_value_is_the_median_of_each_joint() -> None:
     trial = judged((), fitted(EACH, 0.05, -0.03, 0.01))
     own = with_one_value(trial).coordinates.reshape(3, N)
     np.testing.assert_array_equal(own, np.median(trial.coordinates.reshape(3, N), axis=0) + np.zeros((3, 1)))
+
+
+def test_a_fit_that_got_stuck_goes_on_from_one_value() -> None:
+    """After two iterations it is as good as stuck: two more from one value of all recordings do better."""
+    simulator, random = small_simulator("angle_offset", TOLERANCES), np.random.default_rng(1)
+    runs = [recorded(simulator, bend, random, {OFFSET: np.array([0.05, 0.0])}) for bend in BENDS[:3]]
+    question = Question(small_simulator().model, (Free("stiffness"),), runs, white_noise())
+    extension = (Addition("angle_offset", (0,)),)
+    stuck = judged(extension, fit_extension(question, extension, iterations=2))
+    assert stuck.one_for_all.unknowns
+    ended = judged(extension, fit_extension(question, extension, with_one_value(stuck), iterations=2))
+    assert ended.cost < stuck.cost
+    made = make(question, Task(extension, None, 2))
+    assert made.cost == ended.cost
+    np.testing.assert_array_equal(made.coordinates, ended.coordinates)
+    assert made.simulations == stuck.simulations + ended.simulations

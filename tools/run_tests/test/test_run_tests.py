@@ -18,10 +18,16 @@ OF_THE_LIBRARY, OTHER = "continuum/test/test_arm.py", "test/test_pages.py"
     [([0, 0], 0), ([1, 0], 1), ([0, 1], 1), ([5, 0], 0), ([0, 5], 0), ([5, 1], 1), ([4, 1], 4), ([5, 5], 5), ([2], 2)],
 )
 def test_a_failure_of_either_part_is_one_of_the_whole(codes, whole, monkeypatch):
-    remaining = iter(codes)
-    monkeypatch.setattr(run_tests.subprocess, "run", lambda *_, **__: SimpleNamespace(returncode=next(remaining)))
+    remaining, commands = iter(codes), []
+
+    def ended(command, **_):
+        commands.append(command)
+        return SimpleNamespace(returncode=next(remaining))
+
+    monkeypatch.setattr(run_tests.subprocess, "run", ended)
     assert run_tests.main(["-k", "cable"]) == whole
     assert not list(remaining)
+    assert all(command[-2:] == ["-k", "cable"] for command in commands)
 
 
 @pytest.mark.parametrize(("part", "there"), [("only", OF_THE_LIBRARY), ("left-out", OTHER)])
