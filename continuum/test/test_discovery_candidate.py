@@ -150,3 +150,12 @@ def test_an_effect_that_all_joints_share_is_the_whole_arms(seed: int) -> None:
     assert set(acting_joints(quadratic("rest_angle", found, precision), "rest_angle")) == set(range(N))
     found[[1, 3]] = 0
     assert set(acting_joints(quadratic("rest_angle", found, precision), "rest_angle")) == set(some)
+    assert len(acting_joints(quadratic("rest_angle", np.ones(N), 0.01 * np.eye(N) + 400), "rest_angle")) == 1
+
+
+@pytest.mark.parametrize(("effect", "least"), [("rest_angle", 0.15), ("angle_offset", 0.005)])
+def test_a_joint_is_named_for_its_part(effect: str, least: float) -> None:
+    """More of it is asked where each recording has a value of its own, since all sensors may err alike."""
+    for part, joints in ((0.8 * least, (0,)), (1.2 * least, (0, 1))):
+        found = np.sqrt([1 - part, part, 0.0, 0.0, 0.0])
+        assert acting_joints(quadratic(effect, found, 4e4 * np.eye(N)), effect) == joints

@@ -44,7 +44,7 @@ def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
         if losses[best] < least:
             break
     left = _loss(precision, found, common + [at for j in chosen for at in by_joint[j]])
-    if not anew and len(chosen) > 1 and _loss_of_one(precision, found, common, by_joint) <= left:
+    if len(chosen) > 1 and _loss_of_one(precision, found, common, by_joint) <= left:
         return (*chosen, *(j for j in by_joint if j not in chosen))
     return tuple(chosen)
 
