@@ -2,7 +2,8 @@
 
 A first look of a few iterations sorts out what does not help: friction makes the way to the best fit rugged, so that
 what the slopes promise counts as well as what was gained; where they promise little for the first effect, the look is a
-longer one. What leads is fitted to all data, and what then contends is fitted to the end and found its joints.
+longer one. What leads is fitted to all data, and what then contends is fitted to the end and found its joints; where
+several do, each once more from other beginnings.
 
 Where the model without any effect is very wrong, its windows begin in places from which no slope leads to the right
 one: looks and leaders then begin theirs as measured, and so does that model once more.
@@ -16,6 +17,7 @@ from functools import partial
 
 from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import gain, is_adequate, unexplained
+from continuum.discovery.other_beginnings import other_beginnings
 from continuum.discovery.some_runs import carried
 from continuum.discovery.trial import Trial
 from continuum.discovery.window_beginnings import with_beginnings_of
@@ -89,7 +91,7 @@ def one_round(
     ended += [trial for trial in leaders if all(trial is not one for one in contenders)]
     if earlier and earlier.extension:
         ended = _beside_an_earlier_one(make, before, ended, earlier)
-    ended = sorted(ended, key=partial(_rank, before))
+    ended = sorted(_begun_otherwise(make, before, ended), key=partial(_rank, before))
     if ended and gain(ended[0], before).is_significant:
         before = _as_well_fitted(make, before, ended[0])
     return Round(before, tuple(looks), tuple(ended))
@@ -131,6 +133,20 @@ def _is_little(looks: Sequence[Trial], without: Trial) -> bool:
     """Whether the best hope is little beside what is left to explain."""
     left = without.cost - sum(float(run.sum()) for run in without.sizes) / 2
     return bool(looks) and _hoped_for(without) - _hoped_for(looks[0]) < _LITTLE * left
+
+
+def _begun_otherwise(make: Make, before: Trial, ended: Sequence[Trial]) -> list[Trial]:
+    """The same, those that contend with each other as good as from any of several beginnings."""
+    contenders = _contending(ended, before)
+    if len(contenders) < 2:  # the only one need not be better to lead
+        return list(ended)
+    best = max(contenders, key=lambda trial: gain(trial, before).log_likelihood)
+    starts = [(trial, start) for trial in contenders for start in other_beginnings(trial, best)]
+    again = list(make([Task(trial.extension, start, ITERATIONS) for trial, start in starts]))
+    return [
+        min((trial, *(one for one in again if one.extension == trial.extension)), key=lambda one: one.cost)
+        for trial in ended
+    ]
 
 
 def _as_well_fitted(make: Make, before: Trial, best: Trial) -> Trial:

@@ -25,12 +25,12 @@ def with_beginnings_of(trial: Trial, others: Sequence[Trial]) -> Trial:
     best = np.argmin(theirs, axis=0)
     takes = (mine > _BAD) & (theirs.min(axis=0) < _BETTER * mine)
     own = tuple(
-        _begun_as(others[best[window] - 1].own[window], here) if takes[window] else here
+        begun_as(others[best[window] - 1].own[window], here) if takes[window] else here
         for window, here in enumerate(trial.own)
     )
     return replace(trial, own=own)
 
 
-def _begun_as(there: Array, here: Array) -> Array:
+def begun_as(there: Array, here: Array) -> Array:
     """Angles and rates from there; states of effects that there are not stay."""
     return np.concatenate([there[: here.size], here[there.size :]])
