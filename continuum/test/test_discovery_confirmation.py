@@ -49,6 +49,10 @@ def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
         for after in (scores(0.05, 0.31), scores(0.05, np.inf)):  # far off in one run
             assert confirmed(verdict, scores(0.45, 0.45), after).kind is (Kind.UNKNOWN if named else kind)
             assert confirmed(verdict, scores(0.05, 0.04), after).kind is (Kind.UNKNOWN if named else kind)
+        for after in (scores(0.05, 0.05, 0.29), scores(0.32, 0.32, 0.32)):  # one far run hardly nearer; all a little
+            assert confirmed(verdict, scores(0.45, 0.45, 0.30), after).kind is (Kind.UNKNOWN if named else kind)
+        assert confirmed(verdict, scores(0.45, 0.45, 0.18), scores(0.05, 0.05, 0.17)) is verdict  # not far
+        assert confirmed(verdict, scores(0.45, 0.45, 0.30), scores(0.05, 0.05, 0.20)) is verdict  # far, and nearer
         worse = scores(0.9, 0.10, 0.10, 0.10), scores(0.05, 0.12, 0.12, 0.12)  # in most runs
         assert confirmed(verdict, *worse).kind is (Kind.UNKNOWN if named else kind)
         assert confirmed(verdict, scores(0.9, 0.9, 0.1, 0.1), scores(0.05, 0.05, 0.12, 0.12)) is verdict

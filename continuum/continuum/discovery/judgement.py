@@ -13,7 +13,8 @@ from continuum.discovery.trial import Trial
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
 
-_LEAST_CLOSED = 0.25  # of the distance to the noise floor
+_LEAST_CLOSED = 1 / 3  # of the distance to the noise floor, by a cause; those that are right close half or more
+_AWAY, _LEAST_OF_A_RUN = 4.0, 0.25  # noise floors, and what a run so far away comes nearer by; mostly by half or more
 _WORSE = 1.05  # times the error without the extension
 _MOST_CLOSED = 0.8  # of it, where windows stay unexplained
 _MOST_LEFT = 1 / 3  # of the unexplained windows, where most is explained
@@ -66,7 +67,8 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
     """The verdict, unless its model does not predict runs that were held out: then its cause is not the one.
 
     Windows as short as these are explained by what only looks like the cause, a free run is not: it comes nearer to the
-    noise, where it was away from it, ends far off in no run, and is worse in half of them at most. Where the model
+    noise, where it was away from it, in every run that was far away, ends far off in none, and is worse in half of them
+    at most. Where the model
     without it is adequate, nothing has to be explained, and that model it is; but no model is whose free runs end far
     from what was measured. What explains nearly all windows is the cause where free runs come nearly to the noise.
     """
@@ -90,6 +92,11 @@ def _bear_out(before: Sequence[RunScore], after: Sequence[RunScore]) -> bool:
     """Whether free runs come nearer to the noise where there is a way to go, none ends far off, and few are worse."""
     worse = [a.position > _WORSE * max(b.position, b.floor) for b, a in zip(before, after, strict=True)]
     nearer = not is_open(before) or closed_gap(before, after) >= _LEAST_CLOSED
+    nearer &= all(
+        closed_gap([b], [a]) >= _LEAST_OF_A_RUN
+        for b, a in zip(before, after, strict=True)
+        if b.position > _AWAY * b.floor
+    )
     return nearer and not is_far(after) and sum(worse) <= len(worse) / 2
 
 

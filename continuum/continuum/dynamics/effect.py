@@ -33,6 +33,7 @@ class Effect:
         in_words: what is the matter with the arm, one sentence for a mechanic.
         looks_like: what it does to the data, one sentence.
         experiment: what to measure so that it stands out from what resembles it, one sentence.
+        beware: what no effect here is and would look the same, one sentence; empty where nothing is known to.
         state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
             units; 0 where it is certain.
         needs_tension: whether only a cable that pulls can show it.
@@ -47,6 +48,7 @@ class Effect:
     in_words: ClassVar[str] = ""
     looks_like: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
+    beware: ClassVar[str] = ""
     state_spread: ClassVar[float] = 0.0
     needs_tension: ClassVar[bool] = False
     shifts_time: ClassVar[bool] = False

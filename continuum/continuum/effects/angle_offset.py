@@ -25,6 +25,9 @@ class AngleOffset(Effect):
     in_words = "A sensor shows a wrong angle from the start, by the same amount all the time."
     looks_like = "Measured and simulated angle run side by side, and the rates agree; the gap differs from run to run."
     experiment = "Measure the resting angle with a protractor, or restart the sensors and release again."
+    beware = (
+        "A spring that rests elsewhere in every run looks nearly the same: measure the resting angle by other means."
+    )
 
     def measure(self, seen: Reading, own: Own) -> Reading:
         return replace(seen, theta=seen.theta + own["offset"])

@@ -24,6 +24,9 @@ class JointStiffness(Effect):
     in_words = "The spring of a joint is stiffer or softer than those of the others."
     looks_like = "The joint bends less, or more, than its neighbours for the same load, in proportion to the load."
     experiment = "Hang known weights on the tip of the arm held level and read the angle of each joint at rest."
+    beware = (
+        "A spring that creeps is stiffer in fast motions than in slow ones: hold the joint bent and watch its torque."
+    )
 
     def change_parameters(self, p: Parameters, own: Own) -> Parameters:
         return replace(p, stiffness=p.stiffness * (1 + own["excess"]))
