@@ -53,6 +53,8 @@ def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:
             assert confirmed(verdict, scores(0.45, 0.45, 0.30), after).kind is (Kind.UNKNOWN if named else kind)
         assert confirmed(verdict, scores(0.45, 0.45, 0.18), scores(0.05, 0.05, 0.17)) is verdict  # not far
         assert confirmed(verdict, scores(0.45, 0.45, 0.30), scores(0.05, 0.05, 0.20)) is verdict  # far, and nearer
+        assert confirmed(verdict, scores(0.15, 0.15), scores(0.11, 0.11)) is verdict  # two fifths of the way
+        assert confirmed(verdict, scores(0.15, 0.15), scores(0.12, 0.12)).kind is (Kind.UNKNOWN if named else kind)
         worse = scores(0.9, 0.10, 0.10, 0.10), scores(0.05, 0.12, 0.12, 0.12)  # in most runs
         assert confirmed(verdict, *worse).kind is (Kind.UNKNOWN if named else kind)
         assert confirmed(verdict, scores(0.9, 0.9, 0.1, 0.1), scores(0.05, 0.05, 0.12, 0.12)) is verdict

@@ -12,7 +12,13 @@ from discovery_laws import a_round, trial
 from discovery_verdicts import BAD, found, judged, score
 
 from continuum.discovery.candidate import Addition
-from continuum.discovery.in_words import cost_in_words, identifiability_in_words, verdict_in_words, worth_in_words
+from continuum.discovery.in_words import (
+    cost_in_words,
+    identifiability_in_words,
+    lookalikes_in_words,
+    verdict_in_words,
+    worth_in_words,
+)
 from continuum.discovery.judgement import judge
 from continuum.discovery.motion_phases import PHASES
 from continuum.discovery.verdict import Kind
@@ -86,6 +92,16 @@ def test_joints_for_machines_count_from_one(joints: tuple[int, ...] | None, join
 def test_a_file_that_cannot_be_written(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="cannot be written"):
         write_json(found(judged()[Kind.CAUSE]), tmp_path)
+
+
+def test_what_would_look_the_same_and_is_not_in_the_library_is_told() -> None:
+    payload = trial("tip_payload", seed=1)
+    for named, effects in (("inertia", ["inertia"]), ("angle_offset", ["angle_offset"]), ("base_tilt", [])):
+        for leaders in ((trial(named, seed=1), trial("rest_angle", seed=2)), (payload, trial(named, seed=2))):
+            verdict = judge(BAD, [a_round(BAD, *leaders)])
+            assert verdict.kind is Kind.AMBIGUOUS
+            assert lookalikes_in_words(verdict) == [f"{name}: {effect_named(name).beware}" for name in effects]
+            assert lookalikes_in_words(replace(verdict, kind=Kind.UNKNOWN)) == []
 
 
 def test_what_the_data_tell_at_all_is_told() -> None:

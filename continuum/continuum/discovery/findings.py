@@ -9,12 +9,12 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.diagnose import Diagnosis
+from continuum.discovery.in_words import lookalikes_in_words
 from continuum.discovery.judgement import confirmed
 from continuum.discovery.measured_gain import RunScore, closed_gap, held_out_scores
 from continuum.discovery.question import Question
 from continuum.discovery.trial import fit_extension
 from continuum.discovery.verdict import Cause, Verdict
-from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model import Model
 from continuum.identification.bootstrap import bootstrap, interval
 from continuum.identification.dataset import halves
@@ -107,7 +107,7 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         + _rows_told(question)
         + (_SIMULATED * question.noise.is_simulated)
         + _left_out(verdict)
-        + _looking_alike(verdict),
+        + tuple(lookalikes_in_words(verdict)),
         fit_extension(question, (), verdict.baseline, 2).model,
         _told(fitted, [r.name for r in question.recordings]),
     )
@@ -127,12 +127,6 @@ def _left_out(verdict: Verdict) -> tuple[str, ...]:
         if own
         else ()
     )
-
-
-def _looking_alike(verdict: Verdict) -> tuple[str, ...]:
-    """What is no effect of the library and would look like those that are named."""
-    named = dict.fromkeys(cause.addition.effect for cause in (*verdict.causes, *verdict.alternatives))
-    return tuple(f"{name}: {beware}" for name in named if (beware := effect_named(name).beware))
 
 
 def _of_alternative(question: Question, rival: Cause, random: np.random.Generator) -> list[Estimate]:

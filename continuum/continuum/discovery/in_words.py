@@ -86,6 +86,13 @@ def _what_helps(verdict: Verdict, after: str) -> str:
     return f"{helps} helps, yet {after} stay unexplained."
 
 
+def lookalikes_in_words(verdict: Verdict) -> list[str]:
+    """What is no effect of the library and would look like those that are named."""
+    named = () if verdict.kind is Kind.UNKNOWN else (*verdict.causes, *verdict.alternatives)
+    effects = dict.fromkeys(cause.addition.effect for cause in named)
+    return [f"{name}: {beware}" for name in effects if (beware := effect_named(name).beware)]
+
+
 def worth_in_words(closed: float) -> str:
     """What the extension gains on runs that it was not fitted to."""
     if closed <= -_NOTICED:
