@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import version
 from statistics import median
 
-from blind.plant import EFFECTS, LIBRARY, SIZES
+from blind.plant import EFFECTS, LIBRARY, SIZES, Plan
 
 from tools.bench_discovery.answer import Answer
 from tools.bench_discovery.calibration import bins, expected_error, statements
@@ -50,7 +50,7 @@ def page(results: Sequence[Result], replaced: Sequence[Result] = ()) -> str:
     aims = ((goal.what, goal.wanted, goal.figure, goal.status) for goal in goals(results))
     sections = {
         "Goals": table(("", "goal", "reached", ""), aims) + "\n\n" + RULES,
-        "Cases that no version was mended on": _unseen(results),
+        "Cases that no version was mended on": _unseen(results, replaced),
         "One hidden effect, the worst first": _tally_table("effect", tallies(one, name_of)),
         "By size": _sizes(one),
         "One hidden effect, by dataset": _tally_table("dataset", tallies(one, _dataset)),
@@ -69,18 +69,21 @@ def page(results: Sequence[Result], replaced: Sequence[Result] = ()) -> str:
     return "\n\n".join([_head(results), *(f"## {title}\n\n{body}" for title, body in sections.items())]) + "\n"
 
 
-def _unseen(results: Sequence[Result]) -> str:
-    """The same goals on the cases that show how well it does on what it was not mended on."""
+def _unseen(results: Sequence[Result], replaced: Sequence[Result]) -> str:
+    """The same goals on the cases that show how well it does on what it was not mended on: as first answered."""
     said = paragraph(
         f"What was answered wrongly to cases of campaign {MENDED_ON} was looked into, and the analysis mended, while",
-        "the campaign went on: its rates are those of data that it was developed on. Cases of other campaigns are",
-        "first seen by the version that answers them.",
+        "the campaign went on: its rates are those of data that it was developed on. Cases of other campaigns count",
+        "here as they were answered first, whatever a later version says of them.",
     )
-    unseen = [result for result in results if campaign_of(result.plan) != MENDED_ON]
+    first: dict[Plan, Result] = {}
+    for result in (*replaced, *results):
+        first.setdefault(result.plan, result)
+    unseen = [result for plan, result in first.items() if campaign_of(plan) != MENDED_ON]
     if not unseen:
         return said + "\n\nThere are none yet."
     aims = ((goal.what, goal.wanted, goal.figure, goal.status) for goal in goals(unseen))
-    return said + "\n\n" + table(("", "goal", "reached", ""), aims)
+    return f"{said}\n\n{table(('', 'goal', 'reached', ''), aims)}\n\nWrong causes among them:\n\n{_wrong(unseen)}"
 
 
 def _replaced(replaced: Sequence[Result]) -> str:

@@ -165,3 +165,18 @@ def test_the_page_holds_every_answer() -> None:
 def test_the_page_of_a_single_case(one: Result) -> None:
     assert "from 1 cases" in page([one])
     assert "nan" not in page([one])
+
+
+def test_cases_that_no_version_was_mended_on_count_as_they_were_answered_first() -> None:
+    hidden = [effect("rest_angle", 5)]
+    right, wrong = (
+        result(hidden, verdict("cause", named(name, 5)), seed=2024000083) for name in ("rest_angle", "angle_offset")
+    )
+    mended_on = result(hidden, verdict("cause", named("base_tilt")), seed=2023000001)
+    whole, _, unseen = page([right, mended_on], [wrong]).partition("## Cases that no version was mended on")
+    unseen = unseen.partition("\n## ")[0]
+    goal = "| a wrong cause or joint is named, whatever is hidden | none wanted |"
+    assert f"{goal} 50 %" in whole
+    assert f"{goal} 100 %" in unseen
+    assert "angle_offset@5" in unseen
+    assert "base_tilt" not in unseen
