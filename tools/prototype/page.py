@@ -89,8 +89,8 @@ parts keep. A test (`tools/prototype/test`) makes sure that no other code of thi
 the reproduction of the thesis, which chose the two values that the thesis does not print by the author's *simulation*.
 There is one exception: that no joint angle is believed to be better than 0.1 degrees (`identification/noise.py`) was
 chosen after a look at this file, whose plotted angles show next to no noise; the estimate here is
-{_range(told.white)} degrees. Tried by hand on 2026-11-23, with the version before this one, 0.05 and 0.2 degrees changed
-nothing: the verdict was `unknown`.
+{_range(told.white)} degrees. Tried by hand on 2026-11-23, with the version before
+this one, 0.05 and 0.2 degrees changed nothing: the verdict was `unknown`.
 """
 
 
