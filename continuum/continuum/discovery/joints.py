@@ -32,7 +32,7 @@ def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
     whole = _loss(precision, found, common)
     anew = any(parameter.per_recording for parameter in effect_named(effect).parameters.values())
     least = max((1 - (_PART_OF_RUNS if anew else _PART)) * whole, _ENOUGH)
-    chosen: list[int] = []
+    chosen, left = list[int](), whole
     while len(chosen) < len(by_joint):
         losses = {
             j: _loss(precision, found, common + [at for k in (*chosen, j) for at in by_joint[k]])
@@ -41,9 +41,9 @@ def acting_joints(fitted: Fit, effect: str) -> tuple[int, ...]:
         }
         best = min(losses, key=lambda j: losses[j])
         chosen.append(best)
-        if losses[best] < least:
+        left = losses[best]
+        if left < least:
             break
-    left = _loss(precision, found, common + [at for j in chosen for at in by_joint[j]])
     if len(chosen) > 1 and _loss_of_one(precision, found, common, by_joint) <= left:
         return (*chosen, *(j for j in by_joint if j not in chosen))
     return tuple(chosen)

@@ -68,9 +68,9 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
 
     Windows as short as these are explained by what only looks like the cause, a free run is not: it comes nearer to the
     noise, where it was away from it, in every run that was far away, ends far off in none, and is worse in half of them
-    at most. Where the model
-    without it is adequate, nothing has to be explained, and that model it is; but no model is whose free runs end far
-    from what was measured. What explains nearly all windows is the cause where free runs come nearly to the noise.
+    at most. Where the model without it is adequate, nothing has to be explained, and that model it is; but no model is
+    whose free runs end far from what was measured. What explains nearly all windows is the cause where free runs come
+    nearly to the noise.
     """
     if verdict.nearly and _comes_to_the_noise(before, after):
         return replace(verdict, kind=Kind.CAUSE)
