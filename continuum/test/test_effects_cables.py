@@ -8,6 +8,7 @@ from continuum_laws.differences import differences
 from dynamics_laws import active, moving, prototype_model, random_parameters
 from effects_laws import LOOSE, RELEASED, N, effect_of, extended, resting_state, simulator, torque_of
 
+from continuum.dynamics.model import Model
 from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions, slack
@@ -87,7 +88,7 @@ def test_a_cable_that_would_push_stays_loose_and_one_that_is_told_nothing_resist
     assert tension[:, 1].max() < 0.05
 
 
-@pytest.mark.parametrize("name", ["actuator_lag", "elastic_cable", "slack_cable", "capstan"])
+@pytest.mark.parametrize("name", ["actuator_lag", "elastic_cable", "slack_cable", "capstan", "tension_scale"])
 def test_a_release_without_pull_does_not_know_of_the_cables(name: str) -> None:
     times = np.linspace(0, 0.2, 5)
     runs = []
@@ -164,3 +165,25 @@ def test_an_arm_that_gives_way_to_its_cables_loosens_them_and_one_that_draws_the
     assert rate[0] * rate[1] < 0
     left = one.effect.state_balance(now, one.values, np.full(2, 0.025), rate)
     np.testing.assert_allclose(left, 0, atol=1e-12)
+
+
+def test_load_cells_show_one_plus_their_gain_times_what_pulls() -> None:
+    own = {"gain_1": np.array([0.25]), "gain_2": np.array([-0.2])}
+    np.testing.assert_allclose(effect_of("tension_scale").pull(np.array([5.0, 8.0]), own, np.zeros(0)), [4.0, 10.0])
+
+
+def test_load_cells_that_are_both_off_are_an_arm_whose_torques_are_all_scaled() -> None:
+    """u / (1 + e) moves an arm as u moves one of 1 + e times its masses, springs and friction."""
+    p, gain = prototype_model(N).parameters, 0.2
+    scaled = ("mass", "inertia", "stiffness", "viscous_friction", "coulomb_friction")
+    heavier = Model(replace(p, **{name: (1 + gain) * getattr(p, name) for name in scaled}))
+    shown = extended(Model(p), "tension_scale", {"gain_1": gain, "gain_2": gain})
+    times, told = np.linspace(0, 0.4, 9), Tensions([0.0, 0.2, 0.4], [[0.0, 2.0], [5.0, 1.0], [0.0, 6.0]])
+    plain = Simulator(Model(p)), simulator("tension_scale")
+    seen, same = (
+        one.around(model).run(resting_state(model, RELEASED, LOOSE), times, told).theta
+        for one, model in zip(plain, (heavier, shown), strict=True)
+    )
+    np.testing.assert_allclose(seen, same, atol=2e-4)
+    other = plain[0].run(resting_state(Model(p), RELEASED, LOOSE), times, told).theta
+    assert np.abs(seen - other).max() > 0.01

@@ -24,6 +24,7 @@ SAME = {
     "actuator_lag": ("lag",),
     "sensor_delay": ("delay",),
     "sensor_scale": ("gain",),
+    "tension_scale": ("gain_1",),
 }
 """Parameters of the library by effect whose value is the plant's amount: same unit, same sign."""
 

@@ -19,6 +19,7 @@ from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import gain, is_adequate, unexplained
 from continuum.discovery.other_beginnings import other_beginnings
 from continuum.discovery.some_runs import carried
+from continuum.discovery.special_cases import without_special_cases
 from continuum.discovery.trial import Trial
 from continuum.discovery.window_beginnings import with_beginnings_of
 from continuum.discovery.workers import FIRST_LOOK, LONG_LOOK, Make, Task, first_look
@@ -91,7 +92,7 @@ def one_round(
     ended += [trial for trial in leaders if all(trial is not one for one in contenders)]
     if earlier and earlier.extension:
         ended = _beside_an_earlier_one(make, before, ended, earlier)
-    ended = sorted(_begun_otherwise(make, before, ended), key=partial(_rank, before))
+    ended = sorted(without_special_cases(_begun_otherwise(make, before, ended)), key=partial(_rank, before))
     if ended and gain(ended[0], before).is_significant:
         before = _as_well_fitted(make, before, ended[0])
     return Round(before, tuple(looks), tuple(ended))

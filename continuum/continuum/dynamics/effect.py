@@ -34,6 +34,8 @@ class Effect:
         looks_like: what it does to the data, one sentence.
         experiment: what to measure so that it stands out from what resembles it, one sentence.
         beware: what no effect here is and would look the same, one sentence; empty where nothing is known to.
+        alike_in_all_runs: the effect that it is where its values are the same in all recordings; empty where there is
+            none. Such values are that one's to explain.
         state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
             units; 0 where it is certain.
         needs_tension: whether only a cable that pulls can show it.
@@ -49,6 +51,7 @@ class Effect:
     looks_like: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
     beware: ClassVar[str] = ""
+    alike_in_all_runs: ClassVar[str] = ""
     state_spread: ClassVar[float] = 0.0
     needs_tension: ClassVar[bool] = False
     shifts_time: ClassVar[bool] = False

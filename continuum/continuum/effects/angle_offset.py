@@ -26,8 +26,7 @@ class AngleOffset(Effect):
     looks_like = "Measured and simulated angle run side by side, and the rates agree; the gap differs from run to run."
     experiment = "Measure the resting angle with a protractor, or restart the sensors and release again."
     beware = (
-        "A spring that rests elsewhere in every run, or a base that is mounted anew for each, looks nearly the same: "
-        "measure the resting angles by other means."
+        "A spring that rests elsewhere in every run looks nearly the same: measure the resting angles by other means."
     )
 
     def measure(self, seen: Reading, own: Own) -> Reading:

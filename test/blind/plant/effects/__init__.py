@@ -2,8 +2,8 @@
 
 from blind.plant.effect import Effect
 from blind.plant.effects.backlash import Backlash
-from blind.plant.effects.base import BaseCompliance, BaseTilt
-from blind.plant.effects.cables import ActuatorLag, Capstan, ElasticCable, SlackCable
+from blind.plant.effects.base import BaseCompliance, BaseTilt, RemountedBase
+from blind.plant.effects.cables import ActuatorLag, Capstan, ElasticCable, SlackCable, TensionScale
 from blind.plant.effects.friction import JointFriction, LoadFriction
 from blind.plant.effects.masses import Inertia, TipPayload
 from blind.plant.effects.outside import DroppingLoad, KinkedSpring, Magnet, RubbingDisc, ShakenBase
@@ -40,6 +40,8 @@ _ALL: tuple[type[Effect], ...] = (
     DroppingLoad,
     KinkedSpring,
     ShakenBase,
+    TensionScale,  # these last, so that what the others' cases draw is as it was
+    RemountedBase,
 )
 EFFECTS = {effect.name: effect for effect in _ALL}
 LIBRARY = tuple(name for name, effect in EFFECTS.items() if effect.in_a_library)

@@ -1,10 +1,16 @@
 """The base plate: askew, or giving way."""
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from blind.plant.chain import PLATE_INERTIA, Chain
 from blind.plant.effect import Effect
 from blind.plant.parameters import Parameters
+
+if TYPE_CHECKING:
+    from blind.plant.machine import Machine
 
 DAMPING_RATIO = 0.05
 CARRIED = 0.013  # inertia of plate and hanging arm about the base [kg m^2], for the damping only
@@ -21,6 +27,23 @@ class BaseTilt(Effect):
 
     def change(self, p: Parameters) -> Parameters:
         return p.with_(base_tilt=p.base_tilt + self.amount)
+
+
+class RemountedBase(Effect):
+    """The base plate is clamped anew for every recording, and turned each time by another angle.
+
+    The angles are of either sign, with magnitudes between half and one and a half times the amount [rad]; gravity
+    turns against the plate, which itself stays. Joint angles are from plate to link.
+    """
+
+    name, unit, sizes = "remounted_base", "rad", (0.0175, 0.052, 0.105)
+
+    def act(self, machine: "Machine") -> Callable[[], None] | None:
+        turned = self.amount * machine.rng.choice([-1.0, 1.0]) * machine.rng.uniform(0.5, 1.5)
+        across, up = machine.plumb[0], machine.plumb[2]
+        turn = np.array([across * np.cos(turned) + up * np.sin(turned), up * np.cos(turned) - across * np.sin(turned)])
+        machine.plumb[[0, 2]] = machine.model.opt.gravity[[0, 2]] = turn
+        return None
 
 
 class BaseCompliance(Effect):

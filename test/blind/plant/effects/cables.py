@@ -94,3 +94,16 @@ class ActuatorLag(Effect):
             return (before + tension) / 2
 
         return late
+
+
+class TensionScale(Effect):
+    """Load cells show cable 1's tension as (1 + s) times what it is, and cable 2's as (1 + s / 2) times.
+
+    Rows hold what they show; s without unit.
+    """
+
+    name, unit, sizes, signed, seen_in = "tension_scale", "1", (0.04, 0.12, 0.25), True, ONLY_DRIVEN
+
+    def pull(self, machine: "Machine") -> Pull:
+        shown = np.array([1 + self.amount, 1 + self.amount / 2])
+        return lambda command: command / shown

@@ -1,0 +1,45 @@
+"""What is recorded as a cable's pull is not what pulls: T = u / (1 + gain), for each cable by itself.
+
+With one gain for both cables, all torques of Eq. 12 but the cables' are as much too small: nothing in the motion tells
+that from links that are all as much heavier, with stiffness and friction in proportion.
+
+Load cells hold their calibration to 1 % or better; one mounted where the cable pulls it askew, or scaled by the wrong
+amplifier's factor, is soon 10 % off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.parameters import Parameter
+
+
+class TensionScale(Effect):
+    """Gain of the load cells, or of the motors that are told how much to pull."""
+
+    name = "tension_scale"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "gain_1": Parameter(
+            "e_1", "1", -0.5, 2.0, False, "pull of cable 1 as recorded by the true one, less 1", 0.0, 0.1
+        ),
+        "gain_2": Parameter(
+            "e_2", "1", -0.5, 2.0, False, "pull of cable 2 as recorded by the true one, less 1", 0.0, 0.1
+        ),
+    }
+    needs_tension = True
+    source = (
+        "Beckwith, Marangoni and Lienhard, Mechanical Measurements, 2007, ch. 13 (calibration of force transducers)"
+    )
+    in_words = "What is recorded as a cable's pull is too much or too little by a constant factor."
+    looks_like = (
+        "Pulled, the arm bends too far or not far enough, in proportion to the pull; let go, it swings as it should."
+    )
+    experiment = "Hang a known weight from each cable's end and compare what is recorded; weigh the links."
+
+    def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
+        return u / (1 + np.concatenate([own["gain_1"], own["gain_2"]]))
