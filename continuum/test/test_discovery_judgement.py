@@ -43,6 +43,21 @@ def test_a_gain_in_one_stretch_alone_is_chance() -> None:
     assert not gain(GOOD, lucky).is_significant
 
 
+@pytest.mark.parametrize(("each", "is_told"), [((9.0,) * RUNS, True), ((9.0, 9.0, 9.0, 7.0), False)])
+def test_what_acts_in_one_stretch_of_every_run_is_no_chance_where_each_run_tells_it(
+    each: tuple[float, ...], is_told: bool
+) -> None:
+    """Most of it in one run, a load that rubs at the first swing from the farthest bend: few stretches make it."""
+    before = replace(GOOD, held_out=tuple(run.copy() for run in GOOD.held_out), cost=GOOD.cost + 100)
+    for run, lead in zip(before.held_out, each, strict=True):
+        run[0] += 2 * lead
+    before.held_out[0][0] += 200
+    gained = gain(GOOD, before)
+    assert 0 < gained.log_likelihood < 1.5 * gained.deviation
+    assert gained.least == pytest.approx(min(each))
+    assert gained.is_significant is is_told
+
+
 def test_adequate_is_what_leaves_noise_but_for_a_few_windows() -> None:
     assert unexplained(BAD) == pytest.approx(0.3)
     assert is_adequate(GOOD)

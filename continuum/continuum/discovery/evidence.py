@@ -33,18 +33,24 @@ class Gain:
         log_likelihood: sum over all windows.
         deviation: standard deviation of that sum, from stretches of windows.
         rest: the same sum without the run that gains most; of a single run, without its best quarter.
+        least: the same sum of the run that gains least; of a single run, of its worst quarter.
         information: what the fit gains on all windows, less the price of its unknowns.
     """
 
     log_likelihood: float
     deviation: float
     rest: float
+    least: float
     information: float
 
     @property
     def is_significant(self) -> bool:
-        """Whether it is more than chance gives with some forty hypotheses tried, worth it, and not one run's doing."""
-        return self.rest > _SIGNIFICANT and self._is_beyond(_SPREAD) and self.information > 0
+        """Whether it is more than chance gives with some forty hypotheses tried, worth it, and not one run's doing.
+
+        What acts in one short phase of every run has few stretches to show in: enough where each run tells it alone.
+        """
+        is_no_chance = self._is_beyond(_SPREAD) or self.least > DISTINCT
+        return self.rest > _SIGNIFICANT and is_no_chance and self.information > 0
 
     @property
     def is_distinct(self) -> bool:
@@ -110,9 +116,9 @@ def gain(trial: Trial, over: Trial) -> Gain:
     each = [_stretched((b - a) / 2) for a, b in zip(trial.held_out, over.held_out, strict=True)]
     stretches = np.concatenate(each)
     total = float(stretches.sum())
-    best = max(float(run.sum()) for run in each)
+    runs = [float(run.sum()) for run in each]
     deviation = float(np.std(stretches) * np.sqrt(stretches.size))
-    return Gain(total, deviation, total - best, information_gain(trial, over))
+    return Gain(total, deviation, total - max(runs), min(runs), information_gain(trial, over))
 
 
 def _stretched(run: Array) -> Array:

@@ -26,6 +26,7 @@ class Inertia(Effect):
     in_words = "A link is heavier or lighter, or its mass lies further out, than in the drawings."
     looks_like = "Swings are slower or faster and gravity pulls a joint further, in proportion to each other."
     experiment = "Weigh the links; with a known weight added to one of them, release again and compare the two runs."
+    beware = "Links that are longer or shorter than in the model look nearly the same: measure their lengths as well."
 
     def change_parameters(self, p: Parameters, own: Own) -> Parameters:
         return replace(p, mass=p.mass * (1 + own["mass"]), inertia=p.inertia * (1 + own["inertia"]))

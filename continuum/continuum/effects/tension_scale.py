@@ -40,6 +40,9 @@ class TensionScale(Effect):
         "Pulled, the arm bends too far or not far enough, in proportion to the pull; let go, it swings as it should."
     )
     experiment = "Hang a known weight from each cable's end and compare what is recorded; weigh the links."
+    beware = (
+        "Cable holes nearer to the axis, or farther from it, than in the model look the same: measure their distance."
+    )
 
     def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
         return u / (1 + np.concatenate([own["gain_1"], own["gain_2"]]))
