@@ -41,8 +41,8 @@ class TensionScale(Effect):
     )
     experiment = "Hang a known weight from each cable's end and compare what is recorded; weigh the links."
     beware = (
-        "Cable holes nearer to the axis, or farther from it, than in the model look the same, and links that are longer or "
-        "shorter nearly so: measure both."
+        "Cable holes nearer to the axis, or farther from it, than in the model look the same, and links of another "
+        "length nearly so: measure both."
     )
 
     def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
