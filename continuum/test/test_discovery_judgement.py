@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import explains_all, gain, is_adequate, unexplained
 from continuum.discovery.judgement import judge
+from continuum.discovery.trial import Trial
 from continuum.discovery.verdict import Kind
 from continuum.dynamics.effect_lookup import effect_named
 
@@ -43,18 +45,30 @@ def test_a_gain_in_one_stretch_alone_is_chance() -> None:
     assert not gain(GOOD, lucky).is_significant
 
 
-@pytest.mark.parametrize(("each", "is_told"), [((9.0,) * RUNS, True), ((9.0, 9.0, 9.0, 7.0), False)])
-def test_what_acts_in_one_stretch_of_every_run_is_no_chance_where_each_run_tells_it(
-    each: tuple[float, ...], is_told: bool
+def later(trial_: Trial, leads: Sequence[Sequence[float]]) -> Trial:
+    """What is worse by so much log-likelihood in each stretch of the runs, and whose fit is worse than its price."""
+    runs = tuple(run.copy() for run in trial_.held_out[: len(leads)])
+    for run, each in zip(runs, leads, strict=True):
+        run[: 4 * len(each) : 4] += 2 * np.array(each)
+    return replace(trial_, held_out=runs, sizes=trial_.sizes[: len(leads)], cost=trial_.cost + 100)
+
+
+FAR, NEAR, NEAREST = (109.0, 0, 0, 0), (9.0, 0, 0, 0), (7.0, 0, 0, 0)
+LOUD = (60.0, -60, 60, -51)
+
+
+@pytest.mark.parametrize(("leads", "is_told"), [
+    ((FAR, NEAR, NEAR, NEAR), True), ((FAR, NEAR, NEAR, NEAREST), False), ((FAR, NEAR, NEAR), True),
+    ((FAR, (16.0, 0, 0, 0)), False), ((LOUD,) * 4, False), ((FAR, NEAR, NEAR, (20.0, -5, 0, 0)), False),
+])  # fmt: skip
+def test_what_acts_in_one_stretch_of_every_run_is_no_chance_where_each_of_several_tells_it(
+    leads: Sequence[Sequence[float]], is_told: bool
 ) -> None:
     """Most of it in one run, a load that rubs at the first swing from the farthest bend: few stretches make it."""
-    before = replace(GOOD, held_out=tuple(run.copy() for run in GOOD.held_out), cost=GOOD.cost + 100)
-    for run, lead in zip(before.held_out, each, strict=True):
-        run[0] += 2 * lead
-    before.held_out[0][0] += 200
-    gained = gain(GOOD, before)
+    before = later(GOOD, leads)
+    gained = gain(replace(GOOD, held_out=GOOD.held_out[: len(leads)], sizes=GOOD.sizes[: len(leads)]), before)
+    assert gained.rest > 15
     assert 0 < gained.log_likelihood < 1.5 * gained.deviation
-    assert gained.least == pytest.approx(min(each))
     assert gained.is_significant is is_told
 
 

@@ -11,26 +11,71 @@ from discovery_laws import trial
 from identification_laws import BENDS, recorded, small_simulator, white_noise
 
 from continuum.discovery.candidate import Addition
+from continuum.discovery.diagnose import diagnose
 from continuum.discovery.price_of_own import OneForAll
 from continuum.discovery.question import Question
 from continuum.discovery.search import search, tell_nobody
-from continuum.discovery.special_cases import without_special_cases
+from continuum.discovery.special_cases import without_special_cases, worth_trying
 from continuum.discovery.trial import TOLERANCES, Trial, fit_extension, judged
 from continuum.discovery.workers import Task
 from continuum.dynamics.effect_lookup import effect_named, effect_names
+from continuum.identification.dataset import Dataset
 from continuum.identification.free import Free
 
 TILT, PAYLOAD = trial("base_tilt"), trial("tip_payload")
 REMOUNTED = trial("remounted_base")
-ALIKE = replace(REMOUNTED, one_for_all=OneForAll(3, 0.5))
+
+
+def alike(one: Trial, misfit: float = 0.5, effect: str = "remounted_base") -> Trial:
+    """Of four runs, in which it costs a misfit to take the effect's values for one."""
+    return replace(one, saved={effect: OneForAll(3, misfit)})
 
 
 def test_values_that_are_alike_in_all_runs_are_the_other_effects_to_explain() -> None:
-    assert without_special_cases([ALIKE, TILT, PAYLOAD]) == [TILT, PAYLOAD]
+    same = alike(REMOUNTED)
+    assert without_special_cases([same, TILT, PAYLOAD]) == [TILT, PAYLOAD]
     assert without_special_cases([TILT, REMOUNTED]) == [TILT, REMOUNTED]
-    assert without_special_cases([ALIKE, PAYLOAD]) == [ALIKE, PAYLOAD]  # the other one is not there to explain them
-    zero = replace(trial("angle_offset"), one_for_all=OneForAll(3, 0.5))
+    assert without_special_cases([same, PAYLOAD]) == [same, PAYLOAD]  # the other one is not there to explain them
+    zero = alike(trial("angle_offset"), effect="angle_offset")
     assert without_special_cases([zero, TILT]) == [zero, TILT]
+
+
+def test_values_that_chance_does_not_take_so_far_apart_are_not_alike() -> None:
+    """However dear one for each run is: at 12 a chi squared of 3 has a chance of 0.7 %, at 11 one of 1.2 %."""
+    apart = alike(REMOUNTED, 12.0)
+    assert without_special_cases([apart, TILT]) == [apart, TILT]
+    assert without_special_cases([alike(REMOUNTED, 11.0), TILT]) == [TILT]
+
+
+def test_one_that_explains_far_more_than_the_other_is_not_that_one() -> None:
+    better, worse = alike(REMOUNTED), trial("base_tilt", misfit=1.3)
+    assert without_special_cases([better, worse]) == [better, worse]
+
+
+def test_what_an_earlier_effect_has_alike_says_nothing_of_the_last_one() -> None:
+    both = alike(trial("angle_offset", "remounted_base"), effect="angle_offset")
+    other = trial("angle_offset", "base_tilt")
+    assert without_special_cases([both, other]) == [both, other]
+
+
+def test_in_one_run_alone_both_are_one_thing_and_the_simpler_one_is_tried() -> None:
+    names = ["base_tilt", "remounted_base", "tip_payload"]
+    assert worth_trying(names, [], 1) == ["base_tilt", "tip_payload"]
+    assert worth_trying(names, [], 2) == names
+    assert worth_trying(names[1:], [], 1) == names[1:]
+    assert worth_trying(names[1:], ["base_tilt"], 1) == ["tip_payload"]
+
+
+@pytest.mark.parametrize("runs", [1, 2])
+def test_a_diagnosis_of_one_run_tries_the_simpler_one(runs: int) -> None:
+    simulator, random = small_simulator("base_tilt", TOLERANCES), np.random.default_rng(4)
+    data = [recorded(simulator, bend, random, {"base_tilt.angle": 0.1}, name=f"r{i}")
+            for i, bend in enumerate(BENDS[:runs])]  # fmt: skip
+    found = diagnose(
+        Dataset(tuple(data)), small_simulator().model, processes=1, effects=("base_tilt", "remounted_base")
+    )
+    looked_at = {effect for one in found.rounds[0].looks for effect in effects_of(one.extension)}
+    assert looked_at == ({"base_tilt"} if runs == 1 else {"base_tilt", "remounted_base"})
 
 
 def test_what_an_effect_is_then_is_in_the_library_and_has_one_value() -> None:
@@ -47,7 +92,7 @@ class Remounting(Fits):
     def fitted(self, task: Task) -> Trial:
         made = super().fitted(task)
         is_it = effects_of(task.extension) == ["remounted_base"]
-        return replace(made, one_for_all=OneForAll(3, 0.5)) if is_it else made
+        return alike(made) if is_it else made
 
 
 def test_a_round_names_the_simpler_of_both() -> None:

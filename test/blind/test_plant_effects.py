@@ -5,7 +5,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from blind.plant import EFFECTS, LIBRARY, OUTSIDE, Case, make_case
+from blind.plant import EFFECTS, LIBRARY, OUTSIDE, Case, Machine, make_case, prototype
+from blind.plant.parameters import GRAVITY
 from blind.plant.sensors import ORDINARY
 
 SEED = 3
@@ -32,6 +33,7 @@ REQUIRED = [
     "sensor_delay",
     "sensor_scale",
 ]
+BEYOND = ["remounted_base", "tension_scale"]
 
 # as multiples of medium; a winch and a ring of fixed size go only with the effect as a whole, and a joint that hardly
 # gives before it slips is too stiff for the step
@@ -54,7 +56,7 @@ def change(case: Case, other: Case) -> float:
 
 
 def test_every_effect_of_the_list_is_there() -> None:
-    assert {*REQUIRED} <= {*LIBRARY}
+    assert sorted(LIBRARY) == sorted((*REQUIRED, *BEYOND))
     assert len(OUTSIDE) >= 4
 
 
@@ -74,3 +76,20 @@ def test_effects_act_together() -> None:
     assert both.truth.names == ("tip_payload", "backlash")
     for alone in both.truth.names:
         assert change(both, measured("chirp", alone, seconds=0.4)) > 0.1
+
+
+def test_a_remounted_base_hangs_otherwise_in_every_recording() -> None:
+    """Gravity turns against the plate, by either side, and as far as before from its old length."""
+    p, kind = prototype(), EFFECTS["remounted_base"]
+    machines = [Machine(p, [kind(0.05)], np.random.default_rng(seed)) for seed in range(12)]
+    turned = np.array([np.arctan2(one.plumb[0], -one.plumb[2]) for one in machines])
+    np.testing.assert_allclose([np.linalg.norm(one.model.opt.gravity) for one in machines], GRAVITY)
+    assert np.unique(np.round(turned, 6)).size == 12
+    assert (turned > 0).any() and (turned < 0).any()  # noqa: PT018
+    assert np.all((np.abs(turned) > 0.025) & (np.abs(turned) < 0.075))
+
+
+def test_what_load_cells_show_is_more_than_what_pulls() -> None:
+    machine = Machine(prototype(), [EFFECTS["tension_scale"](0.2)], np.random.default_rng(0))
+    machine.step(np.array([12.0, 11.0]))
+    np.testing.assert_allclose(machine.pulling, [10.0, 10.0])

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import version
 from statistics import median
 
-from blind.plant import EFFECTS, LIBRARY, SIZES, Plan
+from blind.plant import EFFECTS, LIBRARY, OUTSIDE, SIZES, Plan
 
 from tools.bench_discovery.answer import Answer
 from tools.bench_discovery.calibration import bins, expected_error, statements
@@ -119,9 +119,11 @@ def _head(results: Sequence[Result]) -> str:
             "process of its own on one core that is handed the files, and nothing else.",
         ),
         paragraph(
-            "Not of another formula than the library's is the plant's `actuator_lag`: a first-order lag has but one,",
-            "which the plant solves step by step. `kinked_spring` is hidden in driven motions alone: after a release",
+            "Not of another formula than the library's are the plant's `actuator_lag`, since a first-order lag has but",
+            "one, which the plant solves step by step, and its `tension_scale`, a factor.",
+            "`kinked_spring` is hidden in driven motions alone: after a release",
             "it is a softer spring, and named so. `held_cable` is in the library and never hidden.",
+            *_without_a_case(results),
         ),
         paragraph(
             f"The diagnoses took {hours:.1f} hours of processor time on",
@@ -130,6 +132,12 @@ def _head(results: Sequence[Result]) -> str:
         ),
     )
     return "\n\n".join(["# Discovery benchmark", *paragraphs])
+
+
+def _without_a_case(results: Sequence[Result]) -> list[str]:
+    """A sentence on what may be hidden and is not yet."""
+    names = [f"`{n}`" for n in (*LIBRARY, *OUTSIDE) if all(n not in result.plan.effects for result in results)]
+    return [f"In no case yet: {', '.join(names)}."] if names else []
 
 
 def _shares(results: Sequence[Result], by: Callable[[Result], str]) -> str:

@@ -11,6 +11,7 @@ from continuum.discovery.question import Question
 from continuum.discovery.round import Round
 from continuum.discovery.rows_asked_again import with_better_rows
 from continuum.discovery.search import Earlier, Tell, search, tell_nobody, until_the_end
+from continuum.discovery.special_cases import worth_trying
 from continuum.discovery.trial import TOLERANCES, Trial
 from continuum.discovery.verdict import Verdict
 from continuum.discovery.workers import workers
@@ -71,6 +72,7 @@ def diagnose(
     question = Question(ready, unknowns, recordings, noise)
     present = {active.effect.name for active in model.effects}
     asked = [name for name in (effect_names() if effects is None else effects) if name not in present]
+    asked = worth_trying(asked, list(present), len(recordings))
     tried = [name for name in asked if driven or not effect_named(name).needs_tension]
 
     question, rounds, verdict = _answered(question, tried, processes or os.cpu_count() or 1, tell, driven)

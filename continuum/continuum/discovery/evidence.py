@@ -19,6 +19,7 @@ _CHANCE = 0.01  # probability of as many by chance, below which something is mis
 _CHANCE_OF_CAUSE = 0.1  # the same where a cause is to be named: the wrong one is worse than none
 _SIGNIFICANT = 15.0  # log-likelihood
 _SPREAD, _SURE = 1.5, 2.0  # deviations
+_LOST, _FEWEST = 3.0, 3  # times what a run loses, it gains more; runs of which each tells it
 _STRETCH = 4  # windows, over which errors may hang together
 
 DISTINCT = 8.0
@@ -33,7 +34,8 @@ class Gain:
         log_likelihood: sum over all windows.
         deviation: standard deviation of that sum, from stretches of windows.
         rest: the same sum without the run that gains most; of a single run, without its best quarter.
-        least: the same sum of the run that gains least; of a single run, of its worst quarter.
+        least: the sum of the run that tells least, less three times what its stretches lose that lose; of a single
+            run, of its worst quarter. Less than three runs tell nothing by it.
         information: what the fit gains on all windows, less the price of its unknowns.
     """
 
@@ -117,8 +119,10 @@ def gain(trial: Trial, over: Trial) -> Gain:
     stretches = np.concatenate(each)
     total = float(stretches.sum())
     runs = [float(run.sum()) for run in each]
+    told = [float(run.sum() - _LOST * -np.minimum(run, 0.0).sum()) for run in each]
+    least = min(told) if len(told) >= _FEWEST else -np.inf
     deviation = float(np.std(stretches) * np.sqrt(stretches.size))
-    return Gain(total, deviation, total - max(runs), min(runs), information_gain(trial, over))
+    return Gain(total, deviation, total - max(runs), least, information_gain(trial, over))
 
 
 def _stretched(run: Array) -> Array:

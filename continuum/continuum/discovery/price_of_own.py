@@ -12,7 +12,7 @@ with S the information on x that is left when all other unknowns follow (Gauss-N
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,11 +35,11 @@ class OneForAll:
     misfit: float = 0.0
 
 
-def own_prices(fitted: Fit) -> tuple[Array, OneForAll]:
-    """Misfit that each recording's own unknowns have to be worth, (n_recordings,), and what is saved in it."""
+def own_prices(fitted: Fit) -> tuple[Array, Mapping[str, OneForAll]]:
+    """Misfit that each recording's own unknowns have to be worth, (n_recordings,), and what each effect saves in it."""
     errors = np.array([run.errors_by_window.sum() for run in fitted.runs])
     own = [(i, unknown) for i, unknown in enumerate(fitted.space.unknowns) if unknown.recording is not None]
-    paid, saved = np.zeros(errors.size), OneForAll()
+    paid, saved = np.zeros(errors.size), dict[str, OneForAll]()
     for effect in sorted({_effect(unknown) for _, unknown in own}):
         of_it = [(i, unknown) for i, unknown in own if _effect(unknown) == effect]
         members = _members([unknown for _, unknown in of_it])
@@ -48,7 +48,7 @@ def own_prices(fitted: Fit) -> tuple[Array, OneForAll]:
         price, price_of_one = each * np.log(errors), members.shape[1] * np.log(errors.sum()) + misfit
         if price_of_one < price.sum():
             price = np.full(errors.size, price_of_one / errors.size)
-            saved = OneForAll(saved.unknowns + members.shape[0] - members.shape[1], saved.misfit + misfit)
+            saved[effect] = OneForAll(members.shape[0] - members.shape[1], misfit)
         paid += price
     return paid, saved
 

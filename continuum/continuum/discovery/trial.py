@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -35,7 +36,7 @@ class Trial:
         sizes: number of errors in each of these windows, less its own unknowns.
         simulations: how many runs were simulated.
         promised: by how much the cost would fall with more iterations, were the errors linear.
-        one_for_all: what it saves to take values of all recordings for the same, where that is the less dear.
+        saved: by effect, what it saves to take its values of all recordings for the same, where that is the less dear.
     """
 
     extension: Extension
@@ -49,12 +50,18 @@ class Trial:
     sizes: tuple[Array, ...]
     simulations: int
     promised: float = 0.0
-    one_for_all: OneForAll = OneForAll()
+    saved: Mapping[str, OneForAll] = field(default_factory=dict)
 
     @property
     def misfit(self) -> float:
         """All of it."""
         return float(sum(run.sum() for run in self.held_out))
+
+    @property
+    def one_for_all(self) -> OneForAll:
+        """What all effects save together."""
+        saved = self.saved.values()
+        return OneForAll(sum(one.unknowns for one in saved), sum(one.misfit for one in saved))
 
     @property
     def relative(self) -> Array:
@@ -121,5 +128,5 @@ def judged(extension: Extension, fitted: Fit) -> Trial:
         tuple(np.split(sizes, np.cumsum([group.size for group in held_out])[:-1])),
         fitted.simulations,
         fitted.promised,
-        own_prices(fitted)[1] if fitted.parts else OneForAll(),
+        own_prices(fitted)[1] if fitted.parts else {},
     )

@@ -32,5 +32,5 @@ def with_beginnings_of(trial: Trial, others: Sequence[Trial]) -> Trial:
 
 
 def begun_as(there: Array, here: Array) -> Array:
-    """Angles and rates from there; states of effects that there are not stay."""
+    """Angles and rates from there, and as many states as there are, be they another effect's: it is but a beginning."""
     return np.concatenate([there[: here.size], here[there.size :]])
