@@ -32,6 +32,19 @@ def test_the_part_of_the_gap_that_is_closed() -> None:
     assert closed_gap(runs(0.06, 0.45), runs(0.12, 0.05)) > 0.9  # next to the floor a run has no say
     assert closed_gap(runs(np.inf), runs(np.inf)) == 0.0
     assert closed_gap(runs(0.25), runs(np.inf)) == -1.0
+    at_rest = [score("rest", 4.0, 1.3)], [score("rest", 0.6, 1.3)]  # noise is larger than the motion: no figure
+    assert closed_gap(*at_rest) == 0.0
+    assert closed_gap([*at_rest[0], *runs(0.45)], [*at_rest[1], *runs(0.25)]) == pytest.approx(0.5)
+
+
+def test_what_helps_in_windows_alone_is_said_not_to_predict() -> None:
+    unknown = judged()[Kind.UNKNOWN]
+    helps = verdict_in_words(confirmed(unknown, scores(0.45, 0.45), scores(0.30, 0.30)))
+    assert "helps" in helps
+    for after in (scores(0.47, 0.46), scores(0.45, 0.45)):
+        told = verdict_in_words(confirmed(unknown, scores(0.45, 0.45), after))
+        assert "does not predict runs that it was not fitted to" in told
+        assert "helps" not in told
 
 
 def test_a_cause_whose_model_predicts_no_held_out_run_is_not_named() -> None:

@@ -120,7 +120,8 @@ def test_a_hidden_payload_is_named_and_its_size_found() -> None:
     assert abs(told["value"] - 0.4) < told["high"] - told["low"]
     assert told["value"] == pytest.approx(0.4, rel=0.1)
     assert found.closed > 0.5
-    assert {score.name for score in found.after} == {f"run_{i}" for i in range(4)}
+    assert [score.name for score in found.after] == [f"run_{i}" for i in range(4)]  # as they were given
+    assert [score.name for score in found.before] == [f"run_{i}" for i in range(4)]
 
 
 def test_the_extended_model_is_a_model(tmp_path: Path) -> None:
@@ -195,3 +196,15 @@ def test_the_command_refuses_bad_data_in_one_line(tmp_path: Path, capsys: pytest
     assert "run.csv: has 1 usable rows" in told
     assert told.count("\n") == 1
     assert not (tmp_path / "out.json").exists()
+
+
+def test_the_command_tells_what_it_did_not_understand_before_it_searches(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A pulled run whose tensions have another name is another run."""
+    table = tmp_path / "run.csv"
+    rows = [f"{i / 120},{10 * np.cos(i / 9)},3" for i in range(60)]
+    table.write_text("\n".join(["t_s,q1_deg,pull", *rows]))
+    monkeypatch.setattr("continuum.cli.diagnose._diagnose", lambda *_: 0)
+    assert main(["diagnose", str(table)]) == 0
+    assert capsys.readouterr().err == "continuum: run: columns that are not understood, and not used: pull\n"

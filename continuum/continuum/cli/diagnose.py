@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import datetime
 import importlib.metadata
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -54,7 +55,11 @@ def run(options: argparse.Namespace) -> int:
     for path in (options.json, options.report, options.extended):
         check_writable(path)
     check_apart((options.json, options.report, options.extended), (*options.data, options.model))
-    return _diagnose(options, load_model(options.model), [read_recording(path) for path in options.data])
+    model, recordings = load_model(options.model), [read_recording(path) for path in options.data]
+    for recording in recordings:
+        for note in recording.notes:  # before minutes pass: what was not understood may be what matters
+            print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
+    return _diagnose(options, model, recordings)
 
 
 def _diagnose(options: argparse.Namespace, model: Model, recordings: Sequence[Recording]) -> int:

@@ -21,6 +21,7 @@ from continuum.identification.dataset import halves
 from continuum.identification.fisher import Identifiability, identifiability
 from continuum.identification.fit import THESIS_PARAMETERS, Fit
 from continuum.identification.free import Free
+from continuum.identification.rate_ratio import odd_rates
 
 _ITERATIONS = 8
 _NEAR = 1e-3  # to a limit, of a value
@@ -99,18 +100,25 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         tuple(_estimates(fitted, random)),
         tuple(tuple(_of_alternative(question, rival, random)) for rival in verdict.alternatives),
         identifiability(fitted),
-        tuple(before),
-        tuple(after),
+        tuple(_as_given(before, question)),
+        tuple(_as_given(after, question)),
         closed_gap(before, after),
         split.weakness,
         tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes)
         + _rows_told(question)
         + (_SIMULATED * question.noise.is_simulated)
+        + tuple(odd_rates(question.recordings))
         + _left_out(verdict)
         + tuple(lookalikes_in_words(verdict)),
         fit_extension(question, (), verdict.baseline, 2).model,
         _told(fitted, [r.name for r in question.recordings]),
     )
+
+
+def _as_given(scores: Sequence[RunScore], question: Question) -> list[RunScore]:
+    """In the order in which recordings were given; parts of a single one as they come."""
+    place = {recording.name: number for number, recording in enumerate(question.recordings)}
+    return sorted(scores, key=lambda score: place.get(score.name, 0))
 
 
 def _rows_told(question: Question) -> tuple[str, ...]:

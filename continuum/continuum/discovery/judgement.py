@@ -79,7 +79,10 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
             return replace(verdict, kind=Kind.UNKNOWN, predicts=False)
         return replace(verdict, vague=True) if is_vague(before) else verdict
     named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
-    if not named or _bear_out(before, after):
+    if not named:  # what helps in windows alone has not helped
+        helps_nowhere = bool(verdict.causes) and is_open(before) and closed_gap(before, after) <= 0.0
+        return replace(verdict, predicts=False) if helps_nowhere else verdict
+    if _bear_out(before, after):
         return verdict
     if is_adequate(verdict.baseline) and not is_far(before):
         share = verdict.unexplained[0], verdict.unexplained[0]

@@ -98,7 +98,12 @@ def spread_of(seen: Reading, others: Sequence[Reading | None], recording: Record
 
 def is_open(before: Sequence[RunScore]) -> bool:
     """Whether there is a distance to the noise floor that may be closed."""
-    return any(b.position > _OPEN * b.floor for b in before)
+    return any(_is_open(b) for b in before)
+
+
+def _is_open(before: RunScore) -> bool:
+    """Where noise is larger than the motion, Eq. 19 tells nothing of the model."""
+    return before.position > _OPEN * before.floor and before.floor < 1.0
 
 
 def is_far(scores: Sequence[RunScore]) -> bool:
@@ -116,7 +121,7 @@ def closed_gap(before: Sequence[RunScore], after: Sequence[RunScore]) -> float:
 
     A run weighs as much as it is away, and can take away no more than another one gives.
     """
-    pairs = [(b, a) for b, a in zip(before, after, strict=True) if b.position > _OPEN * b.floor]
+    pairs = [(b, a) for b, a in zip(before, after, strict=True) if _is_open(b)]
     weights = [b.position - b.floor if np.isfinite(b.position) else 1.0 for b, _ in pairs]
     parts = [max(_closed(b, a), -1.0) for b, a in pairs]
     return float(np.average(parts, weights=weights)) if pairs else 0.0

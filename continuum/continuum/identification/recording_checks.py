@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +23,7 @@ _LEAST_MOTION, _QUIETED = (
     np.deg2rad(1.5),
     8,
 )  # of the joint that moves most, noise being quieted by means of so many rows
+_ZERO_TENSION = 0.2  # N, by which a load cell may be off where a cable hangs loose
 _LARGEST_RATE, _LARGEST_TENSION = 200.0, 1e4  # rad/s, N; no arm of this kind has more
 _ALIKE = 0.5  # correlation of a joint's rate with the slope of its angle from which on their sizes are compared
 
@@ -90,7 +91,8 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
         allowed = f"a tenth may be: {'; '.join(notes)}"
         raise FileError(good.path, f"has {bad} bad {good.row}s of {samples.times.size}; at most {allowed}")
     _refuse_gaps(good)
-    _refuse_pushing(good)
+    good, pushing = _without_pushing(good)
+    notes += pushing
     _refuse_units(good)
     return good, tuple(notes)
 
@@ -142,14 +144,21 @@ def _refuse_gaps(samples: Samples) -> None:
     raise FileError(samples.path, f"{where}; up to {_LONGEST_GAP} s is bridged: split the recording there{hint}")
 
 
-def _refuse_pushing(samples: Samples) -> None:
-    if samples.pull is None:
-        return
+def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:
+    """Tensions a little below zero taken as none, and a note on them."""
+    if samples.pull is None or np.all(samples.pull >= 0):
+        return samples, []
     least = np.min(samples.pull, axis=1)
-    if np.any(least < 0):
-        at = int(np.argmax(least < 0))
+    pushes = least < -_ZERO_TENSION
+    if np.any(pushes):
+        at = int(np.argmax(pushes))
         where = f"{samples.row} {samples.numbers[at]}"
-        raise FileError(samples.path, f"{where}: tension {least[at]:g} N; a cable cannot push")
+        pushed = (
+            f"tension {least[at]:g} N; a cable cannot push, and a load cell's zero is off by {_ZERO_TENSION} N at most"
+        )
+        raise FileError(samples.path, f"{where}: {pushed}")
+    note = f"{samples.told(least < 0)} with a tension below zero, by {-np.min(least):.2g} N at most, taken as none"
+    return replace(samples, pull=np.maximum(samples.pull, 0.0)), [note]
 
 
 def _refuse_units(samples: Samples) -> None:

@@ -1,0 +1,95 @@
+"""Angles that are not of the motion that the rates show: told by the recordings alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from identification_laws import N, small_simulator
+
+from continuum.discovery.diagnose import diagnose
+from continuum.discovery.findings import findings
+from continuum.identification.dataset import Dataset
+from continuum.identification.rate_ratio import added_up, odd_rates, rate_ratio
+from continuum.identification.recording import Recording
+
+
+def runs(seed: int = 3, count: int = 3) -> list[Recording]:
+    """Swings of an arm of two joints that fade, seen by sensors of 0.15 degrees and 0.6 degrees/s."""
+    random, times = np.random.default_rng(seed), np.arange(193) / 120
+    found = []
+    for number in range(count):
+        swings = [(random.uniform(0.1, 0.4), random.uniform(1.0, 3.0), random.uniform(8, 20)) for _ in range(N)]
+        theta = np.stack([a * np.exp(-d * times) * np.cos(w * times) for a, d, w in swings], axis=1)
+        rate = np.stack(
+            [-a * np.exp(-d * times) * (d * np.cos(w * times) + w * np.sin(w * times)) for a, d, w in swings], axis=1
+        )
+        noise = np.radians([0.15, 0.6])[:, None, None] * random.normal(size=(2, *theta.shape))
+        found.append(Recording(f"r{number}", times, theta + noise[0], rate + noise[1]))
+    return found
+
+
+def slow_clock(run: Recording, by: float) -> Recording:
+    return replace(run, times=by * run.times)
+
+
+def loud_gyros(run: Recording, by: float) -> Recording:
+    assert run.theta_rate is not None
+    return replace(run, theta_rate=by * run.theta_rate)
+
+
+@pytest.mark.parametrize("fault", [slow_clock, loud_gyros])
+@pytest.mark.parametrize("by", [0.8, 0.95, 1.05, 1.2])
+def test_a_clock_or_a_gain_that_is_off_is_told(fault: Callable[[Recording, float], Recording], by: float) -> None:
+    spoiled = [fault(run, by) for run in runs()]
+    ratio, deviation = rate_ratio(spoiled)
+    assert ratio * by == pytest.approx(1.0, abs=0.015)
+    assert deviation < 0.01
+    (told,) = odd_rates(spoiled)
+    assert f"{ratio:.2f} times" in told
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_both_show_is_no_fault(seed: int) -> None:
+    """Drift, zeros, late sensors, and a gain that is the angle's as well."""
+    drift = np.array([0.2, -0.1])
+    for run in runs(seed):
+        assert run.theta_rate is not None
+        for sound in (
+            run,
+            replace(run, theta=run.theta + 0.3),
+            replace(run, theta=run.theta + drift * run.times[:, None], theta_rate=run.theta_rate + drift),
+            replace(run, times=run.times + 5.0),
+            replace(run, theta=1.3 * run.theta, theta_rate=1.3 * run.theta_rate),
+        ):
+            assert rate_ratio([sound])[0] == pytest.approx(1.0, abs=0.02)
+            assert not odd_rates([sound])
+
+
+def test_noise_alone_and_no_rates_say_nothing() -> None:
+    random = np.random.default_rng(0)
+    times = np.arange(120) / 120
+    still = Recording("still", times, 0.002 * random.normal(size=(120, N)), 0.02 * random.normal(size=(120, N)))
+    assert not odd_rates([still])
+    bare = [replace(run, theta_rate=None) for run in runs()]
+    assert rate_ratio(bare) == (1.0, np.inf)
+    assert not odd_rates(bare)
+    assert rate_ratio([bare[0], *runs()]) == rate_ratio(runs())
+
+
+def test_rates_add_up_to_what_they_are_the_slope_of() -> None:
+    times = np.sort(np.random.default_rng(1).uniform(0, 1, 400))
+    angle = np.stack([np.sin(3 * times), times**2], axis=1)
+    rate = np.stack([3 * np.cos(3 * times), 2 * times], axis=1)
+    np.testing.assert_allclose(added_up(times, rate), angle - angle[0], atol=1e-3)
+
+
+@pytest.mark.parametrize("by", [1.0, 1.1])
+def test_a_diagnosis_minds_it(by: float) -> None:
+    spoiled = [slow_clock(run, by) for run in runs(count=2)]
+    found = findings(
+        diagnose(Dataset(tuple(spoiled)), small_simulator().model, processes=1, effects=()), np.random.default_rng(0)
+    )
+    assert any("their rates add up to" in note for note in found.notes) == (by != 1.0)
