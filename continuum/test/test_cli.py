@@ -53,6 +53,14 @@ def test_help_of_a_command(capsys: Captured, command: str) -> None:
     assert f"usage: continuum {command}" in capsys.readouterr().out
 
 
+def test_a_flag_that_a_command_does_not_know_shows_its_usage(capsys: Captured) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(["diagnose", "--foo", "run.csv"])
+    errors = capsys.readouterr().err
+    assert errors.startswith("usage: continuum diagnose ")
+    assert "unrecognized arguments: --foo" in errors
+
+
 @pytest.mark.parametrize(
     "words", [(), ("nonsense",), ("info",), ("solve", THREE, "1", "x", "0"), ("solve", THREE, "1"), ("solve", THREE)]
 )

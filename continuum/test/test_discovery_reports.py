@@ -11,7 +11,9 @@ import pytest
 from discovery_laws import a_round, trial
 from discovery_verdicts import BAD, found, judged, score
 
+from continuum.cli.diagnose import show
 from continuum.discovery.candidate import Addition
+from continuum.discovery.findings import Estimate
 from continuum.discovery.in_words import (
     cost_in_words,
     identifiability_in_words,
@@ -48,6 +50,21 @@ def test_every_kind_in_words() -> None:
 def test_what_a_simulation_costs_is_told_by_the_usual_run() -> None:
     quick, slow = ([replace(score("run", 0.1), seconds=s) for s in seconds] for seconds in ((0.01, 9.0, 0.01), (0.03,)))
     assert cost_in_words(quick, slow) == "simulating a run takes 30 ms instead of 10 ms"
+    assert cost_in_words(quick, quick) == "simulating a run takes 10 ms, as before"
+
+
+@pytest.mark.parametrize("kind", [Kind.ADEQUATE, Kind.CAUSE])
+def test_the_terminal_shows_models_that_there_are_and_angles_in_degrees(
+    kind: Kind, capsys: pytest.CaptureFixture[str]
+) -> None:
+    told = found(judged()[kind])
+    angle = Estimate(Free("base_tilt.angle"), np.radians(3.0), 0.01, 0.1, "rad", at_limit=True)
+    gain = Estimate(Free("tension_scale.gain_1"), 0.1, 0.0, 0.2, "1")
+    show(replace(told, estimates=(angle, gain)))
+    out = "\n".join(line.rstrip() for line in capsys.readouterr().out.splitlines())
+    assert "0.05236 (0.01 to 0.1) rad = 3 degrees, up to the limit\n" in out
+    assert "0.1 (0 to 0.2)\n" in out
+    assert ("refitted -> extended model" in out) == (" -> " in out) == (kind is Kind.CAUSE)
 
 
 def test_what_an_extension_is_worth_may_be_less_than_nothing() -> None:

@@ -62,10 +62,12 @@ def _run(arguments: list[str]) -> int:
         epilog=_NEXT_STEPS,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command", required=True)
     for command in (info, solve, simulate, import_dot, diagnose, report, view):
         command.add_to(commands)
-    options = parser.parse_args(written_out(arguments))
+    options, unknown = parser.parse_known_args(written_out(arguments))
+    if unknown:  # the command's own usage is the one that helps
+        commands.choices[options.command].error(f"unrecognized arguments: {' '.join(unknown)}")
     try:
         return int(options.run(options))
     except ContinuumError as error:

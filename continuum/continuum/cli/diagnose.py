@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import datetime
 import importlib.metadata
+import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -72,7 +73,7 @@ def _diagnose(options: argparse.Namespace, model: Model, recordings: Sequence[Re
 
     with told() as tell:
         diagnosis, found = answer(Dataset(tuple(recordings)), model, options.seed, options.processes, tell)
-    _show(found)
+    show(found)
     if options.json is not None:
         write_json(found, options.json)
     if options.report is not None:
@@ -110,7 +111,8 @@ def read_recording(path: str) -> Recording:
     return read_recording_bag(path) if Path(path).is_dir() else read_recording_csv(path)
 
 
-def _show(found: Findings) -> None:
+def show(found: Findings) -> None:
+    """Print the verdict and what it rests on."""
     from continuum.discovery.in_words import (
         cost_in_words,
         identifiability_in_words,
@@ -133,8 +135,9 @@ def _show(found: Findings) -> None:
     print("", *identifiability_in_words(found.identifiability), sep="\n")
     scores = [(b.name, scores_in_words(b), scores_in_words(a)) for b, a in zip(found.before, found.after, strict=True)]
     for what in ("position", "rate"):
-        print(f"\n{what.capitalize()}: Eq. 19 (95 %) on runs that were held out, refitted -> extended model")
-        print_pairs([(name, f"{once[what]} -> {now[what]}") for name, once, now in scores])
+        models = "refitted" + " -> extended" * bool(verdict.extension)
+        print(f"\n{what.capitalize()}: Eq. 19 (95 %) on runs that were held out, {models} model")
+        print_pairs([(name, once[what] + f" -> {now[what]}" * bool(verdict.extension)) for name, once, now in scores])
     if verdict.extension:
         print(f"{worth_in_words(found.closed)}; {cost_in_words(found.before, found.after)}.")
     for line in (*found.notes, *([f"Mind: {found.weakness}."] if found.weakness else [])):
@@ -143,5 +146,7 @@ def _show(found: Findings) -> None:
 
 def _estimate(one: Estimate) -> tuple[str, str]:
     """Name, and value with interval."""
-    limit = ", at its limit" if one.at_limit else ""
-    return str(one.unknown), f"{one.value:.4g} ({one.low:.4g} to {one.high:.4g}) {one.unit}{limit}"
+    value = f"{one.value:.4g} ({one.low:.4g} to {one.high:.4g})" + f" {one.unit}" * (one.unit != "1")
+    degrees = f" = {math.degrees(one.value):.3g} degrees" if one.unit == "rad" else ""
+    limit = ", up to the limit" if one.at_limit else ""
+    return str(one.unknown), f"{value}{degrees}{limit}"

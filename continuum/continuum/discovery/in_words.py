@@ -118,6 +118,8 @@ def _with_interval(score: float, interval: tuple[float, float]) -> str:
 def cost_in_words(before: Sequence[RunScore], after: Sequence[RunScore]) -> str:
     """What the extension costs in simulation time."""
     once, now = (1e3 * float(np.median([score.seconds for score in scores])) for scores in (before, after))
+    if round(once) == round(now):
+        return f"simulating a run takes {now:.0f} ms, as before"
     return f"simulating a run takes {now:.0f} ms instead of {once:.0f} ms"
 
 

@@ -133,7 +133,7 @@ def _estimates(estimates: Sequence[Estimate]) -> str:
     return _table(
         ("parameter", "value", "95 % from", "to", "unit", ""),
         [
-            (str(e.unknown), *(f"{x:.4g}" for x in (e.value, e.low, e.high)), e.unit, "at its limit" * e.at_limit)
+            (str(e.unknown), *(f"{x:.4g}" for x in (e.value, e.low, e.high)), e.unit, "up to the limit" * e.at_limit)
             for e in estimates
         ],
     )
