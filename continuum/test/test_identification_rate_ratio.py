@@ -7,10 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from discovery_verdicts import judged
 from identification_laws import N, small_simulator
 
 from continuum.discovery.diagnose import diagnose
 from continuum.discovery.findings import findings
+from continuum.discovery.in_words import verdict_in_words
+from continuum.discovery.judgement import contradicted
+from continuum.discovery.verdict import Kind
 from continuum.identification.dataset import Dataset
 from continuum.identification.rate_ratio import added_up, odd_rates, rate_ratio
 from continuum.identification.recording import Recording
@@ -92,4 +96,14 @@ def test_a_diagnosis_minds_it(by: float) -> None:
     found = findings(
         diagnose(Dataset(tuple(spoiled)), small_simulator().model, processes=1, effects=()), np.random.default_rng(0)
     )
-    assert any("their rates add up to" in note for note in found.notes) == (by != 1.0)
+    is_odd = by != 1.0
+    assert any("their rates add up to" in note for note in found.notes) == is_odd
+    assert found.verdict.at_odds == ("contradict themselves" in verdict_in_words(found.verdict)) == is_odd
+    assert found.verdict.kind is Kind.UNKNOWN or not is_odd
+
+
+def test_what_contradicts_itself_has_no_cause() -> None:
+    for verdict in judged().values():
+        told = contradicted(verdict)
+        assert (told.kind, told.alternatives, told.experiment) == (Kind.UNKNOWN, (), "")
+        assert told.best is verdict.best

@@ -10,7 +10,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.in_words import lookalikes_in_words
-from continuum.discovery.judgement import confirmed
+from continuum.discovery.judgement import confirmed, contradicted
 from continuum.discovery.measured_gain import RunScore, closed_gap, held_out_scores
 from continuum.discovery.question import Question
 from continuum.discovery.trial import fit_extension
@@ -92,7 +92,9 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
     baseline, best = diagnosis.verdict.baseline, diagnosis.verdict.best
     before = held_out_scores(question, baseline, split, random)
     after = held_out_scores(question, best, split, random) if best.extension else before
+    odd = odd_rates(question.recordings)
     verdict = confirmed(diagnosis.verdict, before, after)
+    verdict = contradicted(verdict) if odd else verdict
     after = after if verdict.extension else before
     fitted = fit_extension(question, verdict.extension, verdict.best, _ITERATIONS, to_the_end=True)
     return Findings(
@@ -107,7 +109,7 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes)
         + _rows_told(question)
         + (_SIMULATED * question.noise.is_simulated)
-        + tuple(odd_rates(question.recordings))
+        + tuple(odd)
         + _left_out(verdict)
         + tuple(lookalikes_in_words(verdict)),
         fit_extension(question, (), verdict.baseline, 2).model,

@@ -41,6 +41,11 @@ def verdict_in_words(verdict: Verdict) -> str:
                 f"Each of them explains what was left ({before} of the data before, {after} after). "
                 f"To tell them apart: {verdict.experiment}"
             )
+        case Kind.UNKNOWN if verdict.at_odds:
+            return (
+                "These recordings contradict themselves: their angles are not what their rates add up to. "
+                "Until the clock, unit or gain behind it is mended, nothing fitted to them is to be trusted."
+            )
         case Kind.UNKNOWN if not (verdict.causes or verdict.predicts):
             return (
                 "The simulation explains short stretches of these data but does not predict whole runs: left to itself "

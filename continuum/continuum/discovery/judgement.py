@@ -91,6 +91,11 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
     return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", predicts=False)
 
 
+def contradicted(verdict: Verdict) -> Verdict:
+    """The verdict where recordings contradict themselves: what an arm does of which they are not is unknown."""
+    return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", vague=False, at_odds=True)
+
+
 def _bear_out(before: Sequence[RunScore], after: Sequence[RunScore]) -> bool:
     """Whether free runs come nearer to the noise where there is a way to go, none ends far off, and few are worse."""
     worse = [a.position > _WORSE * max(b.position, b.floor) for b, a in zip(before, after, strict=True)]

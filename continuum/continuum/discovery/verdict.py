@@ -54,6 +54,7 @@ class Verdict:
             are UNKNOWN then, unless free runs confirm them.
         vague: whether an ADEQUATE model's free runs end far from what was measured, as those of models do that the data
             do not tell from it.
+        at_odds: whether the recordings contradict themselves, so that nothing fitted to them can be trusted.
     """
 
     kind: Kind
@@ -66,6 +67,7 @@ class Verdict:
     predicts: bool = True
     nearly: bool = False
     vague: bool = False
+    at_odds: bool = False
 
     @property
     def extension(self) -> Extension:
