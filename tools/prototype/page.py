@@ -59,10 +59,9 @@ All of these were fitted to the run that they are compared with. Predicted by th
 ## Every effect alone
 
 Each effect of the library that can act without tension (`remounted_base` is `base_tilt` in a single run), added to the
-refitted model by itself, at all joints where it
-belongs to joints. The gain is that of log-likelihood on stretches of the run that were held out; *more than chance* is
-the rule by which an effect may be named (`discovery/evidence.py`). Without any effect noise leaves
-{_percent(verdict["unexplained"]["before"])} of the windows unexplained.
+refitted model by itself, at all joints where it belongs to joints. The gain is that of log-likelihood on stretches of
+the run that were held out; *more than chance* is the rule by which an effect may be named (`discovery/evidence.py`).
+Without any effect noise leaves {_percent(verdict["unexplained"]["before"])} of the windows unexplained.
 
 | effect | unknowns | gain | its deviation | more than chance | left unexplained | position, free run |
 |---|---|---|---|---|---|---|
@@ -90,8 +89,8 @@ parts keep. A test (`tools/prototype/test`) makes sure that no other code of thi
 the reproduction of the thesis, which chose the two values that the thesis does not print by the author's *simulation*.
 There is one exception: that no joint angle is believed to be better than 0.1 degrees (`identification/noise.py`) was
 chosen after a look at this file, whose plotted angles show next to no noise; the estimate here is
-{_range(told.white)} degrees. Tried by hand on 2026-11-23, with an earlier
-version, 0.05 and 0.2 degrees changed nothing: the verdict was `unknown`.
+{_range(told.white)} degrees. Tried by hand on 2026-11-23, with an earlier version, 0.05 and 0.2 degrees changed
+nothing: the verdict was `unknown`.
 """
 
 

@@ -134,8 +134,8 @@ def show(found: Findings) -> None:
         print_pairs([_estimate(one) for one in own])
     print("", *identifiability_in_words(found.identifiability), sep="\n")
     scores = [(b.name, scores_in_words(b), scores_in_words(a)) for b, a in zip(found.before, found.after, strict=True)]
+    models = "refitted" + " -> extended" * bool(verdict.extension)
     for what in ("position", "rate"):
-        models = "refitted" + " -> extended" * bool(verdict.extension)
         print(f"\n{what.capitalize()}: Eq. 19 (95 %) on runs that were held out, {models} model")
         print_pairs([(name, once[what] + f" -> {now[what]}" * bool(verdict.extension)) for name, once, now in scores])
     if verdict.extension:

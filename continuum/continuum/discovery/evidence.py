@@ -119,7 +119,7 @@ def gain(trial: Trial, over: Trial) -> Gain:
     stretches = np.concatenate(each)
     total = float(stretches.sum())
     runs = [float(run.sum()) for run in each]
-    told = [float(run.sum() - _LOST * -np.minimum(run, 0.0).sum()) for run in each]
+    told = [float(run.sum() + _LOST * np.minimum(run, 0.0).sum()) for run in each]
     least = min(told) if len(told) >= _FEWEST else -np.inf
     deviation = float(np.std(stretches) * np.sqrt(stretches.size))
     return Gain(total, deviation, total - max(runs), least, information_gain(trial, over))

@@ -6,27 +6,23 @@ A clamp without a pin repeats to a degree or two; 2 degrees turn an arm of 1.1 k
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.parameters import Parameter, Parameters
+from continuum.dynamics.parameters import Parameter
+from continuum.effects.base_tilt import BaseTilt
 
 
-class RemountedBase(Effect):
+class RemountedBase(BaseTilt):
     """beta of Eq. 12's gravity, of its own in every recording."""
 
     name = "remounted_base"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "angle": Parameter("beta_r", "rad", -1.0, 1.0, False, "added to the hang angle", 0.0, 0.035, True)
     }
-    alike_in_all_runs = "base_tilt"
+    alike_in_all_runs = BaseTilt.name
     source = "thesis Eq. 12, G; Slocum, Precision Machine Design, 1992, ch. 7 (repeatability of mounts)"
     in_words = "The base plate hangs askew, and by another angle in every run."
     looks_like = (
         "All joints come to rest to one side, as the weight beyond them asks; the side differs from run to run."
     )
     experiment = "Pin the base plate, or put a spirit level on it before every run."
-
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
-        return replace(p, hang_angle=p.hang_angle + own["angle"])

@@ -7,6 +7,7 @@ import numpy as np
 
 from blind.plant.chain import PLATE_INERTIA, Chain
 from blind.plant.effect import Effect
+from blind.plant.effects.sensors import about
 from blind.plant.parameters import Parameters
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ class RemountedBase(Effect):
     name, unit, sizes = "remounted_base", "rad", (0.0175, 0.052, 0.105)
 
     def act(self, machine: "Machine") -> Callable[[], None] | None:
-        turned = self.amount * machine.rng.choice([-1.0, 1.0]) * machine.rng.uniform(0.5, 1.5)
+        (turned,) = about(self.amount, machine.rng, 1)
         across, up = machine.plumb[0], machine.plumb[2]
         turn = np.array([across * np.cos(turned) + up * np.sin(turned), up * np.cos(turned) - across * np.sin(turned)])
         machine.plumb[[0, 2]] = machine.model.opt.gravity[[0, 2]] = turn
