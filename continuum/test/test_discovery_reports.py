@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from discovery_laws import a_round, trial
-from discovery_verdicts import BAD, found, judged, score
+from discovery_verdicts import BAD, RUN, found, judged, score
 
 from continuum.cli.diagnose import show
 from continuum.discovery.candidate import Addition
-from continuum.discovery.findings import Estimate
+from continuum.discovery.findings import Estimate, as_given
 from continuum.discovery.in_words import (
     cost_in_words,
     identifiability_in_words,
@@ -65,6 +65,14 @@ def test_the_terminal_shows_models_that_there_are_and_angles_in_degrees(
     assert "0.05236 (0.01 to 0.1) rad = 3 degrees, up to the limit\n" in out
     assert "0.1 (0 to 0.2)\n" in out
     assert ("refitted -> extended model" in out) == (" -> " in out) == (kind is Kind.CAUSE)
+
+
+def test_runs_stand_in_the_order_in_which_they_were_given() -> None:
+    recordings = [replace(RUN, name=name) for name in ("b", "a", "c")]
+    given = as_given([score(name, 0.1) for name in ("a", "c", "b")], recordings)
+    assert [one.name for one in given] == ["b", "a", "c"]
+    parts = as_given([score("b, end", 0.1), score("b, beginning", 0.1)], recordings[:1])
+    assert [one.name for one in parts] == ["b, end", "b, beginning"]
 
 
 def test_what_an_extension_is_worth_may_be_less_than_nothing() -> None:

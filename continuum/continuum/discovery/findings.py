@@ -22,6 +22,7 @@ from continuum.identification.fisher import Identifiability, identifiability
 from continuum.identification.fit import THESIS_PARAMETERS, Fit
 from continuum.identification.free import Free
 from continuum.identification.rate_ratio import odd_rates
+from continuum.identification.recording import Recording
 
 _ITERATIONS = 8
 _NEAR = 1e-3  # to a limit, of a value
@@ -102,8 +103,8 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         tuple(_estimates(fitted, random)),
         tuple(tuple(_of_alternative(question, rival, random)) for rival in verdict.alternatives),
         identifiability(fitted),
-        tuple(_as_given(before, question)),
-        tuple(_as_given(after, question)),
+        tuple(as_given(before, question.recordings)),
+        tuple(as_given(after, question.recordings)),
         closed_gap(before, after),
         split.weakness,
         tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes)
@@ -117,9 +118,9 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
     )
 
 
-def _as_given(scores: Sequence[RunScore], question: Question) -> list[RunScore]:
+def as_given(scores: Sequence[RunScore], recordings: Sequence[Recording]) -> list[RunScore]:
     """In the order in which recordings were given; parts of a single one as they come."""
-    place = {recording.name: number for number, recording in enumerate(question.recordings)}
+    place = {recording.name: number for number, recording in enumerate(recordings)}
     return sorted(scores, key=lambda score: place.get(score.name, 0))
 
 
