@@ -63,4 +63,5 @@ def found(verdict: Verdict) -> Findings:
         notes=("run_1: row 7 left out",),
         refitted=model,
         model=model,
+        models=(model, model),
     )

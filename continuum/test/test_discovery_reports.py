@@ -137,6 +137,10 @@ def test_what_the_data_tell_at_all_is_told() -> None:
     assert "300 times" in lines
     assert "stiffness and tip_payload.mass (-0.97)" in lines
     assert "tell little: tip_payload.mass." in lines
+    gains = tuple(Free("sensor_scale.gain", joint) for joint in range(4))
+    lines = " ".join(identifiability_in_words(Identifiability(gains, np.ones(4), np.full((4, 4), 0.99), 10.0, 1)))
+    assert lines.count("(+0.99)") == 4
+    assert "and 2 more pairs." in lines
     assert as_mapping(replace(found(judged()[Kind.CAUSE]), identifiability=tied))["identifiability"] == {
         "unknowns": 2,
         "rank": 1,

@@ -135,7 +135,7 @@ def test_the_extended_model_is_a_model(tmp_path: Path) -> None:
 
 def test_the_page_tells_the_verdict_and_all_that_it_rests_on(tmp_path: Path) -> None:
     found, diagnosis = payload_found(), diagnosed("tip_payload", 3, mass=0.4)
-    torques = residual_torques(diagnosis.question, found.refitted)
+    torques = residual_torques(diagnosis.question, [found.refitted] * len(found.models))
     tests = structure_tests(torques, np.random.default_rng(0))
     write_report(tmp_path / "page.html", diagnosis, found, (torques, None), tests, "Made by hand.")
     page = unescape((tmp_path / "page.html").read_text(encoding="utf-8"))

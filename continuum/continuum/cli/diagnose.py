@@ -90,8 +90,8 @@ def _report(options: argparse.Namespace, diagnosis: Diagnosis, found: Findings) 
     from continuum.discovery.residual_torque import residual_torques
     from continuum.discovery.structure_tests import structure_tests
 
-    before = residual_torques(diagnosis.question, found.refitted)
-    after = residual_torques(diagnosis.question, found.model) if found.verdict.extension else None
+    before = residual_torques(diagnosis.question, [found.refitted] * len(found.models))
+    after = residual_torques(diagnosis.question, found.models) if found.verdict.extension else None
     tests = structure_tests(before, np.random.default_rng(options.seed))
     write_report(options.report, diagnosis, found, (before, after), tests, _how(options))
 

@@ -67,6 +67,7 @@ class Findings:
         weakness: why this proves less than it would with more runs; empty where it does not.
         notes: on repairs of the data, how tensions were taken, and what the model leaves out.
         refitted, model: the model as it was and the extended one, both fitted to all runs.
+        models: the latter as it is in each run, with what that run has for itself.
     """
 
     verdict: Verdict
@@ -80,6 +81,7 @@ class Findings:
     notes: tuple[str, ...]
     refitted: Model
     model: Model
+    models: tuple[Model, ...]
 
 
 def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
@@ -115,6 +117,7 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         + tuple(lookalikes_in_words(verdict)),
         fit_extension(question, (), verdict.baseline, 2).model,
         _told(fitted, [r.name for r in question.recordings]),
+        tuple(fitted.model_of(number) for number in range(len(question.recordings))),
     )
 
 

@@ -17,6 +17,7 @@ _VAGUE = (
     "other parameters that explain these data as well. More recordings, of other motions, would tell more."
 )
 _NOTHING_TOLD = 1e5  # conditioning, beyond which some direction is not told at all
+_PAIRS = 4  # of estimates that hang together, told of at most; the JSON file has all
 _NOTICED = 0.02  # of the distance to the noise floor
 
 
@@ -130,11 +131,13 @@ def cost_in_words(before: Sequence[RunScore], after: Sequence[RunScore]) -> str:
 
 def identifiability_in_words(told: Identifiability) -> list[str]:
     """What the data tell of the parameters at all, and of which they do not."""
-    pairs = [f"{a} and {b} ({r:+.2f})" for a, b, r in told.entangled]
+    closest = sorted(told.entangled, key=lambda pair: -abs(pair[2]))
+    pairs = [f"{a} and {b} ({r:+.2f})" for a, b, r in closest[:_PAIRS]]
+    more = f", and {len(closest) - _PAIRS} more pairs" * (len(closest) > _PAIRS)
     untold = [str(unknown) for unknown in told.untold]
     rank = f"{told.rank} directions among {len(told.unknowns)} unknowns"
     surest = f"; the surest is known {told.condition:,.0f} times as well as the least sure"
     lines = [f"The data tell of {rank} more than was known before{surest * (told.condition < _NOTHING_TOLD)}."]
-    lines += [f"Estimates that hang together: {', '.join(pairs)}."] if pairs else []
+    lines += [f"Estimates that hang together: {', '.join(pairs)}{more}."] if pairs else []
     lines += [f"Of these the data tell little: {', '.join(untold)}."] if untold else []
     return lines

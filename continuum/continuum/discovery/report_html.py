@@ -133,7 +133,12 @@ def _estimates(estimates: Sequence[Estimate]) -> str:
     return _table(
         ("parameter", "value", "95 % from", "to", "unit", ""),
         [
-            (str(e.unknown), *(f"{x:.4g}" for x in (e.value, e.low, e.high)), e.unit, "up to the limit" * e.at_limit)
+            (
+                str(e.unknown),
+                *(f"{x:.4g}" for x in (e.value, e.low, e.high)),
+                e.unit * (e.unit != "1"),
+                "up to the limit" * e.at_limit,
+            )
             for e in estimates
         ],
     )
@@ -165,7 +170,8 @@ def _phases(found: Findings, extended: bool) -> str:
 
 
 def _changed(before: float, after: float, extended: bool) -> str:
-    return " -> ".join("-" if np.isnan(x) else f"{x:.2f}" for x in ((before, after) if extended else (before,)))
+    told = [f"{x:.2f}" for x in ((before, after) if extended else (before,)) if not np.isnan(x)]
+    return " -> ".join(told) or "-"
 
 
 def _others(diagnosis: Diagnosis) -> str:

@@ -6,7 +6,7 @@ first state is free as ever. Accelerations are not needed, which at 120 Hz no se
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -77,19 +77,19 @@ class ResidualTorque:
         return self.deviation < _TOLD
 
 
-def residual_torques(question: Question, model: Model) -> list[ResidualTorque]:
-    """Of every run that the model can be simulated in.
+def residual_torques(question: Question, models: Sequence[Model]) -> list[ResidualTorque]:
+    """Of every run that its model can be simulated in.
 
     Args:
         question: data.
-        model: fitted.
+        models: fitted; one for each recording, as what a recording has for itself differs.
     """
-    n = model.n_joints
-    extra = ActiveEffect(ExtraTorque(), {"torque": np.zeros(n)})
-    simulator = Simulator(replace(model, effects=(*model.effects, extra)), TOLERANCES)
-    free = [Free("residual_torque.torque", joint) for joint in range(n)]
     found = []
-    for recording in question.recordings:
+    for recording, model in zip(question.recordings, models, strict=True):
+        n = model.n_joints
+        extra = ActiveEffect(ExtraTorque(), {"torque": np.zeros(n)})
+        simulator = Simulator(replace(model, effects=(*model.effects, extra)), TOLERANCES)
+        free = [Free("residual_torque.torque", joint) for joint in range(n)]
         fitted = fit(simulator, [recording], question.noise, free, iterations=_ITERATIONS)
         if not fitted.parts:
             continue

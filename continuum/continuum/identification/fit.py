@@ -68,6 +68,10 @@ class Fit:
         """The model with its common values fitted; what belongs to single recordings is left out."""
         return with_vector(self.simulator.model, self.space.common_values(self.coordinates))
 
+    def model_of(self, recording: int) -> Model:
+        """The model as it is in one recording, by number, with what that recording has for itself."""
+        return with_vector(self.simulator.model, self.space.values_of(recording, self.coordinates))
+
     @property
     def misfits(self) -> list[Array]:
         """Misfit of each window of each run; of a right model about the number of its errors."""

@@ -103,11 +103,15 @@ class FreeSpace:
         return np.flatnonzero([unknown.recording in (None, recording) for unknown in self.unknowns])
 
     def common_values(self, coordinates: Array) -> Array:
-        """All values of the model, (n_p,), at coordinates (n_free,); what belongs to single recordings is left out.
+        """All values of the model, (n_p,), at coordinates (n_free,); what belongs to single recordings is left out."""
+        return self.values_of(-1, coordinates)
+
+    def values_of(self, recording: int, coordinates: Array) -> Array:
+        """All values of the model in one recording, (n_p,), at coordinates (n_free,).
 
         Where what all joints share and what one has for itself add up to more than a parameter may be, it is that.
         """
-        return np.asarray(np.clip(self.origin + self.directions_of(-1) @ coordinates, *self._allowed))
+        return np.asarray(np.clip(self.origin + self.directions_of(recording) @ coordinates, *self._allowed))
 
     def clipped(self, coordinates: Array) -> Array:
         """Coordinates within the bounds."""
