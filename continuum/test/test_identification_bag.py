@@ -17,7 +17,7 @@ T = np.arange(ROWS) / 120
 STAMPS = START + np.round(T * 1e9).astype(np.int64)
 PHASES = np.arange(JOINTS)
 ANGLES, RATES = 0.3 * np.cos(6 * T[:, None] + PHASES), -1.8 * np.sin(6 * T[:, None] + PHASES)
-PULL = np.stack([4 + 3 * np.sin(5 * T), 4 - 3 * np.sin(5 * T)], axis=1)
+PULL = np.stack([4 - 3 * np.sin(5 * T), 4 + 3 * np.sin(5 * T)], axis=1)
 JOINT_NAMES = ["section_1_phi", *(f"section_1_theta_{j + 1}" for j in range(JOINTS)), "section_1_phi_back"]
 CABLE_NAMES = ["section_1_cable_1", "section_1_cable_2"]
 

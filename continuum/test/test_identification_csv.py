@@ -22,7 +22,7 @@ ROWS = 120
 T = np.arange(ROWS) / 120
 ANGLES = np.stack([0.3 * np.cos(6 * T), 0.2 * np.cos(6 * T + 1)], axis=1)
 RATES = np.stack([-1.8 * np.sin(6 * T), -1.2 * np.sin(6 * T + 1)], axis=1)
-PULL = np.stack([4 + 3 * np.sin(5 * T), 4 - 3 * np.sin(5 * T)], axis=1)
+PULL = np.stack([4 - 3 * np.sin(5 * T), 4 + 3 * np.sin(5 * T)], axis=1)
 
 type Cells = dict[str, list[str]]
 
