@@ -1,41 +1,59 @@
-"""Cables whose columns are swapped are told before minutes are spent on them."""
+"""Cables whose columns are swapped are refused before minutes are spent on them."""
 
 from __future__ import annotations
 
-from pathlib import Path
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from identification_laws import recorded, small_simulator
 
-from continuum.arrays import Array
 from continuum.dynamics.tensions import Tensions
-from continuum.identification.cable_sides import odd_sides
-from continuum.identification.recording_checks import Samples, repaired
+from continuum.errors import InvalidValueError
+from continuum.identification.cable_sides import side_correlation
+from continuum.identification.dataset import Dataset
+from continuum.identification.recording import Recording
 
 PULLS = Tensions([0.0, 0.6, 1.8, 2.4], [[0, 0], [6, 0], [0, 6], [0, 0]])
 
 
 @pytest.fixture(scope="module")
-def pulled() -> tuple[Array, Array, Array]:
-    """Times, joint angles and tensions of an arm that cables pull to either side, slowly."""
-    run = recorded(small_simulator(), (0.0, 0.0), np.random.default_rng(3), seconds=2.4, tensions=PULLS)
-    return run.times, run.theta, np.array([PULLS.at(t) for t in run.times])
+def pulled() -> Recording:
+    """An arm that cables pull to either side, slowly."""
+    return recorded(small_simulator(), (0.0, 0.0), np.random.default_rng(3), seconds=2.4, tensions=PULLS)
+
+
+def changed(run: Recording, swapped: bool, mirrored: bool, pull: float = 1.0) -> Recording:
+    values = pull * PULLS.values[:, :: -1 if swapped else 1]
+    return replace(run, theta=-run.theta if mirrored else run.theta, tensions=Tensions(PULLS.times, values))
 
 
 @pytest.mark.parametrize(("swapped", "mirrored"), [(False, False), (True, False), (False, True), (True, True)])
-def test_an_arm_that_bends_away_from_the_cable_that_pulls_is_told(
-    pulled: tuple[Array, Array, Array], swapped: bool, mirrored: bool
+def test_an_arm_that_bends_away_from_the_cable_that_pulls_is_refused(
+    pulled: Recording, swapped: bool, mirrored: bool
 ) -> None:
-    times, theta, tensions = pulled
-    theta, tensions = (-theta if mirrored else theta), (tensions[:, ::-1] if swapped else tensions)
-    samples = Samples(Path("run.csv"), np.arange(times.size), times, theta, None, tensions)
-    good, notes = repaired(samples)
-    assert any("u1 and u2 swapped" in note for note in notes) == (swapped != mirrored)
-    np.testing.assert_array_equal(good.theta, theta)  # told, not mended: nobody knows which of the two is wrong
+    run = changed(pulled, swapped, mirrored)
+    if swapped == mirrored:
+        assert Dataset((run,)).recordings == (run,)
+    else:
+        with pytest.raises(InvalidValueError, match=r"run: correlation .* is -0\.9.*swap u1 and u2"):
+            Dataset((run,))
 
 
-def test_cells_of_loose_cables_have_no_side(pulled: tuple[Array, Array, Array]) -> None:
-    _, theta, tensions = pulled
-    assert odd_sides(theta, 0.1 * tensions[:, ::-1]) == []
-    assert odd_sides(np.full_like(theta, 0.1), tensions) == []
+def test_loose_cables_short_runs_and_a_held_arm_have_no_side(pulled: Recording) -> None:
+    opposed = changed(pulled, swapped=True, mirrored=False)
+    assert side_correlation(opposed) is not None
+    assert side_correlation(replace(opposed, tensions=None)) is None
+    assert side_correlation(changed(pulled, swapped=True, mirrored=False, pull=0.1)) is None
+    assert side_correlation(opposed.rows(slice(0, 100))) is None
+    assert side_correlation(replace(opposed, theta=0.3 + 0.01 * opposed.theta)) is None
+
+
+def test_a_swing_against_a_fast_pull_is_no_swapped_cable() -> None:
+    """Above its resonance an arm moves against what drives it."""
+    times = np.arange(361) / 120
+    sway = np.sin(2 * np.pi * 6 * times)
+    tensions = Tensions(times, np.stack([5 + 4 * sway, 5 - 4 * sway], axis=1))
+    run = Recording("fast", times, np.stack([-0.2 * sway, -0.1 * sway], axis=1), None, tensions)
+    assert np.corrcoef(sway, run.theta.mean(axis=1))[0, 1] < -0.9
+    assert Dataset((run,)).recordings == (run,)

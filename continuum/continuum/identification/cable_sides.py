@@ -1,33 +1,46 @@
 """Whether the arm bends towards the cable that pulls more, as cable 1 does towards positive angles.
 
-  r = correlation of u_1 - u_2 with the mean of all joint angles, over the rows of one run
+  r = correlation of u_1 - u_2 with the mean of all joint angles, both as moving means over half a second
 
-Simulated runs, the fast and the lagging ones too, have r between 0.16 and 0.97. Of one below -1/2 the cables' columns
-are swapped, or the angles' signs; a fit would seek long, and end with parameters at their limits.
+Fast motions, which may swing against what drives them, are gone from such means. Simulated runs of all kinds have r
+between 0.5 and 0.99; of one below -1/2 the columns of the cables are swapped, or the angles' signs: a fit would seek
+long and end with parameters at their limits.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from continuum.arrays import Array
+from continuum.errors import InvalidValueError
+from continuum.identification.recording import Recording
 
 _OPPOSED = -0.5
-_PULLED = 2.0  # N, between the largest and the least difference of tensions; load cells err by tenths
+_LENGTH = 0.5  # s; the arm swings in less
+_PULLED, _BENT = 2.0, np.deg2rad(1.0)  # N and rad, by which the means change at least: more than sensors are off
 
 
-def odd_sides(theta: Array, pull: Array) -> list[str]:
-    """A sentence where the arm bends away from the cable that pulls more; none where all is well.
+def side_correlation(run: Recording) -> float | None:
+    """r of a run, -1 to 1; None where it is too short or hardly pulled."""
+    rows = max(1, round(_LENGTH / float(np.median(np.diff(run.times)))))
+    if not run.is_driven or run.times.size < 2 * rows:
+        return None
+    u = np.array([run.pull.at(t) for t in run.times])
+    evenly = np.full(rows, 1 / rows)
+    difference, bend = (np.convolve(x, evenly, "valid") for x in (u[:, 0] - u[:, 1], run.theta.mean(axis=1)))
+    if np.ptp(difference) < _PULLED or np.ptp(bend) < _BENT:
+        return None
+    return float(np.corrcoef(difference, bend)[0, 1])
 
-    Args:
-        theta: joint angles, (rows, n_joints) [rad].
-        pull: tensions, (rows, 2) [N].
+
+def refuse_swapped_cables(run: Recording) -> None:
+    """Refuse a run in which the arm bends away from the cable that pulls more.
+
+    Raises:
+        InvalidValueError: it does so.
     """
-    difference, bend = pull[:, 0] - pull[:, 1], theta.mean(axis=1)
-    if np.ptp(difference) < _PULLED or np.ptp(bend) == 0:
-        return []
-    r = float(np.corrcoef(difference, bend)[0, 1])
-    if r > _OPPOSED:
-        return []
-    away = f"the arm bends away from the cable that pulls more (correlation {r:.2f})"
-    return [f"{away}: cable 1 bends it towards positive angles; are u1 and u2 swapped, or the signs of the angles?"]
+    r = side_correlation(run)
+    if r is not None and r < _OPPOSED:
+        told = (
+            "above -0.5, as cable 1 bends the arm towards positive angles: swap u1 and u2, or the signs of the angles"
+        )
+        raise InvalidValueError(f"{run.name}: correlation of bend with u1 - u2", round(r, 2), told)

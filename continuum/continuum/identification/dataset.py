@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from continuum.errors import InvalidValueError
+from continuum.identification.cable_sides import refuse_swapped_cables
 from continuum.identification.recording import Recording
 
 _PART_FOR_FIT = 0.6  # of the samples of a single run
@@ -32,6 +33,7 @@ class Dataset:
                 raise InvalidValueError(
                     f"joints of {recording.name}", recording.n_joints, f"{self.recordings[0].n_joints} as in the others"
                 )
+            refuse_swapped_cables(recording)
         for one, other in combinations(self.recordings, 2):
             if np.array_equal(one.theta, other.theta):
                 raise InvalidValueError("recordings", f"{one.name} and {other.name}", "different runs: these are one")

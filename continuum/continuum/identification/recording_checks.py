@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.errors import FileError
-from continuum.identification.cable_sides import odd_sides
 
 _SAME_TIME = 1e-7  # s: no sensor is that fast
 _FEWEST_ROWS = 30
@@ -64,7 +63,7 @@ class Samples:
 
 
 def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
-    """The samples fit for use, and a note on each repair and on what looks wrong.
+    """The samples fit for use, and a note on each repair.
 
     Raises:
         FileError: backward time, long gaps, negative tensions, too many bad rows, or units that cannot be the
@@ -95,7 +94,6 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     good, pushing = _without_pushing(good)
     notes += pushing
     _refuse_units(good)
-    notes += [] if good.pull is None else odd_sides(good.theta, good.pull)
     return good, tuple(notes)
 
 
