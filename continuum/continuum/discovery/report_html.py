@@ -20,7 +20,6 @@ from continuum.discovery.in_words import (
     verdict_in_words,
     worth_in_words,
 )
-from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.motion_phases import PHASES, errors_by_phase
 from continuum.discovery.pictures import evidence_picture, runs_picture, torque_picture
 from continuum.discovery.residual_torque import ResidualTorque
@@ -29,12 +28,17 @@ from continuum.discovery.structure_tests import StructureTest
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.whole_file import write_whole
 
+_HEAD = (
+    '<!doctype html><html lang="en"><meta charset="utf-8">'
+    '<meta name="viewport" content="width=device-width, initial-scale=1">'
+)
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
 h1 { font-size: 1.5rem; } h2 { font-size: 1.1rem; margin-top: 2.2rem; border-bottom: 1px solid #ddd; }
 .verdict { font-size: 1.1rem; background: #f2f6fa; border-left: 5px solid #1f6fb4; padding: .8rem 1rem; }
 .unknown, .ambiguous { border-color: #d1802b; background: #fbf5ec; }
-table { border-collapse: collapse; font-size: .85rem; } td, th { padding: .2rem .9rem .2rem 0; text-align: right; }
+table { border-collapse: collapse; font-size: .85rem; display: block; overflow-x: auto; }
+td, th { padding: .2rem .9rem .2rem 0; text-align: right; }
 td:first-child, th:first-child { text-align: left; } th { border-bottom: 1px solid #bbb; font-weight: 600; }
 img { max-width: 100%; } .note { color: #666; font-size: .85rem; }
 """
@@ -86,11 +90,8 @@ def write_report(
         *(f'<p class="note">{escape(note)}</p>' for note in found.notes),
         "<h2>Measured and simulated</h2>",
         f'<p class="note">{_FREE} {_others(diagnosis)}.</p>',
-        _image(runs_picture(found.before, found.after, extended)),
-        _table(
-            ("run", "", "refitted", "extended", "noise alone"),
-            [row for b, a in zip(found.before, found.after, strict=True) for row in _scores(b, a)],
-        ),
+        _image("joint angles, measured and simulated", runs_picture(found.before, found.after, extended)),
+        _scores(found, extended),
         '<p class="note">Eq. 19 of the thesis: root mean square error by standard deviation, mean over the joints, '
         "with 95 % intervals from stretches of the run. A joint that hardly moves counts as others do."
         + (f" {_worth(found)}" if extended else "")
@@ -99,7 +100,7 @@ def write_report(
         _phases(found, extended),
         "<h2>What is missing</h2>",
         f'<p class="note">{_MISSING}</p>',
-        _image(torque_picture(*torques)),
+        _image("missing torque by angle and by rate", torque_picture(*torques)),
         _table(
             ("missing torque at", "goes with", "correlation", "p"),
             [(f"joint {t.joint + 1}", t.against, f"{t.correlation:+.2f}", f"{t.p_value:.3f}") for t in tests[:8]],
@@ -113,8 +114,9 @@ def write_report(
         *(f'<p class="note">{escape(line)}</p>' for line in identifiability_in_words(found.identifiability)),
         f'<p class="note">{escape(made)}</p>',
     ]
-    page = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(kind)}</title><style>{_STYLE}</style>'
-    write_whole(path, page + "\n".join(body) + "</html>\n")
+    runs = ", ".join(recording.name for recording in diagnosis.question.recordings)
+    head = f"{_HEAD}<title>{escape(kind)}: {escape(runs)}</title><style>{_STYLE}</style>"
+    write_whole(path, head + "\n".join(body) + "</html>\n")
 
 
 def _candidates(verdict: Verdict) -> Iterable[str]:
@@ -152,10 +154,13 @@ def _run_numbers(diagnosis: Diagnosis, found: Findings) -> str:
     return f'<p class="note">{escape("; ".join(names))}.</p>'
 
 
-def _scores(before: RunScore, after: RunScore) -> Iterable[Sequence[str]]:
-    once, now = scores_in_words(before), scores_in_words(after)
-    yield before.name, "position", once["position"], now["position"], f"{before.floor:.3f}"
-    yield "", "rate", once["rate"], now["rate"], ""
+def _scores(found: Findings, extended: bool) -> str:
+    rows: list[tuple[str, ...]] = []
+    for before, after in zip(found.before, found.after, strict=True):
+        models = [scores_in_words(score) for score in ((before, after) if extended else (before,))]
+        rows.append((before.name, "position", *(told["position"] for told in models), f"{before.floor:.3f}"))
+        rows.append(("", "rate", *(told["rate"] for told in models), ""))
+    return _table(("run", "", "refitted", *(["extended"] if extended else []), "noise alone"), rows)
 
 
 def _phases(found: Findings, extended: bool) -> str:
@@ -184,7 +189,7 @@ def _worth(found: Findings) -> str:
 
 def _evidence(number: int, one: Round) -> Iterable[str]:
     yield f"<h2>Effects tried, round {number}</h2>"
-    yield _image(evidence_picture(one))
+    yield _image("gain of each effect on held-out runs", evidence_picture(one))
     rows = []
     for trial in one.leaders:
         won = gain(trial, one.before)
@@ -200,8 +205,8 @@ def _share(share: float) -> str:
     return f"{100 * share:.1f} %"
 
 
-def _image(png: bytes) -> str:
-    return f'<img alt="" src="data:image/png;base64,{base64.b64encode(png).decode()}">'
+def _image(shown: str, png: bytes) -> str:
+    return f'<img alt="{escape(shown)}" src="data:image/png;base64,{base64.b64encode(png).decode()}">'
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
