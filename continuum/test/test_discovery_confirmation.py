@@ -12,7 +12,7 @@ from discovery_verdicts import BAD, GOOD, HALF, WORSE, found, judged, score, sco
 from continuum.discovery.evidence import gain
 from continuum.discovery.in_words import verdict_in_words
 from continuum.discovery.judgement import confirmed, judge
-from continuum.discovery.measured_gain import RunScore, closed_gap, spread_of
+from continuum.discovery.measured_gain import RunScore, closed_gap, spread_of, told_gap
 from continuum.discovery.verdict import Kind
 from continuum.discovery.verdict_json import as_mapping
 from continuum.dynamics.reading import Reading
@@ -32,9 +32,20 @@ def test_the_part_of_the_gap_that_is_closed() -> None:
     assert closed_gap(runs(0.06, 0.45), runs(0.12, 0.05)) > 0.9  # next to the floor a run has no say
     assert closed_gap(runs(np.inf), runs(np.inf)) == 0.0
     assert closed_gap(runs(0.25), runs(np.inf)) == -1.0
-    at_rest = [score("rest", 4.0, 1.3)], [score("rest", 0.6, 1.3)]  # noise is larger than the motion: no figure
-    assert closed_gap(*at_rest) == 0.0
-    assert closed_gap([*at_rest[0], *runs(0.45)], [*at_rest[1], *runs(0.25)]) == pytest.approx(0.5)
+
+
+def at_rest(*positions: float) -> list[RunScore]:
+    """Runs in which joints move by so little that noise alone makes Eq. 19 more than 1."""
+    return [score(f"rest_{i}", position, 1.3) for i, position in enumerate(positions)]
+
+
+def test_a_run_at_rest_gives_no_figure_and_has_a_say_nevertheless() -> None:
+    assert told_gap(at_rest(4.0), at_rest(1.3)) == 0.0
+    assert told_gap([*at_rest(4.0), *scores(0.45)], [*at_rest(0.6), *scores(0.25)]) == pytest.approx(0.5)
+    cause = judged()[Kind.CAUSE]
+    assert confirmed(cause, [*scores(0.45), *at_rest(10.2)], [*scores(0.06), *at_rest(1.31)]).kind is Kind.CAUSE
+    assert confirmed(cause, at_rest(*[5.1] * 4), at_rest(*[5.1] * 4)).kind is Kind.UNKNOWN
+    assert confirmed(cause, at_rest(*[5.1] * 4), at_rest(*[5.3] * 4)).kind is Kind.UNKNOWN
 
 
 def test_what_helps_in_windows_alone_is_said_not_to_predict() -> None:

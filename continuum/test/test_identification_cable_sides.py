@@ -49,11 +49,12 @@ def test_loose_cables_short_runs_and_a_held_arm_have_no_side(pulled: Recording) 
     assert side_correlation(replace(opposed, theta=0.3 + 0.01 * opposed.theta)) is None
 
 
-def test_a_swing_against_a_fast_pull_is_no_swapped_cable() -> None:
+@pytest.mark.parametrize("frequency", [3.0, 4.0, 5.0, 7.0])
+def test_a_swing_against_a_fast_pull_is_no_swapped_cable(frequency: float) -> None:
     """Above its resonance an arm moves against what drives it."""
     times = np.arange(361) / 120
-    sway = np.sin(2 * np.pi * 6 * times)
-    tensions = Tensions(times, np.stack([5 + 4 * sway, 5 - 4 * sway], axis=1))
+    sway = np.sin(2 * np.pi * frequency * times)
+    tensions = Tensions(times, np.stack([8 + 8 * sway, 8 - 8 * sway], axis=1))
     run = Recording("fast", times, np.stack([-0.2 * sway, -0.1 * sway], axis=1), None, tensions)
     assert np.corrcoef(sway, run.theta.mean(axis=1))[0, 1] < -0.9
     assert Dataset((run,)).recordings == (run,)

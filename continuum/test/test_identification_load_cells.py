@@ -1,5 +1,6 @@
 """Load cells whose zero is a little off show no pull; a cable that pushes is refused."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -34,3 +35,11 @@ def test_nothing_is_told_of_what_pulls_or_hangs_loose() -> None:
 def test_a_cable_that_pushes_is_refused() -> None:
     with pytest.raises(FileError, match=r"row 12: tension -0.21 N; a cable cannot push, .* by 0.2 N at most"):
         repaired(samples(-0.21))
+
+
+def test_cells_of_cables_that_hang_loose_all_the_time_pull_nowhere() -> None:
+    noise = np.clip(0.05 * np.random.default_rng(0).normal(size=(T.size, 2)), -0.2, 0.2)
+    found, (note,) = repaired(replace(samples(0.0), pull=noise))
+    assert "hang loose, all taken as none" in note
+    assert found.pull is not None
+    assert not found.pull.any()

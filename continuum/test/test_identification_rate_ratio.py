@@ -16,7 +16,7 @@ from continuum.discovery.in_words import verdict_in_words
 from continuum.discovery.judgement import contradicted
 from continuum.discovery.verdict import Kind
 from continuum.identification.dataset import Dataset
-from continuum.identification.rate_ratio import added_up, odd_rates, rate_ratio
+from continuum.identification.rate_ratio import odd_rates, rate_ratio
 from continuum.identification.recording import Recording
 
 
@@ -83,11 +83,27 @@ def test_noise_alone_and_no_rates_say_nothing() -> None:
     assert rate_ratio([bare[0], *runs()]) == rate_ratio(runs())
 
 
-def test_rates_add_up_to_what_they_are_the_slope_of() -> None:
-    times = np.sort(np.random.default_rng(1).uniform(0, 1, 400))
-    angle = np.stack([np.sin(3 * times), times**2], axis=1)
-    rate = np.stack([3 * np.cos(3 * times), 2 * times], axis=1)
-    np.testing.assert_allclose(added_up(times, rate), angle - angle[0], atol=1e-3)
+@pytest.mark.parametrize("every", [1, 3, 5])
+def test_few_samples_of_a_swing_are_no_fault(every: int) -> None:
+    """Of 24 a second, and of swings of up to three a second."""
+    for seed in range(4):
+        sparse = [run.rows(slice(None, None, every)) for run in runs(seed)]
+        assert not odd_rates(sparse)
+        assert abs(rate_ratio(sparse)[0] - 1) < 0.03
+
+
+def test_one_recording_and_one_joint_that_are_off_are_named() -> None:
+    sound = runs(count=8)
+    (told,) = odd_rates([*sound[:7], slow_clock(sound[7], 0.9)])
+    assert told.startswith("r7: angles change 1.1")
+    one_loud = [replace(run, theta_rate=run.theta_rate * [1.0, 1.5]) for run in sound if run.theta_rate is not None]
+    assert rate_ratio(one_loud, 0) == rate_ratio(sound, 0)
+    assert rate_ratio(one_loud, 1)[0] == pytest.approx(1 / 1.5, abs=0.02)
+    assert odd_rates(one_loud)
+    outer = [replace(run, theta=run.theta * [1.0, 0.2], theta_rate=run.theta_rate * [1.0, 0.25])
+             for run in sound if run.theta_rate is not None]  # fmt: skip
+    (told,) = odd_rates(outer)  # one that moves little says little of all
+    assert told.startswith("joint 2: angles change 0.8")
 
 
 @pytest.mark.parametrize("by", [1.0, 1.1])

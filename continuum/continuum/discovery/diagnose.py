@@ -72,7 +72,7 @@ def diagnose(
     question = Question(ready, unknowns, recordings, noise)
     present = {active.effect.name for active in model.effects}
     asked = [name for name in (effect_names() if effects is None else effects) if name not in present]
-    asked = worth_trying(asked, present, len(recordings))
+    asked = worth_trying(asked, len(recordings))
     tried = [name for name in asked if driven or not effect_named(name).needs_tension]
 
     question, rounds, verdict = _answered(question, tried, processes or os.cpu_count() or 1, tell, driven)

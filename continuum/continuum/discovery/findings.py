@@ -11,7 +11,7 @@ from continuum.arrays import Array
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.in_words import lookalikes_in_words
 from continuum.discovery.judgement import confirmed, contradicted
-from continuum.discovery.measured_gain import RunScore, closed_gap, held_out_scores
+from continuum.discovery.measured_gain import RunScore, held_out_scores, told_gap
 from continuum.discovery.question import Question
 from continuum.discovery.trial import fit_extension
 from continuum.discovery.verdict import Cause, Verdict
@@ -107,7 +107,7 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         identifiability(fitted),
         tuple(as_given(before, question.recordings)),
         tuple(as_given(after, question.recordings)),
-        closed_gap(before, after),
+        told_gap(before, after),
         split.weakness,
         tuple(f"{r.name}: {note}" for r in question.recordings for note in r.notes)
         + _rows_told(question)

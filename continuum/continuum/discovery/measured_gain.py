@@ -98,12 +98,7 @@ def spread_of(seen: Reading, others: Sequence[Reading | None], recording: Record
 
 def is_open(before: Sequence[RunScore]) -> bool:
     """Whether there is a distance to the noise floor that may be closed."""
-    return any(_is_open(b) for b in before)
-
-
-def _is_open(before: RunScore) -> bool:
-    """Where noise is larger than the motion, Eq. 19 tells nothing of the model."""
-    return before.position > _OPEN * before.floor and before.floor < 1.0
+    return any(b.position > _OPEN * b.floor for b in before)
 
 
 def is_far(scores: Sequence[RunScore]) -> bool:
@@ -121,10 +116,19 @@ def closed_gap(before: Sequence[RunScore], after: Sequence[RunScore]) -> float:
 
     A run weighs as much as it is away, and can take away no more than another one gives.
     """
-    pairs = [(b, a) for b, a in zip(before, after, strict=True) if _is_open(b)]
+    pairs = [(b, a) for b, a in zip(before, after, strict=True) if b.position > _OPEN * b.floor]
     weights = [b.position - b.floor if np.isfinite(b.position) else 1.0 for b, _ in pairs]
     parts = [max(_closed(b, a), -1.0) for b, a in pairs]
     return float(np.average(parts, weights=weights)) if pairs else 0.0
+
+
+def told_gap(before: Sequence[RunScore], after: Sequence[RunScore]) -> float:
+    """`closed_gap` as a figure to tell: over runs of which Eq. 19 says something.
+
+    Where a joint hardly moves noise alone makes it 1 or more, and one such stretch would outweigh all the others.
+    """
+    telling = [(b, a) for b, a in zip(before, after, strict=True) if b.floor < 1.0]
+    return closed_gap([b for b, _ in telling], [a for _, a in telling])
 
 
 def _closed(before: RunScore, after: RunScore) -> float:

@@ -7,7 +7,7 @@ another name. In one run alone the two are the same.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 
 from scipy.stats import chi2
 
@@ -24,9 +24,12 @@ def without_special_cases(trials: Sequence[Trial]) -> list[Trial]:
     return [trial for trial in trials if not _is_one_of(trial, there.get(_simpler(trial.extension[-1].effect)))]
 
 
-def worth_trying(effects: Sequence[str], present: Collection[str], n_recordings: int) -> list[str]:
-    """Of the names of effects those that are no other one of them, or of those present, by another name."""
-    return [name for name in effects if n_recordings > 1 or _simpler(name) not in (*effects, *present)]
+def worth_trying(effects: Sequence[str], n_recordings: int) -> list[str]:
+    """Of the names of effects those that are no other one of them by another name.
+
+    One that the model has already is not among them: its value stays, and what is added to it may be what is asked for.
+    """
+    return [name for name in effects if n_recordings > 1 or _simpler(name) not in effects]
 
 
 def _is_one_of(trial: Trial, simpler: Trial | None) -> bool:

@@ -47,6 +47,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
             "untold": [str(unknown) for unknown in found.identifiability.untold],
         },
         "complete": not (unknown or verdict.nearly),
+        "at_odds": verdict.at_odds,
         "vague": verdict.vague,
         "weakness": found.weakness,
         "notes": list(found.notes),

@@ -1,10 +1,10 @@
 """Whether the arm bends towards the cable that pulls more, as cable 1 does towards positive angles.
 
-  r = correlation of u_1 - u_2 with the mean of all joint angles, both as moving means over half a second
+  r = correlation of u_1 - u_2 with the mean of all joint angles, both as means over half a second, taken twice
 
-Fast motions, which may swing against what drives them, are gone from such means. Simulated runs of all kinds have r
-between 0.5 and 0.99; of one below -1/2 the columns of the cables are swapped, or the angles' signs: a fit would seek
-long and end with parameters at their limits.
+Little of fast motions, which may swing against what drives them, is left in such means: of 3 Hz a twentieth. Where r is
+below -1/2 the columns of the cables are swapped, or the angles' signs: a fit would seek long and end with parameters at
+their limits.
 """
 
 from __future__ import annotations
@@ -22,11 +22,12 @@ _PULLED, _BENT = 2.0, np.deg2rad(1.0)  # N and rad, by which the means change at
 def side_correlation(run: Recording) -> float | None:
     """r of a run, -1 to 1; None where it is too short or hardly pulled."""
     rows = max(1, round(_LENGTH / float(np.median(np.diff(run.times)))))
-    if not run.is_driven or run.times.size < 2 * rows:
+    if not run.is_driven or run.times.size < 3 * rows:
         return None
     u = np.array([run.pull.at(t) for t in run.times])
     evenly = np.full(rows, 1 / rows)
-    difference, bend = (np.convolve(x, evenly, "valid") for x in (u[:, 0] - u[:, 1], run.theta.mean(axis=1)))
+    twice = np.convolve(evenly, evenly)
+    difference, bend = (np.convolve(x, twice, "valid") for x in (u[:, 0] - u[:, 1], run.theta.mean(axis=1)))
     if np.ptp(difference) < _PULLED or np.ptp(bend) < _BENT:
         return None
     return float(np.corrcoef(difference, bend)[0, 1])

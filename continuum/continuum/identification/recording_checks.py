@@ -157,6 +157,9 @@ def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:
             f"tension {least[at]:g} N; a cable cannot push, and a load cell's zero is off by {_ZERO_TENSION} N at most"
         )
         raise FileError(samples.path, f"{where}: {pushed}")
+    if np.max(samples.pull) <= _ZERO_TENSION:  # as far above as below: noise of cells whose cables hang loose
+        told = f"tensions from {np.min(least):.2g} to {np.max(samples.pull):.2g} N are of cables that hang loose"
+        return replace(samples, pull=np.zeros_like(samples.pull)), [f"{told}, all taken as none"]
     note = f"{samples.told(least < 0)} with a tension below zero, by {-np.min(least):.2g} N at most, taken as none"
     return replace(samples, pull=np.maximum(samples.pull, 0.0)), [note]
 
