@@ -125,7 +125,8 @@ def show(found: Findings) -> None:
     verdict = found.verdict
     print(f"{verdict.kind.value.upper()}\n\n{verdict_in_words(verdict)}\n")
     if verdict.kind is not Kind.UNKNOWN:
-        for title, causes in (("cause", verdict.causes), ("alternative", verdict.alternatives)):
+        named = "may be" if verdict.kind is Kind.AMBIGUOUS else "cause"
+        for title, causes in ((named, verdict.causes), ("may be", verdict.alternatives)):
             for cause in causes:
                 print(f"{title}: {cause.addition}   confidence {cause.confidence:.2f}")
     print_pairs([("parameter", "value, 95 % interval"), *(_estimate(one) for one in found.estimates)])

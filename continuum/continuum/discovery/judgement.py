@@ -43,7 +43,8 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
     named = {cause.addition.effect for cause in causes}  # beside each other they are no alternatives
     rivals = tuple(rival for r in added for rival in _rivals(r) if rival.addition.effect not in named)
     if rivals:
-        experiment = " ".join(dict.fromkeys(effect_named(c.addition.effect).experiment for c in (*causes, *rivals)))
+        effects = dict.fromkeys(c.addition.effect for c in (*causes, *rivals))
+        experiment = " ".join(f"{effect}: {effect_named(effect).experiment}" for effect in effects)
         return Verdict(Kind.AMBIGUOUS, causes, rivals, baseline, best, share, experiment)
     return Verdict(Kind.CAUSE, causes, (), baseline, best, share)
 

@@ -42,6 +42,9 @@ td, th { padding: .2rem .9rem .2rem 0; text-align: right; }
 td:first-child, th:first-child { text-align: left; } th { border-bottom: 1px solid #bbb; font-weight: 600; }
 img { max-width: 100%; } .note { color: #666; font-size: .85rem; }
 """
+_CHANCE, _SHOWN = 0.05, 8
+"""p-value up to which a comparison is a hint, and how many are shown at most."""
+
 _FREE = (
     "Free simulation from the state that the first tenth of a second asks for (what a recording has for itself, as a "
     "sensor's offset, is what all of it asks for), by models that were fitted to"
@@ -101,11 +104,7 @@ def write_report(
         "<h2>What is missing</h2>",
         f'<p class="note">{_MISSING}</p>',
         _image("missing torque by angle and by rate", torque_picture(*torques)),
-        _table(
-            ("missing torque at", "goes with", "correlation", "p"),
-            [(f"joint {t.joint + 1}", t.against, f"{t.correlation:+.2f}", f"{t.p_value:.3f}") for t in tests[:8]],
-        ),
-        f'<p class="note">The surest of {len(tests)} comparisons, of which chance puts one in twenty below 0.05.</p>',
+        *_hints(tests),
         *(part for number, one in enumerate(diagnosis.rounds, 1) for part in _evidence(number, one)),
         "<h2>Parameters</h2>",
         _estimates(found.estimates),
@@ -117,6 +116,18 @@ def write_report(
     runs = ", ".join(recording.name for recording in diagnosis.question.recordings)
     head = f"{_HEAD}<title>{escape(kind)}: {escape(runs)}</title><style>{_STYLE}</style>"
     write_whole(path, head + "\n".join(body) + "</html>\n")
+
+
+def _hints(tests: Sequence[StructureTest]) -> Iterable[str]:
+    """The surest things that the missing torque goes with."""
+    surest = [test for test in tests if test.p_value <= _CHANCE][:_SHOWN]
+    if surest:
+        yield _table(
+            ("missing torque at", "goes with", "correlation", "p"),
+            [(f"joint {t.joint + 1}", t.against, f"{t.correlation:+.2f}", f"{t.p_value:.3f}") for t in surest],
+        )
+    told = "The surest" if surest else "It goes with nothing; this is the outcome"
+    yield f'<p class="note">{told} of {len(tests)} comparisons, of which chance puts one in twenty below {_CHANCE}.</p>'
 
 
 def _candidates(verdict: Verdict) -> Iterable[str]:

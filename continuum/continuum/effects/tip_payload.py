@@ -27,9 +27,7 @@ class TipPayload(Effect):
     source = "Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119 (loads)"
     in_words = "The tip carries a weight that the model does not know."
     looks_like = "All joints swing slower and return further towards the plumb line, those near the base most."
-    experiment = (
-        "Weigh the last link with all that is fixed to it; or hang a known weight on the tip and release again."
-    )
+    experiment = "Take off what hangs on the tip, weigh it, and weigh the last link without it."
 
     def change_parameters(self, p: Parameters, own: Own) -> Parameters:
         m, c, beyond = p.mass[-1:], p.center_of_mass[-1:], p.half_spacing[-1:] - p.center_of_mass[-1:]

@@ -81,6 +81,7 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     _refuse_backward(good)
     good = leave_out(np.diff(good.times, prepend=-np.inf) < _SAME_TIME, f"with the time of the {good.row} before")
     good = leave_out(_clipped(good), "with a clipped rate")
+    good = leave_out(_outliers(good), "with a value that no arm has")
     if good.times.size < _FEWEST_ROWS:
         told = "; ".join(["", *notes])
         raise FileError(
@@ -101,6 +102,25 @@ def _complete(samples: Samples) -> NDArray[np.bool_]:
     """Rows in which every number is finite."""
     blocks = [block for block in (samples.theta, samples.rate, samples.pull) if block is not None]
     return np.all(np.isfinite(np.column_stack([samples.times, *blocks])), axis=1)
+
+
+def _outliers(samples: Samples) -> NDArray[np.bool_]:
+    """Few rows with a value too large for its unit, where all others are far from that: an error code, no unit."""
+    size = np.max(
+        [
+            np.max(np.abs(block), axis=1) / limit
+            for block, limit in (
+                (samples.theta, _LARGEST_ANGLE),
+                (samples.rate, _LARGEST_RATE),
+                (samples.pull, _LARGEST_TENSION),
+            )
+            if block is not None
+        ],
+        axis=0,
+    )
+    large = size > 1
+    few = 0 < np.count_nonzero(large) <= _MOST_BAD * large.size
+    return large if few and np.max(size[~large]) < 1 / 2 else np.zeros_like(large)
 
 
 def _refuse_backward(samples: Samples) -> None:
