@@ -140,7 +140,8 @@ def test_the_page_tells_the_verdict_and_all_that_it_rests_on(tmp_path: Path) -> 
     write_report(tmp_path / "page.html", diagnosis, found, (torques, None), tests, "Made by hand.")
     page = unescape((tmp_path / "page.html").read_text(encoding="utf-8"))
     told = (verdict_in_words(found.verdict), *identifiability_in_words(found.identifiability), "Made by hand.")
-    for part in (*told, f" of {len(tests)} comparisons, of which chance puts one in twenty below 0.05"):
+    hints = "The surest" if tests[0].p_value <= 0.05 else "It goes with nothing; this is the outcome"
+    for part in (*told, f"{hints} of {len(tests)} comparisons, of which chance puts one in twenty below 0.05"):
         assert part in page
     for cell in (*(one.unknown for one in found.estimates), *(run.name for run in found.before)):
         assert f"<td>{cell}</td>" in page

@@ -104,7 +104,7 @@ def residual_torques(question: Question, models: Sequence[Model]) -> list[Residu
         times = recording.times[middle]
         rate = np.gradient(recording.theta, recording.times, axis=0)
         rate = rate if recording.theta_rate is None else recording.theta_rate
-        theta, tension = recording.theta[middle], np.array([recording.pull.at(t) for t in times])
+        theta, tension = recording.theta[middle], recording.pull.over(times)
         found.append(
             ResidualTorque(
                 recording.name,

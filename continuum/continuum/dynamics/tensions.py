@@ -45,6 +45,10 @@ class Tensions:
             return np.asarray(self.values[max(int(np.searchsorted(self.times, t, side="right")) - 1, 0)])
         return np.array([np.interp(t, self.times, column) for column in self.values.T])
 
+    def over(self, times: Array) -> Array:
+        """Tension of each cable at several times, (n_times, n_cables) [N]."""
+        return np.array([self.at(float(t)) for t in times])
+
     def later(self, delay: float) -> Tensions:
         """The same, by ``delay`` [s] later."""
         return replace(self, times=self.times + delay) if delay else self

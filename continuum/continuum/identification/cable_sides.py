@@ -24,7 +24,7 @@ def side_correlation(run: Recording) -> float | None:
     rows = max(1, round(_LENGTH / float(np.median(np.diff(run.times)))))
     if not run.is_driven or run.times.size < 3 * rows:
         return None
-    u = np.array([run.pull.at(t) for t in run.times])
+    u = run.pull.over(run.times)
     evenly = np.full(rows, 1 / rows)
     twice = np.convolve(evenly, evenly)
     difference, bend = (np.convolve(x, twice, "valid") for x in (u[:, 0] - u[:, 1], run.theta.mean(axis=1)))
@@ -41,7 +41,6 @@ def refuse_swapped_cables(run: Recording) -> None:
     """
     r = side_correlation(run)
     if r is not None and r < _OPPOSED:
-        told = (
-            "above -0.5, as cable 1 bends the arm towards positive angles: swap u1 and u2, or the signs of the angles"
-        )
-        raise InvalidValueError(f"{run.name}: correlation of bend with u1 - u2", round(r, 2), told)
+        cable_1 = "cable 1 bends the arm towards positive angles: swap u1 and u2, or the signs of the angles"
+        allowed = f"above {_OPPOSED}, as {cable_1}"
+        raise InvalidValueError(f"{run.name}: correlation of bend with u1 - u2", round(r, 2), allowed)

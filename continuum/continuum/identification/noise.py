@@ -174,13 +174,13 @@ def _wander(recordings: Sequence[Recording], white: Array, rate_white: Array, ti
             continue
         for first in range(0, recording.times.size - _LONGEST // 2, _LONGEST):
             rows = slice(first, first + _LONGEST)
-            gap = recording.theta[rows] - _added_up(recording.times[rows], recording.theta_rate[rows])
+            gap = recording.theta[rows] - _integral(recording.times[rows], recording.theta_rate[rows])
             score += _wander_score(recording.times[rows], gap / np.sqrt(np.diag(white)), share, time)
     return float(_WANDER_TRIED[np.argmax(score.max(axis=0))])
 
 
-def _added_up(times: Array, rate: Array) -> Array:
-    """Sum of the rates from the first sample on, (n_times, n_joints) [rad], a walk as what their noise adds up to."""
+def _integral(times: Array, rate: Array) -> Array:
+    """Of the rates from the first sample on, (n_times, n_joints) [rad]."""
     steps = (rate[1:] + rate[:-1]) / 2 * np.diff(times)[:, None]
     return np.concatenate([np.zeros((1, rate.shape[1])), np.cumsum(steps, axis=0)])
 

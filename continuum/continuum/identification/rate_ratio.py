@@ -28,10 +28,12 @@ def odd_rates(recordings: Sequence[Recording]) -> list[str]:
     told = _told("", rate_ratio(recordings), _ENOUGH)
     if told:
         return told
-    joints = range(recordings[0].n_joints)
     runs = [_told(f"{run.name}: ", rate_ratio([run]), _ENOUGH) for run in recordings]
-    sides = [_told(f"joint {j + 1}: ", rate_ratio(recordings, j), _ENOUGH_OF_A_JOINT) for j in joints]
-    return [sentence for found in (*runs, *sides) for sentence in found]
+    joints = [
+        _told(f"joint {joint + 1}: ", rate_ratio(recordings, joint), _ENOUGH_OF_A_JOINT)
+        for joint in range(recordings[0].n_joints)
+    ]
+    return [sentence for found in (*runs, *joints) for sentence in found]
 
 
 def _told(where: str, found: tuple[float, float], enough: float) -> list[str]:

@@ -104,20 +104,23 @@ def _complete(samples: Samples) -> NDArray[np.bool_]:
     return np.all(np.isfinite(np.column_stack([samples.times, *blocks])), axis=1)
 
 
+def _limited(samples: Samples) -> list[tuple[Array, float, str]]:
+    """What was measured, beyond what no arm of this kind has it, and what is told of such a value."""
+    blocks = (
+        (
+            samples.theta,
+            _LARGEST_ANGLE,
+            "joint angle of {:.3g} rad; no joint turns by more than 3.14: degrees taken for radians?",
+        ),
+        (samples.rate, _LARGEST_RATE, "joint rate of {:.3g} rad/s: degrees taken for radians?"),
+        (samples.pull, _LARGEST_TENSION, "tension of {:.3g} N: another unit?"),
+    )
+    return [(block, limit, what) for block, limit, what in blocks if block is not None]
+
+
 def _outliers(samples: Samples) -> NDArray[np.bool_]:
     """Few rows with a value too large for its unit, where all others are far from that: an error code, no unit."""
-    size = np.max(
-        [
-            np.max(np.abs(block), axis=1) / limit
-            for block, limit in (
-                (samples.theta, _LARGEST_ANGLE),
-                (samples.rate, _LARGEST_RATE),
-                (samples.pull, _LARGEST_TENSION),
-            )
-            if block is not None
-        ],
-        axis=0,
-    )
+    size = np.max([np.max(np.abs(block), axis=1) / limit for block, limit, _ in _limited(samples)], axis=0)
     large = size > 1
     few = 0 < np.count_nonzero(large) <= _MOST_BAD * large.size
     return large if few and np.max(size[~large]) < 1 / 2 else np.zeros_like(large)
@@ -186,11 +189,12 @@ def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:
 
 def _refuse_units(samples: Samples) -> None:
     """Refuse what is too large or small for its unit."""
+    for block, limit, what in _limited(samples):
+        rows = np.max(np.abs(block), axis=1)
+        if np.max(rows) > limit:
+            at = samples.numbers[int(np.argmax(rows))]
+            raise FileError(samples.path, f"{samples.row} {at}: a " + what.format(np.max(rows)))
     largest = float(np.max(np.abs(samples.theta)))
-    if largest > _LARGEST_ANGLE:
-        at = int(np.argmax(np.max(np.abs(samples.theta), axis=1)))
-        told = f"{samples.row} {samples.numbers[at]}: a joint angle of {largest:.3g} rad"
-        raise FileError(samples.path, f"{told}; no joint turns by more than 3.14: degrees taken for radians?")
     if largest < _LEAST_ANGLE:
         raise FileError(
             samples.path,
@@ -200,13 +204,6 @@ def _refuse_units(samples: Samples) -> None:
     if motion < _LEAST_MOTION:
         told = f"{np.degrees(motion):.2g} degrees, hardly more than sensors err: at least {np.degrees(_LEAST_MOTION):g}"
         raise FileError(samples.path, f"is of an arm whose joints move by at most {told} are needed")
-    for block, limit, what in (
-        (samples.rate, _LARGEST_RATE, "joint rate of {:.3g} rad/s: degrees taken for radians?"),
-        (samples.pull, _LARGEST_TENSION, "tension of {:.3g} N: another unit?"),
-    ):
-        if block is not None and np.max(np.abs(block)) > limit:
-            at = samples.numbers[int(np.argmax(np.max(np.abs(block), axis=1)))]
-            raise FileError(samples.path, f"{samples.row} {at}: a " + what.format(np.max(np.abs(block))))
     if samples.rate is not None:
         slopes = np.gradient(samples.theta, samples.times, axis=0)
         for joint, (slope, rate) in enumerate(zip(slopes.T, samples.rate.T, strict=True), start=1):

@@ -28,7 +28,7 @@ def write_motion_figure(motion: Trajectory, tensions: Tensions, p: Parameters, p
     Raises:
         FileError: the file cannot be written, or its format is not known.
     """
-    pull = np.array([tensions.at(t) for t in motion.times])
+    pull = tensions.over(motion.times)
     heights = {"angles": 1.5, "rates": 1.2} | ({"tensions": 0.8} if np.any(pull > 0) else {})
     figure = Figure(figsize=(12.5, 6.6), layout="constrained")
     panels = figure.subplot_mosaic(

@@ -20,7 +20,7 @@ def write_motion_table(motion: Trajectory, tensions: Tensions, path: str | Path)
     Raises:
         FileError: the file cannot be written.
     """
-    pull = np.maximum([tensions.at(t) for t in motion.times], 0.0)
+    pull = np.maximum(tensions.over(motion.times), 0.0)
     cables = [tension_column(cable) for cable in range(1, pull.shape[1] + 1)]
     names, columns = _of_joints(motion.times, motion.theta, motion.theta_rate)
     _write(path, [*names, *cables], np.concatenate([columns, pull], axis=1))
