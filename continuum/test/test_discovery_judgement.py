@@ -166,7 +166,8 @@ def test_causes_that_cannot_be_told_apart_share_the_confidence() -> None:
     assert [str(cause.addition) for cause in named] == ["tip_payload", "base_tilt"]
     assert named[0].confidence == pytest.approx(named[1].confidence) == pytest.approx(0.5, abs=0.02)
     for cause in named:
-        assert effect_named(cause.addition.effect).experiment in verdict.experiment
+        effect = cause.addition.effect
+        assert f"{effect}: {effect_named(effect).experiment}" in verdict.experiment
 
 
 def test_confidences_are_shares_and_fall_with_the_evidence() -> None:

@@ -67,6 +67,16 @@ def test_the_terminal_shows_models_that_there_are_and_angles_in_degrees(
     assert ("refitted -> extended model" in out) == (" -> " in out) == (kind is Kind.CAUSE)
 
 
+def test_the_terminal_calls_no_candidate_of_several_the_cause(capsys: pytest.CaptureFixture[str]) -> None:
+    for kind, title in ((Kind.CAUSE, "cause: "), (Kind.AMBIGUOUS, "may be: ")):
+        verdict = judged()[kind]
+        show(found(verdict))
+        lines = capsys.readouterr().out.splitlines()
+        named = [line for line in lines if line.startswith(("cause: ", "may be: "))]
+        assert len(named) == len(verdict.causes) + len(verdict.alternatives)
+        assert all(line.startswith(title) for line in named)
+
+
 def test_runs_stand_in_the_order_in_which_they_were_given() -> None:
     recordings = [replace(RUN, name=name) for name in ("b", "a", "c")]
     given = as_given([score(name, 0.1) for name in ("a", "c", "b")], recordings)

@@ -19,7 +19,7 @@ from continuum.discovery.held_out import held_out_misfits
 from continuum.discovery.in_words import identifiability_in_words, verdict_in_words
 from continuum.discovery.report_html import write_report
 from continuum.discovery.residual_torque import residual_torques
-from continuum.discovery.structure_tests import structure_tests
+from continuum.discovery.structure_tests import StructureTest, structure_tests
 from continuum.discovery.trial import TOLERANCES
 from continuum.discovery.verdict import Kind
 from continuum.discovery.verdict_json import as_mapping
@@ -140,12 +140,29 @@ def test_the_page_tells_the_verdict_and_all_that_it_rests_on(tmp_path: Path) -> 
     write_report(tmp_path / "page.html", diagnosis, found, (torques, None), tests, "Made by hand.")
     page = unescape((tmp_path / "page.html").read_text(encoding="utf-8"))
     told = (verdict_in_words(found.verdict), *identifiability_in_words(found.identifiability), "Made by hand.")
-    hints = "The surest" if tests[0].p_value <= 0.05 else "It goes with nothing; this is the outcome"
-    for part in (*told, f"{hints} of {len(tests)} comparisons, of which chance puts one in twenty below 0.05"):
+    for part in (*told, *("<th>extended</th>", "refitted -> extended")):
         assert part in page
     for cell in (*(one.unknown for one in found.estimates), *(run.name for run in found.before)):
         assert f"<td>{cell}</td>" in page
     assert page.count("data:image/png;base64,") == 2 + len(diagnosis.rounds)
+
+
+@pytest.mark.parametrize("p_value", [0.05, 0.051])
+def test_the_page_shows_hints_that_are_more_than_chance_and_no_model_that_is_not_there(
+    tmp_path: Path, p_value: float
+) -> None:
+    diagnosis = diagnosed(None, 2)
+    found = findings(diagnosis, np.random.default_rng(0))
+    torques = residual_torques(diagnosis.question, found.models)
+    tests = [StructureTest(0, "speed", 0.5, p_value), StructureTest(1, "position", 0.1, 0.9)]
+    write_report(tmp_path / "page.html", diagnosis, found, (torques, None), tests, "Made by hand.")
+    page = unescape((tmp_path / "page.html").read_text(encoding="utf-8"))
+    is_hint = p_value == 0.05
+    hints = "The surest" if is_hint else "It goes with nothing; this is the outcome"
+    assert f">{hints} of 2 comparisons, of which chance puts one in twenty below 0.05" in page
+    assert ("<td>speed</td>" in page) == is_hint
+    assert "<td>position</td><td>+0.10" not in page
+    assert "extended</th>" not in page
 
 
 @pytest.mark.parametrize("seed", [1, 2, 4])

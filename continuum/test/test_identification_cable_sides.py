@@ -45,7 +45,9 @@ def test_loose_cables_short_runs_and_a_held_arm_have_no_side(pulled: Recording) 
     assert side_correlation(opposed) is not None
     assert side_correlation(replace(opposed, tensions=None)) is None
     assert side_correlation(changed(pulled, swapped=True, mirrored=False, pull=0.1)) is None
-    assert side_correlation(opposed.rows(slice(0, 100))) is None
+    strong = changed(pulled, swapped=True, mirrored=False, pull=4.0)
+    for rows, is_short in ((179, True), (180, False)):  # a second and a half
+        assert (side_correlation(replace(strong.rows(slice(60, 60 + rows)))) is None) == is_short
     assert side_correlation(replace(opposed, theta=0.3 + 0.01 * opposed.theta)) is None
 
 

@@ -15,6 +15,7 @@ from continuum.discovery.findings import findings
 from continuum.discovery.in_words import verdict_in_words
 from continuum.discovery.judgement import contradicted
 from continuum.discovery.verdict import Kind
+from continuum.discovery.verdict_json import as_mapping
 from continuum.identification.dataset import Dataset
 from continuum.identification.rate_ratio import odd_rates, rate_ratio
 from continuum.identification.recording import Recording
@@ -92,6 +93,21 @@ def test_few_samples_of_a_swing_are_no_fault(every: int) -> None:
         assert abs(rate_ratio(sparse)[0] - 1) < 0.03
 
 
+def test_slips_between_samples_make_it_less_sure() -> None:
+    """What every second sample alone says of six slips, of which each is over after two or three samples."""
+    random, times = np.random.default_rng(1), np.arange(9000) / 3000
+    rate = np.zeros((times.size, N))
+    for joint in range(N):
+        for start in random.uniform(0, 2.9, 6):
+            slips = (times >= start) & (times < start + random.uniform(0.03, 0.1))
+            rate[slips, joint] = random.choice([-1, 1]) * random.uniform(2, 5)
+    rows = slice(None, None, 100)
+    run = Recording("slips", times[rows], np.cumsum(rate, axis=0)[rows] / 3000, rate[rows])
+    ratio, deviation = rate_ratio([run])
+    assert deviation > max(abs(rate_ratio([run.rows(slice(i, None, 2))])[0] - ratio) for i in (0, 1)) > 0.1
+    assert not odd_rates([run])
+
+
 def test_one_recording_and_one_joint_that_are_off_are_named() -> None:
     sound = runs(count=8)
     (told,) = odd_rates([*sound[:7], slow_clock(sound[7], 0.9)])
@@ -116,6 +132,7 @@ def test_a_diagnosis_minds_it(by: float) -> None:
     assert any("their rates add up to" in note for note in found.notes) == is_odd
     assert found.verdict.at_odds == ("contradict themselves" in verdict_in_words(found.verdict)) == is_odd
     assert found.verdict.kind is Kind.UNKNOWN or not is_odd
+    assert as_mapping(found)["at_odds"] == is_odd
 
 
 def test_what_contradicts_itself_has_no_cause() -> None:
