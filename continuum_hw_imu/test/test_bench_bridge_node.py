@@ -170,13 +170,24 @@ def test_stop_latches_until_it_is_reset(active):
 
 
 def test_two_commanders_are_refused(active):
+    """From when the bridge knows of the second, what the first pulled included."""
+
+    def refused() -> int:
+        return active.probe.count(active.name, "dropped: several commanders")
+
+    def pulled() -> float:
+        return active.bench.status["set_points"][0]
+
+    active.pull([5.0, 0.0], lambda: pulled() > 4.9)
     other = active.probe.speaker(CableStates, "cable_tension_cmd")
     try:
-        active.pull([5.0, 0.0], lambda: active.probe.count(active.name, "dropped: several commanders") > 3)
+        active.pull([5.0, 0.0], lambda: refused() > 3 and not pulled())
+        before = refused()
+        active.pull([5.0, 0.0], lambda: refused() > before + 3)
         assert not any(active.bench.status["set_points"])
     finally:
         active.probe.node.destroy_publisher(other)
-    active.pull([5.0, 0.0], lambda: active.bench.status["set_points"][0] > 4.9)
+    active.pull([5.0, 0.0], lambda: pulled() > 4.9)
 
 
 def test_a_second_bridge_does_not_get_the_port(bridge, bench, domain):
