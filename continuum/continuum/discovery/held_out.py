@@ -2,6 +2,13 @@
 
 Windows are nearly linear in the shared unknowns, so that the fit without a run follows from the fit with it by one
 step of Newton's method (Cook 1977, for whole runs instead of single points): x + (H - H_r)^-1 g_r.
+
+What the other runs leave uncertain makes a prediction uncertain, and counts as such (log predictive density): of errors
+e with slopes J the misfit is
+
+  e^T C^-1 e + log det C,     C = I + J (H - H_r)^-1 J^T.
+
+A threshold that only one run crosses is known from no other; its effect is then no worse than none for that.
 """
 
 from __future__ import annotations
@@ -10,7 +17,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.price_of_own import own_prices
-from continuum.identification.arrow_least_squares import MOST_MISFIT, Part, misfit_of, reduced, weight_of
+from continuum.identification.arrow_least_squares import MOST_MISFIT, misfit, reduced, weight_of
 from continuum.identification.fit import Fit
 
 
@@ -38,11 +45,16 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
         rest[mine] = rest[:, mine] = 0.0
         rest[mine, mine] = 1.0
         pull[mine] = 0.0
-        step = np.linalg.solve(rest + 1e-9 * np.diag(np.diag(rest)), pull)
+        rest += 1e-9 * np.diag(np.diag(rest))
+        step = np.linalg.solve(rest, pull)
         step = np.clip(fitted.coordinates + step, fitted.space.lower, fitted.space.upper) - fitted.coordinates
+        uncertain = np.linalg.inv(np.linalg.cholesky(rest)).T[:, ~mine]
         price = 0.0 if single else prices_of_own[number] / len(group)
         prices = [price + _price_of_states(fitted, i) for i in group]
-        found.append(np.array([_predicted(fitted.parts[i], slopes[i] @ step) for i in group]) + prices)
+        found.append(
+            np.array([_predicted(fitted.parts[i].errors + slopes[i] @ step, slopes[i] @ uncertain) for i in group])
+            + prices
+        )
     return found
 
 
@@ -70,5 +82,9 @@ def _groups(fitted: Fit) -> list[list[int]]:
     return [list(map(int, piece)) for piece in np.array_split(runs[0], min(4, len(runs[0])))]
 
 
-def _predicted(part: Part, change: Array) -> float:
-    return misfit_of(Part(part.errors + change, part.by_shared, part.by_own))
+def _predicted(errors: Array, uncertain: Array) -> float:
+    """Misfit of errors (m,) of variance 1, and of ``uncertain`` (m, k) times k unknowns of variance 1 besides."""
+    beside = np.eye(uncertain.shape[1]) + uncertain.T @ uncertain
+    pull = uncertain.T @ errors
+    square = float(errors @ errors - pull @ np.linalg.solve(beside, pull))
+    return misfit(square, errors.size) + float(np.linalg.slogdet(beside)[1])

@@ -150,19 +150,22 @@ def _has_stalled(costs: Sequence[float]) -> bool:
 
 def misfit_of(part: Part) -> float:
     """Twice the negative log-likelihood of a window, but for a constant: its squared errors while those are noise."""
-    m, s = part.errors.size, float(part.errors @ part.errors)
-    beyond = _beyond(part)
-    return min(s, _NOISE * m) + m * _TAIL * float(np.log1p(beyond / _TAIL))
+    return misfit(float(part.errors @ part.errors), part.errors.size)
+
+
+def misfit(square: float, size: int) -> float:
+    """The same by the sum of ``size`` squared errors."""
+    return min(square, _NOISE * size) + size * _TAIL * float(np.log1p(_beyond(square, size) / _TAIL))
 
 
 def weight_of(part: Part) -> float:
     """Weight of a window's squared errors, the slope of `misfit_of`: 1 where they are those of noise, less beyond."""
-    return _TAIL / (_beyond(part) + _TAIL)
+    return _TAIL / (_beyond(float(part.errors @ part.errors), part.errors.size) + _TAIL)
 
 
-def _beyond(part: Part) -> float:
+def _beyond(square: float, size: int) -> float:
     """Mean squared error beyond that of noise."""
-    return max(float(part.errors @ part.errors) / part.errors.size - _NOISE, 0.0)
+    return max(square / size - _NOISE, 0.0)
 
 
 def shared_information(unknowns: Unknowns, parts: Sequence[Part]) -> Array:
