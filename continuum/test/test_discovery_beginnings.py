@@ -37,7 +37,7 @@ def test_a_fit_of_loose_cables_begins_at_the_nearest_of_the_beginnings(slack: fl
     assert values_of(begun)["least"] == min((0.1, 0.3, 1.0, 3.0), key=lambda other: abs(np.log(other / least)))
     assert values_of(begun)["slack"] == min((0.005, 0.015), key=lambda other: abs(np.log(other / slack)))
     found = values_of(judged(SLACK, fit_extension(question, SLACK, begun, to_the_end=True)))
-    assert found["slack"] == pytest.approx(slack, rel=0.1)
+    assert found["slack"] == pytest.approx(slack, rel=0.15)  # a longer one, of motors that hesitate less, is as likely
     assert found["least"] == pytest.approx(least, rel=0.3)  # passed in a millisecond, as a little slack is
 
 

@@ -42,6 +42,8 @@ from continuum.dynamics.values import parameter_slots, parameter_vector, with_ve
 each_effect = pytest.mark.parametrize("name", EFFECTS)
 U = np.array([3.0, 1.5])
 TIMES = np.linspace(0.0, 0.3, 13)
+STEPS = {"slack_cable.blur": 1e-2}
+"""Of parameters that move a run so little that smaller steps drown in rounding, in typical sizes."""
 UNIT = re.compile(r"(1|(N|m|s|kg|rad)\d?( (N|m|s|kg|rad)\d?)*)(/((m|s|kg|rad)\d?|\(N m\)))?")
 
 
@@ -163,7 +165,7 @@ def test_a_release_of_the_prototype_and_its_slopes(name: str, times_typical: flo
     assert run.status is SimulationStatus.COMPLETE
     assert np.all(np.isfinite(run.slopes))
     for column, (key, parameter) in enumerate(own.items()):
-        step = 1e-4 if times_typical or not is_size(parameter) else 1e-5
+        step = STEPS.get(f"{name}.{key}", 1e-4 if times_typical or not is_size(parameter) else 1e-5)
         lowest = min(p[slots[f"{name}.{key}"]]) - 2 * step * parameter.typical < parameter.lower
         shifts, weights = ((0, 1, 2), (-1.5, 2.0, -0.5)) if lowest else ((-1, 0, 1), (-0.5, 0.0, 0.5))
         runs = [fast.run(x0, TIMES, PULLS, p + step * k * free[:, column]) for k in shifts]

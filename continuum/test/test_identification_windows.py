@@ -50,7 +50,7 @@ EFFECTS = {
     "presliding": (Free("presliding.angle"),),
     "base_compliance": (Free("base_compliance.compliance"), Free("base_compliance.frequency")),
     "backlash": (Free("backlash.gap", 0),),
-    "slack_cable": tuple(Free(f"slack_cable.{name}") for name in ("slack", "speed", "least", "taut")),
+    "slack_cable": tuple(Free(f"slack_cable.{name}") for name in ("slack", "speed", "least", "blur", "taut")),
 }
 SUDDEN = Tolerances(3e-9, 3e-10, 0.001)  # where a motor that is told ever less suddenly lets go
 STEP = 0.004

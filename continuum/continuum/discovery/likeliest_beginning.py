@@ -21,7 +21,7 @@ from continuum.identification.free import Free
 
 _IN_A_ROW = 2  # delays
 _LONGEST = 3.0  # typical sizes
-_ITERATIONS = 1
+_ITERATIONS = 2
 
 
 def with_likeliest_beginning(question: Question, extension: Extension, near: Trial, steps: int) -> Trial:

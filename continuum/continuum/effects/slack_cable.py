@@ -2,9 +2,9 @@
 
 g is the way that is still to be wound up, between 0 and slack, L the cable's way through the arm. It grows and
 shrinks with the arm and the motor, which winds up at a speed v where it is told more than u_0 and lets go where less,
-and stops within w / 4 of both ends:
+and stops within w / 4 of both ends; within b u_0 of u_0 it does a little of either:
 
-  g' = r,      r = -L' - v s,      s = tanh(10 (u / u_0 - 1)),
+  g' = r,      r = -L' - v s,      s = tanh((u / u_0 - 1) / b),
   times tanh(4 (slack - g) / w) where r > 0, tanh(4 g / w) where r < 0.
 
 Without slack g stays 0 and the cable pulls as it is told.
@@ -28,7 +28,6 @@ from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.cables import lengthening_rate
 
-_SHARP = 10.0  # how sharply a motor tells winding up from letting go
 _ENDS = 4.0  # ways from loose to taut are so much longer than the ends in which g stops
 
 
@@ -40,6 +39,7 @@ class SlackCable(Effect):
         "slack": Parameter("s", "m", 0.0, 0.2, False, "by which a cable that is not pulled hangs loose", 0.0, 0.01),
         "speed": Parameter("v", "m/s", 0.02, 5.0, False, "at which a motor winds up what hangs loose", 0.3, 0.2),
         "least": Parameter("u_0", "N", 0.01, 5.0, False, "tension below which a motor lets the cable hang", 0.3, 0.3),
+        "blur": Parameter("b", "1", 0.04, 1.0, False, "part of u_0 around it in which a motor changes over", 0.1, 0.1),
         "taut": Parameter("w", "m", 5e-5, 1e-2, False, "way from loose to taut", 5e-4, 5e-4),
     }
     needs_tension = True
@@ -60,7 +60,7 @@ class SlackCable(Effect):
         return where_positive(-u, u, pulling)  # one that was let go is, however loose
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        winding = np.tanh(_SHARP * (now.u / own["least"] - 1))
+        winding = np.tanh((now.u / own["least"] - 1) / own["blur"])
         rate = -lengthening_rate(now.motion, now.p) - own["speed"] * winding
         until_loose, until_taut = own["slack"] - state, state
         loosening = positive_part(rate) * np.tanh(_ENDS * until_loose / own["taut"])
