@@ -20,12 +20,6 @@ SEED = 40  # of the first case; every one has an arm of its own
 DRIVEN = ("multisine", "hold_and_release", "steps")
 SECONDS = 2.0  # of a driven recording
 
-KNOWN_MISSES = {
-    "backlash": "a loose joint's stops forget nothing: states handed from window to window are not good enough",
-    "slack_cable": "it helps and its size is right, but one that comes taut half a millisecond late is off by newtons",
-}
-"""What is not found, by effect, or "clean, DATASET", and why; a wrong cause fails all the same."""
-
 
 @dataclass(frozen=True)
 class Hidden:
@@ -74,16 +68,12 @@ def test_the_answer_fits_what_is_hidden(name: str, verdicts: Verdicts) -> None:
     truth, verdict = verdicts[name].result()
     given = answer(truth.plain()["effects"], verdict)
     told = f"{given.value}: hidden {shown(truth)}, verdict {verdict['verdict']} {named(verdict)}"
-    assert given not in (Answer.WRONG_CAUSE, Answer.WRONG_JOINT), told  # never, known misses included
     good = (Answer.RIGHT, Answer.PART, Answer.SET) if truth.in_a_library else (Answer.RIGHT,)
-    if given not in good and name in KNOWN_MISSES:
-        pytest.xfail(f"{KNOWN_MISSES[name]}; {told}")
     assert given in good, told
 
 
 def test_every_effect_is_hidden_once() -> None:
     assert sorted(name for case in CASES.values() for name in case.effects) == sorted((*LIBRARY, *OUTSIDE))
-    assert {*KNOWN_MISSES} <= {*CASES}
 
 
 def shown(truth: Truth) -> str:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from blind.plant import EFFECTS, LIBRARY, OUTSIDE, Case, Machine, make_case, prototype
+from blind.plant.chain import BALL_INERTIA, BALL_MASS, without_ball
 from blind.plant.parameters import GRAVITY
 from blind.plant.sensors import ORDINARY
 
@@ -93,3 +94,49 @@ def test_what_load_cells_show_is_more_than_what_pulls() -> None:
     machine = Machine(prototype(), [EFFECTS["tension_scale"](0.2)], np.random.default_rng(0))
     machine.step(np.array([12.0, 11.0]))
     np.testing.assert_allclose(machine.pulling, [10.0, 10.0])
+
+
+def test_a_ball_and_what_is_beyond_it_are_the_link() -> None:
+    """Mass, first moment about the joint, and moment of inertia about it."""
+    mass, centre, inertia = without_ball(0.22, 0.019, 8e-5)
+    assert mass + BALL_MASS == pytest.approx(0.22)
+    assert mass * centre == pytest.approx(0.22 * 0.019)
+    assert inertia + mass * centre**2 + BALL_INERTIA == pytest.approx(8e-5 + 0.22 * 0.019**2)
+
+
+def test_play_ends_at_its_stops_and_what_is_pressed_to_them_stays() -> None:
+    """Hard stops give way by 1 mrad at most, and no ball flies off one that it is pressed to."""
+    machine = Machine(prototype(), [EFFECTS["backlash"](0.015, 2)], np.random.default_rng(0))
+    machine.pull_to(1.5)
+    play, steps = machine.dof("play_2"), 120 * machine.steps // 2
+    told = np.empty((steps, 2))
+    for row in told:
+        machine.step(np.zeros(2))
+        row[:] = machine.data.qpos[play], machine.data.qvel[play]
+    angle, rate = told.T
+    assert np.ptp(angle) > 0.029  # from stop to stop
+    assert np.abs(angle).max() < 0.015 + 1e-3
+    assert np.abs(np.diff(rate)).max() < 1.0
+
+
+def pulled(machine: Machine, command: list[float], steps: int) -> np.ndarray:
+    """Tension of the first cable [N] at so many instants, told from the first on."""
+    found = []
+    for _ in range(steps):
+        machine.step(np.array(command))
+        found.append(machine.pulling[0])
+    return np.array(found)
+
+
+def test_a_lag_begins_at_the_instant_of_the_command() -> None:
+    machine = Machine(prototype(), [EFFECTS["actuator_lag"](0.02)], np.random.default_rng(0))
+    since = machine.dt * np.arange(200)
+    np.testing.assert_allclose(pulled(machine, [12.0, 0.0], 200), 12 * (1 - np.exp(-since / 0.02)), rtol=1e-9)
+
+
+def test_a_sag_is_reeled_in_from_the_instant_of_the_command() -> None:
+    """Half a step late at most: the arm hangs still until the cable is nearly taut."""
+    machine = Machine(prototype(), [EFFECTS["slack_cable"](0.004)], np.random.default_rng(0))
+    reeled_in = (0.004 - 0.001) / 0.3
+    tension = pulled(machine, [12.0, 0.0], round(1.2 * reeled_in / machine.dt))
+    assert np.flatnonzero(tension)[0] == np.ceil(reeled_in / machine.dt)

@@ -10,8 +10,8 @@ from blind.plant.parameters import JOINTS, Parameters
 
 CABLES = (1, 2)
 BALL_MASS = 0.03  # of the piece between a joint and its play [kg]
-BALL_INERTIA = 1e-5  # [kg m^2]
-STOP_TIME = 0.002  # time constant of the stops of a play, critically damped [s]
+BALL_INERTIA = 5e-5  # [kg m^2]
+STOP_TIME = 0.0005  # time constant of the stops of a play, critically damped [s]
 PLATE_MASS = 0.4  # of a base plate that can turn [kg]
 PLATE_INERTIA = 5e-4  # [kg m^2]
 POINT_INERTIA = 1e-9  # of bodies meant as points [kg m^2]
@@ -24,6 +24,7 @@ class Chain:
     Attributes:
         p: parameters of the arm.
         play: half clearance of joints with play [rad] by joint.
+        finer: how many times more steps the integrator needs.
         base_hinge: stiffness [N m/rad] and damping [N m s/rad] of the hinge that carries the base plate, if any.
         loads: point masses by name: link, distance beyond the link's joint [m], mass [kg].
         straps: attributes of elastic straps from a point of the world to a point of a link, by name: link, point of the
@@ -32,6 +33,7 @@ class Chain:
 
     p: Parameters
     play: dict[int, float] = field(default_factory=dict)
+    finer: int = 1
     base_hinge: tuple[float, float] | None = None
     loads: dict[str, tuple[int, float, float]] = field(default_factory=dict)
     straps: dict[str, tuple[int, tuple[float, float], tuple[float, float], dict[str, float]]] = field(
@@ -67,12 +69,13 @@ class Chain:
         spring = f'stiffness="{p.stiffness[i - 1]:.17g}" springref="{p.rest_angle[i - 1]:.17g}"'
         friction = f'damping="{p.viscous[i - 1]:.17g}" frictionloss="{p.coulomb[i - 1]:.17g}"'
         hinge = f'<joint name="joint_{i}" axis="0 -1 0" {spring} {friction}/>'
-        mass, at = p.mass[i - 1], f'pos="0 0 {-(b if i == 1 else 2 * b):.17g}"'
+        mass, centre, inertia, at = p.mass[i - 1], b, p.inertia[i - 1], f'pos="0 0 {-(b if i == 1 else 2 * b):.17g}"'
         if i in self.play:
             limits = f'range="{-self.play[i]:.17g} {self.play[i]:.17g}" limited="true" damping="2e-4"'
             ball = f"<body {at}>{hinge}{inertial(BALL_MASS, BALL_INERTIA)}"
             opening = f'{ball}<body><joint name="play_{i}" axis="0 -1 0" {limits}/>'
-            mass, closing = mass - BALL_MASS, "</body></body>"
+            mass, centre, inertia = without_ball(mass, centre, inertia)
+            closing = "</body></body>"
         else:
             opening, closing = f"<body {at}>{hinge}", "</body>"
         loads = "".join(
@@ -86,7 +89,7 @@ class Chain:
             if link == i
         )
         rest = self._link(i + 1) if i < JOINTS else ""
-        return f"{opening}{inertial(mass, p.inertia[i - 1], -b)}{self._holes(i, -b)}{ends}{loads}{rest}{closing}"
+        return f"{opening}{inertial(mass, inertia, -centre)}{self._holes(i, -b)}{ends}{loads}{rest}{closing}"
 
     def _holes(self, disc: int, z: float) -> str:
         sides = zip(CABLES, (self.p.hole_radius, -self.p.hole_radius), strict=True)
@@ -117,6 +120,16 @@ class Chain:
             f'<site site="{name}_world"/><site site="{name}_link"/></spatial>'
             for name, (_, _, _, attributes) in self.straps.items()
         )
+
+
+def without_ball(mass: float, centre: float, inertia: float) -> tuple[float, float, float]:
+    """The rest of a link whose ball is a piece of its own, so that with the ball at its joint it is that link.
+
+    Mass [kg], its centre beyond the joint [m], inertia about that [kg m^2]; of the link, and of what is left of it.
+    """
+    rest = mass - BALL_MASS
+    there = centre * mass / rest
+    return rest, there, inertia + mass * centre**2 - BALL_INERTIA - rest * there**2
 
 
 def inertial(mass: float, inertia: float, z: float = 0.0) -> str:

@@ -72,8 +72,8 @@ class Machine:
         chain = Chain(p)
         for effect in effects:
             effect.build(chain)
-        self.p, self.rng, self.steps, self.duration = p, rng, steps, duration
-        self.dt = 1 / (RATE * steps)
+        self.p, self.rng, self.steps, self.duration = p, rng, steps * chain.finer, duration
+        self.dt = 1 / (RATE * self.steps)
         self.model = mujoco.MjModel.from_xml_string(chain.mjcf(self.dt))
         self.data = mujoco.MjData(self.model)
         self.plumb = GRAVITY * np.array([-np.sin(p.base_tilt), 0.0, -np.cos(p.base_tilt)])

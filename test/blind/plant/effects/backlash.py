@@ -3,12 +3,14 @@
 from blind.plant.chain import Chain
 from blind.plant.effect import Effect
 
+FINER = 4  # steps: light as it is, the ball may not fly off a stop that it is pressed to within one
+
 
 class Backlash(Effect):
     """One joint has play: a second hinge in series, free within +-c [rad] between hard stops.
 
-    Spring and friction are between the upper link and the ball, the play between the ball (with its ring 30 g) and
-    the lower link. The measured angle is that of both.
+    Spring and friction are between the upper link and the ball, the play between the ball (with its ring 30 g of the
+    link) and the lower link. The measured angle is that of both.
     """
 
     name, unit, sizes, at_a_joint = "backlash", "rad", (0.006, 0.018, 0.045), True
@@ -16,3 +18,4 @@ class Backlash(Effect):
     def build(self, chain: Chain) -> None:
         if self.amount:
             chain.play[self.joint] = self.amount
+            chain.finer = FINER

@@ -67,12 +67,13 @@ class SlackCable(Effect):
 
     def pull(self, machine: "Machine") -> Pull:
         dt, before, sag = machine.dt, machine.cable_length().copy(), np.full(2, self.amount)
+        reel = np.full(2, self.speed)
 
         def after_the_sag(command: np.ndarray) -> np.ndarray:
-            nonlocal before, sag
+            nonlocal before, sag, reel
             now = machine.cable_length().copy()
-            reel = np.where(command > self.threshold, -self.speed, self.speed)
             sag = np.clip(sag + dt * reel - (now - before), 0.0, self.amount)
+            reel = np.where(command > self.threshold, -self.speed, self.speed)  # from now on
             before = now
             return command * np.maximum(0.0, 1 - sag / self.taut_within)
 
@@ -90,8 +91,8 @@ class ActuatorLag(Effect):
 
         def late(command: np.ndarray) -> np.ndarray:
             nonlocal tension
-            before, tension = tension, command + keep * (tension - command)
-            return (before + tension) / 2
+            now, tension = tension, command + keep * (tension - command)
+            return now
 
         return late
 
