@@ -22,6 +22,10 @@ class InvalidValueError(ContinuumError, ValueError):
         self.allowed = allowed
         super().__init__(f"{name} is {value!r}; allowed: {allowed}")
 
+    def __reduce__(self) -> tuple[type[InvalidValueError], tuple[str, object, str]]:
+        """As it is from process to process."""
+        return type(self), (self.name, self.value, self.allowed)
+
 
 class FileError(ContinuumError, OSError):
     """A file is missing, unreadable or not of the expected form."""
@@ -30,6 +34,10 @@ class FileError(ContinuumError, OSError):
         self.path = path
         self.problem = problem
         super().__init__(f"{path}: {problem}")
+
+    def __reduce__(self) -> tuple[type[FileError], tuple[object, str]]:
+        """As it is from process to process."""
+        return type(self), (self.path, self.problem)
 
 
 class MeasurementError(ContinuumError):
