@@ -66,3 +66,14 @@ def test_what_one_run_alone_tells_is_not_held_against_it() -> None:
     without = held_out_misfits(linear_fit(slopes, slopes @ np.array([0.0, 1.0, 0.2, -1.0]) + noise))[0][0]
     assert alone == pytest.approx(without, abs=5.0)
     assert alone < 2 * ERRORS
+
+
+def test_rounding_makes_no_unknown_less_known_than_its_prior() -> None:
+    """Of one that a single run tells, a hundred million times better than the prior, nothing is left but rounding."""
+    slopes, _ = drawn(0)
+    slopes[1:, :, :, 0] = 0.0
+    slopes[0, :, :, 0] *= 1e9
+    noise = 0.7 * np.random.default_rng(1).normal(size=(RUNS, WINDOWS, ERRORS))
+    for run in held_out_misfits(linear_fit(slopes, noise)):
+        assert np.all(run > 0)
+        assert np.all(run < 6 * ERRORS)

@@ -41,14 +41,9 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
         mine = np.array([u.recording == number and not single for u in fitted.space.unknowns], dtype=bool)
         square = sum((weights[i] * slopes[i].T @ slopes[i] for i in group), np.zeros_like(fitted.information))
         pull = sum((weights[i] * slopes[i].T @ fitted.parts[i].errors for i in group), np.zeros(mine.size))
-        rest = fitted.information - square
-        rest[mine] = rest[:, mine] = 0.0
-        rest[mine, mine] = 1.0
-        pull[mine] = 0.0
-        rest += 1e-9 * np.diag(np.diag(rest))
-        step = np.linalg.solve(rest, pull)
+        uncertain = _uncertain(fitted.information - square, fitted.unknowns.spread, mine)
+        step = uncertain @ (uncertain.T @ pull)
         step = np.clip(fitted.coordinates + step, fitted.space.lower, fitted.space.upper) - fitted.coordinates
-        uncertain = np.linalg.inv(np.linalg.cholesky(rest)).T[:, ~mine]
         price = 0.0 if single else prices_of_own[number] / len(group)
         prices = [price + _price_of_states(fitted, i) for i in group]
         found.append(
@@ -56,6 +51,21 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
             + prices
         )
     return found
+
+
+def _uncertain(information: Array, spread: Array, known: Array) -> Array:
+    """A root U of the covariance U U^T of unknowns (k,) of such information, (k, k), but for those that are known.
+
+    No unknown is less known than by its prior, of standard deviation ``spread``; rounding may say otherwise where
+    others are known a million times better.
+    """
+    scaled = spread[:, None] * information * spread
+    scaled[known] = scaled[:, known] = 0.0
+    scaled[known, known] = 1.0
+    eigenvalues, vectors = np.linalg.eigh(scaled)
+    root = spread[:, None] * vectors / np.sqrt(np.maximum(eigenvalues, 1.0))
+    root[known] = 0.0
+    return np.asarray(root)
 
 
 def _price_of_states(fitted: Fit, window: int) -> float:
