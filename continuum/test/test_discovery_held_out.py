@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from continuum.discovery.held_out import held_out_misfits
-from continuum.identification.arrow_least_squares import FitStatus, Part, Unknowns
+from continuum.identification.arrow_least_squares import FitStatus, Part, Unknowns, misfit_of
 from continuum.identification.fit import Fit
 from continuum.identification.free import Free
 
@@ -44,28 +45,60 @@ def drawn(seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_it_is_the_density_of_what_was_measured_given_the_other_runs(seed: int) -> None:
+def test_it_is_the_density_of_what_was_measured_given_the_other_runs_and_the_windows_before(seed: int) -> None:
     slopes, measured = drawn(seed)
     found = held_out_misfits(linear_fit(slopes, measured))
     for number in range(RUNS):
-        others = np.delete(slopes, number, axis=0).reshape(-1, UNKNOWNS)
-        covariance = np.linalg.inv(others.T @ others + np.diag(SPREAD**-2.0))
-        mean = covariance @ others.T @ np.delete(measured, number, axis=0).ravel()
-        for window, seen, misfit in zip(slopes[number], measured[number], found[number], strict=True):
-            of_it = multivariate_normal(window @ mean, np.eye(ERRORS) + window @ covariance @ window.T)
-            assert misfit == pytest.approx(-2 * of_it.logpdf(seen) - ERRORS * np.log(2 * np.pi), rel=1e-6)
+        for window in range(WINDOWS):
+            known = np.ones((RUNS, WINDOWS), dtype=bool)
+            known[number, window:] = False
+            others = slopes[known].reshape(-1, UNKNOWNS)
+            covariance = np.linalg.inv(others.T @ others + np.diag(SPREAD**-2.0))
+            mean, here = covariance @ others.T @ measured[known].ravel(), slopes[number, window]
+            of_it = multivariate_normal(here @ mean, np.eye(ERRORS) + here @ covariance @ here.T)
+            expected = -2 * of_it.logpdf(measured[number, window]) - ERRORS * np.log(2 * np.pi)
+            assert found[number][window] == pytest.approx(expected, rel=1e-6)
 
 
-def test_what_one_run_alone_tells_is_not_held_against_it() -> None:
-    """The others leave it as uncertain as it was; what it moves there is no misfit, but for its price."""
+@pytest.mark.parametrize("times_better", [1.0, 30.0, 1000.0])
+def test_an_unknown_that_one_run_alone_tells_is_paid_for_once(times_better: float) -> None:
+    """Beside the model without it, where it is nothing: by Occam's factor, half the logarithm of what is gained."""
     slopes, _ = drawn(0)
     slopes[1:, :, :, 0] = 0.0
-    slopes[0, 0, :, 0] *= 30.0
+    slopes[0, :, :, 0] *= times_better
     noise = 0.7 * np.random.default_rng(1).normal(size=(RUNS, WINDOWS, ERRORS))
-    alone = held_out_misfits(linear_fit(slopes, slopes @ np.array([0.8, 1.0, 0.2, -1.0]) + noise))[0][0]
-    without = held_out_misfits(linear_fit(slopes, slopes @ np.array([0.0, 1.0, 0.2, -1.0]) + noise))[0][0]
-    assert alone == pytest.approx(without, abs=5.0)
-    assert alone < 2 * ERRORS
+    without = slopes.copy()
+    without[..., 0] = 0.0
+    told = float(np.sum(slopes[..., 0] ** 2)) * SPREAD[0] ** 2
+    paid = sum(run.sum() for run in held_out_misfits(linear_fit(slopes, noise))) - sum(
+        run.sum() for run in held_out_misfits(linear_fit(without, noise))
+    )
+    assert 0 < paid < np.log(1 + told) + 1
+
+
+def test_windows_of_a_run_have_to_agree_on_what_it_alone_tells() -> None:
+    """One value each would explain them all: a run is no better predicted than the fit to it explains it."""
+    slopes, _ = drawn(0)
+    slopes[1:, :, :, 0] = 0.0
+    slopes[0, :, :, 0] *= 5.0
+    needed = slopes[0, :, :, 0] * np.array([1.0, -1.0])[:, None]
+    measured = 0.3 * np.random.default_rng(1).normal(size=(RUNS, WINDOWS, ERRORS))
+    measured[0] += 0.25 * needed
+    fitted = linear_fit(slopes, measured)
+    first, second = held_out_misfits(fitted)[0]
+    assert first + second > sum(misfit_of(part) for part in fitted.parts[:WINDOWS])
+    assert second > 2 * ERRORS
+
+
+def test_an_unknown_at_its_bound_stays_there() -> None:
+    """The fit's gradient points out of it: no step of Newton's method starts there."""
+    slopes, measured = drawn(0)
+    free = linear_fit(slopes, measured)
+    held = replace(
+        free, space=SimpleNamespace(unknowns=free.space.unknowns, lower=free.coordinates, upper=-free.space.lower)
+    )
+    for run, parts in zip(held_out_misfits(held), np.split(np.arange(RUNS * WINDOWS), RUNS), strict=True):
+        np.testing.assert_allclose(run, [misfit_of(free.parts[i]) for i in parts])
 
 
 def test_rounding_makes_no_unknown_less_known_than_its_prior() -> None:

@@ -135,7 +135,7 @@ def test_a_lag_begins_at_the_instant_of_the_command() -> None:
 
 
 def test_a_sag_is_reeled_in_from_the_instant_of_the_command() -> None:
-    """Half a step late at most: the arm hangs still until the cable is nearly taut."""
+    """Less than a step late: the arm hangs still until the cable is nearly taut."""
     machine = Machine(prototype(), [EFFECTS["slack_cable"](0.004)], np.random.default_rng(0))
     reeled_in = (0.004 - 0.001) / 0.3
     tension = pulled(machine, [12.0, 0.0], round(1.2 * reeled_in / machine.dt))

@@ -3,17 +3,21 @@
 Windows are nearly linear in the shared unknowns, so that the fit without a run follows from the fit with it by one
 step of Newton's method (Cook 1977, for whole runs instead of single points): x + (H - H_r)^-1 g_r.
 
-What the other runs leave uncertain makes a prediction uncertain, and counts as such (log predictive density): of errors
-e with slopes J the misfit is
+What the other runs leave uncertain makes a prediction uncertain, and counts as such (log predictive density). Windows
+of a run are predicted one after another, each also by those before it: a value that one run alone tells is paid for
+where it first shows, and the run's later windows have to agree with it. Of a window's errors e with slopes J the
+misfit is
 
-  e^T C^-1 e + log det C,     C = I + J (H - H_r)^-1 J^T.
+  e^T C^-1 e + log det C,     C = I + J (H - H_s)^-1 J^T,
 
-A threshold that only one run crosses is known from no other; its effect is then no worse than none for that.
+with H_s the information of this window and of those of its run that come after it. Summed over a run that is minus
+twice the logarithm of the density of all its windows given the other runs (chain rule), but for a constant.
 """
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.discovery.price_of_own import own_prices
@@ -34,26 +38,28 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
         nothing = MOST_MISFIT * np.concatenate([run.errors_by_window for run in fitted.runs])
         return [nothing[group] for group in groups]
     slopes = [reduced(part, spread) for part, spread in zip(fitted.parts, fitted.unknowns.own_spread, strict=True)]
-    weights = [weight_of(part) for part in fitted.parts]
+    space, at = fitted.space, fitted.coordinates
+    at_bound = (at <= space.lower) | (at >= space.upper)  # no small step leads away from there
     found: list[Array] = []
     prices_of_own, _ = own_prices(fitted)
     for number, group in enumerate(groups):
-        mine = np.array([u.recording == number and not single for u in fitted.space.unknowns], dtype=bool)
-        square = sum((weights[i] * slopes[i].T @ slopes[i] for i in group), np.zeros_like(fitted.information))
-        pull = sum((weights[i] * slopes[i].T @ fitted.parts[i].errors for i in group), np.zeros(mine.size))
-        uncertain = _uncertain(fitted.information - square, fitted.unknowns.spread, mine)
-        step = uncertain @ (uncertain.T @ pull)
-        step = np.clip(fitted.coordinates + step, fitted.space.lower, fitted.space.upper) - fitted.coordinates
-        price = 0.0 if single else prices_of_own[number] / len(group)
-        prices = [price + _price_of_states(fitted, i) for i in group]
-        found.append(
-            np.array([_predicted(fitted.parts[i].errors + slopes[i] @ step, slopes[i] @ uncertain) for i in group])
-            + prices
-        )
+        mine = np.array([u.recording == number and not single for u in space.unknowns], dtype=bool)
+        known, price = mine | at_bound, 0.0 if single else prices_of_own[number] / len(group)
+        left, pull = fitted.information.copy(), np.zeros(mine.size)
+        misfits = []
+        for i in reversed(group):
+            errors, weight = fitted.parts[i].errors, weight_of(fitted.parts[i])
+            left -= weight * slopes[i].T @ slopes[i]
+            pull += weight * slopes[i].T @ errors
+            uncertain = _uncertain(left, fitted.unknowns.spread, known)
+            step = np.clip(at + uncertain @ (uncertain.T @ pull), space.lower, space.upper) - at
+            predicted = _predicted(errors + slopes[i] @ step, slopes[i] @ uncertain)
+            misfits.append(predicted + price + _price_of_states(fitted, i))
+        found.append(np.array(misfits[::-1]))
     return found
 
 
-def _uncertain(information: Array, spread: Array, known: Array) -> Array:
+def _uncertain(information: Array, spread: Array, known: NDArray[np.bool_]) -> Array:
     """A root U of the covariance U U^T of unknowns (k,) of such information, (k, k), but for those that are known.
 
     No unknown is less known than by its prior, of standard deviation ``spread``; rounding may say otherwise where

@@ -10,7 +10,7 @@ from blind.plant.parameters import JOINTS, Parameters
 
 CABLES = (1, 2)
 BALL_MASS = 0.03  # of the piece between a joint and its play [kg]
-BALL_INERTIA = 5e-5  # [kg m^2]
+BALL_INERTIA = 1e-5  # [kg m^2]
 STOP_TIME = 0.0005  # time constant of the stops of a play, critically damped [s]
 PLATE_MASS = 0.4  # of a base plate that can turn [kg]
 PLATE_INERTIA = 5e-4  # [kg m^2]

@@ -3,7 +3,7 @@
 from blind.plant.chain import Chain
 from blind.plant.effect import Effect
 
-FINER = 4  # steps: light as it is, the ball may not fly off a stop that it is pressed to within one
+FINER = 8  # steps: light as it is, the ball may not fly off a stop that it is pressed to within one
 
 
 class Backlash(Effect):
