@@ -53,10 +53,15 @@ def _delays(question: Question, effect: Effect) -> Iterator[Mapping[str, float]]
     rows = [float(np.median(np.diff(tensions.times))) for tensions in driven if tensions.held]
     if not effect.shifts_time or not rows:
         return
-    for name, parameter in effect.parameters.items():
-        if parameter.typical is not None and np.any(effect.late({name: parameter.typical})):
-            for delay in np.arange(0.0, _LONGEST * parameter.typical, min(rows) / _IN_A_ROW):
-                yield {name: float(delay)}
+    for name, typical in delays_of(effect).items():
+        for delay in np.arange(0.0, _LONGEST * typical, min(rows) / _IN_A_ROW):
+            yield {name: float(delay)}
+
+
+def delays_of(effect: Effect) -> dict[str, float]:
+    """Parameters of an effect by which sensors are late, and their typical sizes [s]."""
+    sizes = {name: parameter.typical for name, parameter in effect.parameters.items() if parameter.typical is not None}
+    return {name: typical for name, typical in sizes.items() if np.any(effect.late({name: typical}))}
 
 
 def _begun(near: Trial, effect: Effect, values: Mapping[str, float]) -> Trial:

@@ -8,7 +8,7 @@ effects are sought in vain, so that a search that found something asks before it
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 
@@ -16,6 +16,7 @@ import numpy as np
 
 from continuum.discovery.candidate import Addition
 from continuum.discovery.evidence import explains_all, gain, is_adequate
+from continuum.discovery.likeliest_beginning import delays_of
 from continuum.discovery.question import Question
 from continuum.discovery.trial import Trial, fit_extension, judged
 from continuum.dynamics.effect_lookup import effect_named
@@ -48,23 +49,24 @@ def with_better_rows(question: Question, best: Trial) -> tuple[Question, Trial] 
 def _without(other: Question, best: Trial, some: Sequence[Addition]) -> Trial | None:
     """The trial without some effects, where tensions the other way do without them."""
     rest = tuple(addition for addition in best.extension if addition not in some)
-    starts = [best, *([_half_a_row_off(other, best)] if rest else [])]
+    effects = [effect_named(addition.effect) for addition in rest]
+    delays = {f"{effect.name}.{name}": size for effect in effects for name, size in delays_of(effect).items()}
+    starts = [best, _half_a_row_off(other, best, delays)] if delays else [best]
     trials = [judged(rest, fit_extension(other, rest, start)) for start in starts]
     trial = min(trials, key=lambda one: one.cost)
     return trial if explains_all(trial) or not gain(best, trial).is_distinct else None
 
 
-def _half_a_row_off(other: Question, best: Trial) -> Trial:
-    """The trial as a start, its delays less by what tensions that are held are late beside linear ones, or more.
+def _half_a_row_off(other: Question, best: Trial, delays: Mapping[str, float]) -> Trial:
+    """The trial as a start, its delays less by what held tensions are late beside linear ones, or more.
 
-    Delays have a valley in every row: from half a row beside the right one no slope leads to it.
+    Delays, whose typical sizes are given [s], have a valley in every row: from half a row beside the right one no slope
+    leads to it.
     """
     driven = [run.tensions for run in other.recordings if run.is_driven and run.tensions is not None]
     rows = [(-1 if tensions.held else 1) * float(np.median(np.diff(tensions.times))) for tensions in driven]
     coordinates = best.coordinates.copy()
     for i, unknown in enumerate(best.unknowns):
-        effect, _, name = unknown.name.partition(".")
-        typical = effect_named(effect).parameters[name].typical if name else None
-        if typical is not None and np.any(effect_named(effect).late({name: typical})):
-            coordinates[i] = max(coordinates[i] + np.median(rows) / 2 / typical, 0.0)
+        if unknown.name in delays:
+            coordinates[i] = max(coordinates[i] + np.median(rows) / 2 / delays[unknown.name], 0.0)
     return replace(best, coordinates=coordinates)
