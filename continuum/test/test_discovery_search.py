@@ -91,16 +91,36 @@ def test_effects_are_looked_at_for_longer_where_first_looks_promise_nothing() ->
         _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
         assert any(task.is_look and task.iterations == LONG_LOOK for task in fits.asked) == longer
         assert (effects_of(rounds[0].best.extension) == ["base_tilt"]) == longer
+        assert not any(task.afresh for task in fits.asked)  # noise, or all explained
 
 
 @pytest.mark.parametrize("hidden", [0.4, 0.6])
 def test_windows_begin_afresh_where_the_model_is_very_wrong(hidden: float) -> None:
     """In the first round: looks, leaders, and once more the model as it is; what helps has good enough ones then."""
-    fits = Fits({(): hidden, ("tip_payload",): 0.3, ("tip_payload", "base_tilt"): 0.0, ("base_tilt",): 0.5})
+    fits = Fits({(): hidden, ("tip_payload",): 0.1, ("tip_payload", "base_tilt"): 0.0, ("base_tilt",): 0.5})
     _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
     afresh = {(len(task.extension), task.is_look, task.find_joints) for task in fits.asked if task.afresh}
     assert afresh == ({(n, look, False) for n in (0, 1) for look in (True, False)} if hidden > 0.5 else set())
     assert len(rounds[-1].best.extension) == 2
+
+
+@pytest.mark.parametrize("left", [0.0, 0.25])
+@pytest.mark.parametrize("found_afresh", [True, False])
+@pytest.mark.parametrize("hidden", [0.4, 0.6])
+def test_a_first_effect_that_explains_little_is_sought_from_both_beginnings(
+    hidden: float, found_afresh: bool, left: float
+) -> None:
+    fits = Fits({(): hidden, ("base_tilt",): hidden - 0.3 + left, ("tip_payload",): hidden - 0.02})
+    fitted = fits.fitted
+
+    def one_way(task: Task) -> Trial:
+        is_vain = effects_of(task.extension) == ["base_tilt"] and not task.find_joints and task.afresh != found_afresh
+        return replace(fitted(replace(task, extension=())), extension=task.extension) if is_vain else fitted(task)
+
+    fits.fitted = one_way  # type: ignore[method-assign]
+    _, rounds = search(fits, EFFECTS, lambda _what, _part: None)
+    assert effects_of(rounds[0].best.extension) == ["base_tilt"]
+    assert all(len(task.extension) < 2 for task in fits.asked if task.afresh)
 
 
 def test_what_a_fresh_start_gains_is_no_gain_of_an_effect() -> None:

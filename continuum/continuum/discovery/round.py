@@ -6,7 +6,8 @@ longer one. What leads is fitted to all data, and what then contends is fitted t
 several do, each once more from other beginnings.
 
 Where the model without any effect is very wrong, its windows begin in places from which no slope leads to the right
-one: looks and leaders then begin theirs as measured, and so does that model once more.
+one: looks and leaders then begin theirs as measured, and so does that model once more. From those, no slope may lead
+anywhere either: a first effect that explains little is sought both ways.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from continuum.discovery.candidate import Addition
-from continuum.discovery.evidence import gain, is_adequate, unexplained
+from continuum.discovery.evidence import beyond_noise, gain, is_adequate, unexplained
 from continuum.discovery.other_beginnings import other_beginnings
 from continuum.discovery.some_runs import carried
 from continuum.discovery.special_cases import without_special_cases
@@ -29,6 +30,7 @@ _LEADERS = 5
 _LEADING = 0.35  # of the best one's hope
 _LITTLE = 0.1  # of what is left to explain: with no better hope, effects are looked at for longer
 _VERY_WRONG = 0.5  # of windows unexplained
+_MUCH = 0.5  # of what there is to explain
 _HOPELESS = 4.0  # log-likelihood on half of the runs
 CONTENDING = 0.5
 """Part of the best one's gain, beyond which another may be the one as well."""
@@ -69,9 +71,29 @@ def one_round(
         tell: told of the part that is done, 0 to 1.
         earlier: the best of an earlier search, where this is the first round of another.
     """
+    afresh = not before.extension and unexplained(before) > _VERY_WRONG
+    found = _round(make, before, effects, tell, earlier, afresh)
+    if before.extension or is_adequate(found.before) or _explains_much(found):
+        return found
+    other = _round(make, found.before, effects, tell, earlier, not afresh)
+    return min(found, other, key=lambda one: one.best.misfit)
+
+
+def _explains_much(found: Round) -> bool:
+    return beyond_noise(found.best) < _MUCH * beyond_noise(found.before)
+
+
+def _round(
+    make: Make,
+    before: Trial,
+    effects: Sequence[str],
+    tell: Callable[[float], None],
+    earlier: Trial | None,
+    afresh: bool,
+) -> Round:
+    """One round, windows begun as measured or as before it."""
     known = {addition.effect for addition in before.extension}
     extensions = [before.extension, *((*before.extension, Addition(name)) for name in effects if name not in known)]
-    afresh = not before.extension and unexplained(before) > _VERY_WRONG
     first = [first_look(extension, before, FIRST_LOOK, afresh) for extension in extensions]
     without, looks = _looks(make, first, before, lambda part: tell(0.25 * part))
     if not (before.extension or is_adequate(before)) and _is_little(looks, without):
