@@ -17,6 +17,7 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.tensions import Tensions
 from continuum.identification.fit import Fit
 from continuum.identification.free import Free
+from continuum.identification.window_settling import STEPS
 
 FREE = tuple(Free(name) for name in ("stiffness", "viscous_friction", "coulomb_friction"))
 TIMES = np.arange(0, 0.7, 1 / 120)
@@ -92,3 +93,20 @@ def test_windows_begun_afresh_forget_where_the_start_has_them(is_look: bool, mon
         workers.make(question, workers.Task((), without, 1, is_look=is_look, afresh=afresh))
     assert [near.own for near in begun] == [(), without.own]
     assert begun[0].unknowns == without.unknowns
+
+
+@pytest.mark.parametrize("closely", [True, False])
+def test_close_looks_find_beginnings_of_windows_as_well_as_fits_do(
+    closely: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    question = question_about(0.0, 0.3)
+    without = judged((), fit_extension(question, ()))
+    steps: list[object] = []
+
+    def fitted(question: Question, extension: Extension, near: Trial, *options: int) -> Fit:
+        steps.append(options[2])
+        return fit_extension(question, extension, near, *options)
+
+    monkeypatch.setattr(workers, "fit_extension", fitted)
+    workers.make(question, workers.first_look((), without, 1, closely=closely))
+    assert [one == STEPS for one in steps] == [closely]

@@ -6,8 +6,10 @@ longer one. What leads is fitted to all data, and what then contends is fitted t
 several do, each once more from other beginnings.
 
 Where the model without any effect is very wrong, its windows begin in places from which no slope leads to the right
-one: looks and leaders then begin theirs as measured, and so does that model once more. From those, no slope may lead
-anywhere either: a first effect that explains little is sought both ways.
+one: looks and leaders then begin theirs as measured, and so does that model once more.
+
+Where joints stick and slip, short looks may lead nowhere, too: a first effect that explains little is sought once more
+by close looks, and the better answer stays.
 """
 
 from __future__ import annotations
@@ -75,8 +77,8 @@ def one_round(
     found = _round(make, before, effects, tell, earlier, afresh)
     if before.extension or is_adequate(found.before) or _explains_much(found):
         return found
-    other = _round(make, found.before, effects, tell, earlier, not afresh)
-    return min(found, other, key=lambda one: one.best.misfit)
+    closer = _round(make, found.before, effects, tell, earlier, closely=True)
+    return min(found, closer, key=lambda one: one.best.misfit)
 
 
 def _explains_much(found: Round) -> bool:
@@ -89,14 +91,16 @@ def _round(
     effects: Sequence[str],
     tell: Callable[[float], None],
     earlier: Trial | None,
-    afresh: bool,
+    afresh: bool = False,
+    closely: bool = False,
 ) -> Round:
-    """One round, windows begun as measured or as before it."""
+    """One round, with looks as of `Task`."""
     known = {addition.effect for addition in before.extension}
     extensions = [before.extension, *((*before.extension, Addition(name)) for name in effects if name not in known)]
-    first = [first_look(extension, before, FIRST_LOOK, afresh) for extension in extensions]
+    iterations = LONG_LOOK if closely else FIRST_LOOK
+    first = [first_look(extension, before, iterations, afresh, closely) for extension in extensions]
     without, looks = _looks(make, first, before, lambda part: tell(0.25 * part))
-    if not (before.extension or is_adequate(before)) and _is_little(looks, without):
+    if not (closely or before.extension or is_adequate(before)) and _is_little(looks, without):
         longer = [first_look(extension, before, LONG_LOOK, afresh) for extension in extensions]
         without, looks = _looks(make, longer, before, lambda part: tell(0.25 + 0.25 * part))
     leading = [

@@ -18,12 +18,13 @@ from continuum.discovery.one_value import with_one_value
 from continuum.discovery.question import Question
 from continuum.discovery.some_runs import some_runs
 from continuum.discovery.trial import Trial, fit_extension, judged
+from continuum.identification.window_settling import STEPS
 
 FIRST_LOOK = 2
 """Iterations: what helps shows in what they gain and what the slopes promise then, ..."""
 LONG_LOOK = 6
 """... but where joints stick and slip the first steps of all may be in vain."""
-_LOOK_STEPS = 3  # of each window's first state at each of them
+_LOOK_STEPS = 3  # of each window's first state at each of them, but for close looks
 _MANY_RUNS = 3
 
 
@@ -38,6 +39,7 @@ class Task:
         find_joints: whether to find out at which joints the last effect acts, and to fit it there alone.
         is_look: whether half of the runs are enough, and their first states need not be found well.
         afresh: whether windows begin as measured, and not as in ``near``.
+        closely: whether a look finds the first states as well as a fit does.
     """
 
     extension: Extension
@@ -46,11 +48,14 @@ class Task:
     find_joints: bool = False
     is_look: bool = False
     afresh: bool = False
+    closely: bool = False
 
 
-def first_look(extension: Extension, near: Trial, iterations: int = FIRST_LOOK, afresh: bool = False) -> Task:
+def first_look(
+    extension: Extension, near: Trial, iterations: int = FIRST_LOOK, afresh: bool = False, closely: bool = False
+) -> Task:
     """A few iterations on half of the runs."""
-    return Task(extension, near, iterations, is_look=True, afresh=afresh)
+    return Task(extension, near, iterations, is_look=True, afresh=afresh, closely=closely)
 
 
 def make(question: Question, task: Task) -> Trial:
@@ -59,8 +64,9 @@ def make(question: Question, task: Task) -> Trial:
         part, near = question, task.near
         if len(question.recordings) >= _MANY_RUNS:
             part, near = some_runs(question, task.near)
-        near = with_likeliest_beginning(part, task.extension, _start(near, task), _LOOK_STEPS)
-        return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, 0, _LOOK_STEPS))
+        steps = STEPS if task.closely else _LOOK_STEPS
+        near = with_likeliest_beginning(part, task.extension, _start(near, task), steps)
+        return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, 0, steps))
     start = None if task.near is None else _start(task.near, task)
     fitted = fit_extension(question, task.extension, start, task.iterations)
     whole = _from_one_value(question, judged(task.extension, fitted), task.iterations)
