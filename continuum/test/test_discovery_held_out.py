@@ -10,19 +10,20 @@ import pytest
 from scipy.stats import multivariate_normal
 
 from continuum.discovery.held_out import held_out_misfits
-from continuum.identification.arrow_least_squares import FitStatus, Part, Unknowns, misfit_of
+from continuum.identification.arrow_least_squares import FitStatus, Part, Unknowns, misfit_of, weight_of
 from continuum.identification.fit import Fit
 from continuum.identification.free import Free
 
 RUNS, WINDOWS, ERRORS, UNKNOWNS = 3, 2, 20, 4
 SPREAD = np.array([1.0, 3.0, 0.5, 2.0])
+EQUAL = np.ones((RUNS, WINDOWS))
 
 
-def linear_fit(slopes: np.ndarray, measured: np.ndarray) -> Fit:
+def linear_fit(slopes: np.ndarray, measured: np.ndarray, weights: np.ndarray = EQUAL) -> Fit:
     """The best fit of errors that are slopes (runs, windows, m, k) times unknowns, less what was measured."""
-    stacked = slopes.reshape(-1, UNKNOWNS)
-    information = stacked.T @ stacked + np.diag(SPREAD**-2.0)
-    best = np.linalg.solve(information, stacked.T @ measured.ravel())
+    weighted = (weights[:, :, None, None] * slopes).reshape(-1, UNKNOWNS).T
+    information = weighted @ slopes.reshape(-1, UNKNOWNS) + np.diag(SPREAD**-2.0)
+    best = np.linalg.solve(information, weighted @ measured.ravel())
     parts = [
         Part(window @ best - seen, window, np.zeros((ERRORS, 0)))
         for run, of_run in zip(slopes, measured, strict=True)
@@ -88,6 +89,22 @@ def test_windows_of_a_run_have_to_agree_on_what_it_alone_tells() -> None:
     first, second = held_out_misfits(fitted)[0]
     assert first + second > sum(misfit_of(part) for part in fitted.parts[:WINDOWS])
     assert second > 2 * ERRORS
+
+
+@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("apart", [1.0, 2.0, 4.0])
+def test_windows_that_no_value_explains_are_predicted_no_better_than_fitted(apart: float, seed: int) -> None:
+    """Each would have another value; badly explained, it counts less, and agrees with the others no better for that."""
+    slopes, measured = drawn(seed)
+    other = apart * np.random.default_rng(100 + seed).normal(size=(RUNS, WINDOWS, UNKNOWNS))
+    measured += np.einsum("rwmk,rwk->rwm", slopes, other)
+    weights = EQUAL
+    for _ in range(100):
+        fitted = linear_fit(slopes, measured, weights)
+        weights = np.reshape([weight_of(part) for part in fitted.parts], EQUAL.shape)
+    assert np.min(weights) < 0.8
+    for run, parts in zip(held_out_misfits(fitted), np.split(np.arange(RUNS * WINDOWS), RUNS), strict=True):
+        assert run.sum() > sum(misfit_of(fitted.parts[i]) for i in parts)
 
 
 def test_an_unknown_at_its_bound_stays_there() -> None:

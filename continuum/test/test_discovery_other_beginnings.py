@@ -31,8 +31,10 @@ def ended(effect: str, own: float, states: int, **values: float) -> Trial:
 def test_it_begins_with_its_effect_larger_and_with_all_else_as_in_the_best_ones_end() -> None:
     mine = ended("rest_angle", 1.0, 1, stiffness=0.2, friction=0.4, size=-0.04)
     best = ended("angle_offset", 2.0, 0, friction=0.5, stiffness=0.3, size=9.0)
-    larger, beside = other_beginnings(mine, best)
+    larger, as_measured, beside = other_beginnings(mine, best)
     np.testing.assert_allclose(larger.coordinates, [0.2, 0.4, -0.06])
+    np.testing.assert_array_equal(as_measured.coordinates, larger.coordinates)
+    assert as_measured.own == ()
     assert larger.own is mine.own
     np.testing.assert_allclose(beside.coordinates, [0.3, 0.5, -0.04])
     for own in beside.own:
@@ -43,8 +45,11 @@ def test_it_begins_with_its_effect_larger_and_with_all_else_as_in_the_best_ones_
 
 def test_the_best_one_begins_with_its_effect_larger_alone() -> None:
     best = ended("rest_angle", 1.0, 0, stiffness=0.2, size=0.1)
-    (larger,) = other_beginnings(best, best)
-    np.testing.assert_allclose(larger.coordinates, [0.2, 0.15])
+    larger, as_measured = other_beginnings(best, best)
+    for one in (larger, as_measured):
+        np.testing.assert_allclose(one.coordinates, [0.2, 0.15])
+    assert larger.own is best.own
+    assert as_measured.own == ()
 
 
 class Stuck(Fits):

@@ -12,6 +12,9 @@ misfit is
 
 with H_s the information of this window and of those of its run that come after it. Summed over a run that is minus
 twice the logarithm of the density of all its windows given the other runs (chain rule), but for a constant.
+
+A badly explained window, of a weight w < 1 in the fit, tells the others less by that, and may agree with them no better
+for it: J^T J above is w J^T J.
 """
 
 from __future__ import annotations
@@ -53,7 +56,7 @@ def held_out_misfits(fitted: Fit) -> list[Array]:
             pull += weight * slopes[i].T @ errors
             uncertain = _uncertain(left, fitted.unknowns.spread, known)
             step = np.clip(at + uncertain @ (uncertain.T @ pull), space.lower, space.upper) - at
-            predicted = _predicted(errors + slopes[i] @ step, slopes[i] @ uncertain)
+            predicted = _predicted(errors + slopes[i] @ step, np.sqrt(weight) * slopes[i] @ uncertain)
             misfits.append(predicted + price + _price_of_states(fitted, i))
         found.append(np.array(misfits[::-1]))
     return found

@@ -2,7 +2,7 @@
 
 Dry friction holds a joint in a range of angles, so that what moves its rest has several valleys. Of two effects that do
 much the same, one that ended in a wrong valley has lost to the other by luck: each begins again with its effect half as
-large again, and with what all share, and every window, as in the best one's end.
+large again, windows as in its end and as measured; and with what all share, and every window, as in the best one's end.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ def other_beginnings(trial: Trial, best: Trial) -> Iterator[Trial]:
     larger = trial.coordinates.copy()
     larger[mine] *= _LARGER
     yield replace(trial, coordinates=larger)
+    yield replace(trial, coordinates=larger, own=())
     if best is trial:
         return
     there, beside = dict(zip(best.unknowns, best.coordinates, strict=True)), trial.coordinates.copy()

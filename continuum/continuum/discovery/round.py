@@ -9,13 +9,13 @@ Where the model without any effect is very wrong, its windows begin in places fr
 one: looks and leaders then begin theirs as measured, and so does that model once more.
 
 Where joints stick and slip, short looks may lead nowhere, too: a first effect that explains little is sought once more
-by close looks, and the better answer stays.
+by close looks, and of each effect the better trial stays.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from continuum.discovery.candidate import Addition
@@ -78,7 +78,8 @@ def one_round(
     if before.extension or is_adequate(found.before) or _explains_much(found):
         return found
     closer = _round(make, found.before, effects, tell, earlier, closely=True)
-    return min(found, closer, key=lambda one: one.best.misfit)
+    leaders = without_special_cases(_one_of_each((*found.leaders, *closer.leaders)))
+    return replace(closer, leaders=tuple(sorted(leaders, key=partial(_rank, closer.before))))
 
 
 def _explains_much(found: Round) -> bool:
@@ -136,8 +137,13 @@ def _beside_an_earlier_one(make: Make, before: Trial, ended: Sequence[Trial], ea
     ]
     begun = [with_beginnings_of(trial, known) for trial in unended]
     longer = list(make([Task(trial.extension, trial, _LEADER_ITERATIONS + ITERATIONS, True) for trial in begun]))
+    return _one_of_each((*ended, *longer, *known))
+
+
+def _one_of_each(trials: Sequence[Trial]) -> list[Trial]:
+    """The best trial of each last effect."""
     found: dict[str, Trial] = {}
-    for trial in (*ended, *longer, *known):
+    for trial in trials:
         effect = trial.extension[-1].effect
         if effect not in found or gain(trial, found[effect]).log_likelihood > 0:
             found[effect] = trial

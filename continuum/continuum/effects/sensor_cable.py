@@ -40,6 +40,9 @@ class SensorCable(Effect):
     in_words = "The charging cable of the sensors holds back the first joint."
     looks_like = "Joint 1 alone is stiffer, damped more and drawn to one side."
     experiment = "Take the charging cable off, or tie it elsewhere, and release again."
+    beware = (
+        "Whatever else pushes or rubs at the first joint looks nearly the same, a pad that it leans on, for instance."
+    )
 
     def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         theta, w = now.motion.theta[:1], now.motion.theta_rate[:1]
