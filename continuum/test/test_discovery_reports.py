@@ -62,7 +62,7 @@ def test_the_terminal_shows_models_that_there_are_and_angles_in_degrees(
     gain = Estimate(Free("tension_scale.gain_1"), 0.1, 0.0, 0.2, "1")
     show(replace(told, estimates=(angle, gain)))
     out = "\n".join(line.rstrip() for line in capsys.readouterr().out.splitlines())
-    assert "0.05236 (0.01 to 0.1) rad = 3 degrees, up to the limit\n" in out
+    assert "0.05236 (0.01 to 0.1) rad = 3 degrees, at the limit\n" in out
     assert "0.1 (0 to 0.2)\n" in out
     assert ("refitted -> extended model" in out) == (" -> " in out) == (kind is Kind.CAUSE)
 

@@ -149,5 +149,5 @@ def _estimate(one: Estimate) -> tuple[str, str]:
     """Name, and value with interval."""
     value = f"{one.value:.4g} ({one.low:.4g} to {one.high:.4g})" + f" {one.unit}" * (one.unit != "1")
     degrees = f" = {math.degrees(one.value):.3g} degrees" if one.unit == "rad" else ""
-    limit = ", up to the limit" if one.at_limit else ""
+    limit = ", at the limit" if one.at_limit else ""
     return str(one.unknown), f"{value}{degrees}{limit}"

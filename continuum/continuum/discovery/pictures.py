@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
+from textwrap import fill
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -14,6 +15,7 @@ from continuum.discovery.residual_torque import ResidualTorque
 from continuum.discovery.round import Round
 
 _BEFORE, _AFTER, _MEASURED = "#d1802b", "#1f6fb4", "#222222"
+_LABEL = 22  # characters that a row is high
 
 
 def runs_picture(before: Sequence[RunScore], after: Sequence[RunScore], extended: bool) -> bytes:
@@ -32,7 +34,7 @@ def runs_picture(before: Sequence[RunScore], after: Sequence[RunScore], extended
             ax.tick_params(labelsize=6)
             if row == 0:
                 ax.set_title(f"joint {joint + 1}", fontsize=8)
-        axes[row, 0].set_ylabel(f"{old.name} [deg]", fontsize=7)
+        axes[row, 0].set_ylabel(f"{fill(old.name, _LABEL)}\n[deg]", fontsize=7)
     lines = axes[0, 0].get_legend_handles_labels()
     figure.legend(*lines, loc="outside upper right", ncols=3, fontsize=7, frameon=False)
     for ax in axes[-1]:

@@ -150,7 +150,7 @@ def _estimates(estimates: Sequence[Estimate]) -> str:
                 str(e.unknown),
                 *(f"{x:.4g}" for x in (e.value, e.low, e.high)),
                 e.unit * (e.unit != "1"),
-                "up to the limit" * e.at_limit,
+                "at the limit" * e.at_limit,
             )
             for e in estimates
         ],
