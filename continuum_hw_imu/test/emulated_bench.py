@@ -155,6 +155,10 @@ class Bridge:
         instant, now = read_together(time.monotonic, lambda: self.probe.node.get_clock().now().nanoseconds)
         return instant + (nanoseconds(message.header.stamp) - now) / NANOSECONDS
 
+    def since(self, instant: float, messages) -> list:
+        """Those of what was measured after an instant of `monotonic` [s]; topics keep no order among each other."""
+        return [message for message in messages if self.monotonic(message) > instant]
+
     def pull(self, effort, until) -> None:
         """Command tensions, with every cable state that comes, until ``until()``.
 

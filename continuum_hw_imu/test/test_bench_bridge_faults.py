@@ -180,17 +180,15 @@ def test_late_frames_have_the_stamps_of_their_measurement(pulling):
 
 
 def test_joint_states_are_withheld_without_a_sensor(pulling):
-    pulling.bench.tell("drop sensor=3 for=4")
+    pulling.bench.tell("drop sensor=3 for=6")
     pulling.wait_for_level("angles", "ERROR", "sensor 3 is missing")
-    pulling.joints.clear()
-    pulling.imus[2].clear()
-    before = len(pulling.imus[0])
-    pulling.probe.wait_until(lambda: len(pulling.imus[0]) > before + 20, "the others' data")
-    assert not pulling.imus[2]
-    assert not pulling.joints
+    noticed = pulling.bench.status["monotonic"]
+    pulling.probe.wait_until(lambda: len(pulling.since(noticed, pulling.imus[0])) > 20, "the others' data")
+    assert not pulling.since(noticed, pulling.imus[2])
+    assert not pulling.since(noticed, pulling.joints)
     pulling.wait_for_level("imu 3", "ERROR", "no data")
-    pulling.probe.wait_until(lambda: len(pulling.joints) > 20, lambda: pulling.told("angles"))
-    assert_no_wrong_angle(pulling, pulling.joints)
+    pulling.probe.wait_until(lambda: len(pulling.since(noticed, pulling.joints)) > 20, lambda: pulling.told("angles"))
+    assert_no_wrong_angle(pulling, pulling.since(noticed, pulling.joints))
 
 
 def test_clipped_rates_make_no_wrong_angles(pulling):
@@ -236,13 +234,14 @@ def test_the_bias_of_a_file_is_of_another_day(domain, ears, probe, bench, calibr
     probe.wait_until(lambda: not bench.status["open"], "the port is free")
     with bridge_at(ears, bench, domain, calibration=calibration) as bridge:
         bridge.wait_for_level("angles", "ERROR", "not calibrated: no bias")
-        bridge.joints.clear()  # what the bridge before said may have come late
-        before = len(bridge.imus[0])
-        probe.wait_until(lambda: len(bridge.imus[0]) > before + 60, "data of the sensors")
-        assert not bridge.joints
+        known = bench.status["monotonic"]
+        probe.wait_until(lambda: len(bridge.since(known, bridge.imus[0])) > 60, "data of the sensors")
+        assert not bridge.since(known, bridge.joints)
         bridge.wait_for_success("calibrate_bias")
-        probe.wait_until(lambda: len(bridge.joints) > 5, lambda: f"joint states; {bridge.told('angles')}")
-        assert_no_wrong_angle(bridge, bridge.joints)
+        probe.wait_until(
+            lambda: len(bridge.since(known, bridge.joints)) > 5, lambda: f"joint states; {bridge.told('angles')}"
+        )
+        assert_no_wrong_angle(bridge, bridge.since(known, bridge.joints))
         assert bridge.node.stop() == 0
 
 
