@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from continuum.cli.output_files import check_apart, check_writable
+from continuum.cli.sensor_options import add_sensor_options, sensor_knowledge
 from continuum.cli.tables import print_pairs
 from continuum.printable import printable
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from continuum.discovery.diagnose import Diagnosis
     from continuum.discovery.findings import Estimate, Findings
     from continuum.dynamics.model import Model
+    from continuum.identification.noise import SensorKnowledge
     from continuum.identification.recording import Recording
 
 EXIT_CODES = {"adequate": 0, "cause": 3, "ambiguous": 4, "unknown": 5}  # 1 is a crash, 2 wrong usage
@@ -46,6 +48,7 @@ def add_to(commands: Any) -> None:
     )
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the intervals; default %(default)s")
     parser.add_argument("--processes", metavar="N", type=int, help="that work at once; default one for each core")
+    add_sensor_options(parser)
     parser.set_defaults(run=run)
 
 
@@ -56,14 +59,17 @@ def run(options: argparse.Namespace) -> int:
     for path in (options.json, options.report, options.extended):
         check_writable(path)
     check_apart((options.json, options.report, options.extended), (*options.data, options.model))
+    known = sensor_knowledge(options)
     model, recordings = load_model(options.model), [read_recording(path) for path in options.data]
     for recording in recordings:
         for note in recording.notes:  # before minutes pass: what was not understood may be what matters
             print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
-    return _diagnose(options, model, recordings)
+    return _diagnose(options, model, recordings, known)
 
 
-def _diagnose(options: argparse.Namespace, model: Model, recordings: Sequence[Recording]) -> int:
+def _diagnose(
+    options: argparse.Namespace, model: Model, recordings: Sequence[Recording], known: SensorKnowledge
+) -> int:
     # Here, so that the other commands, and data that are refused, need not wait for numba.
     from continuum.cli.progress import told
     from continuum.discovery.answer import answer
@@ -72,7 +78,7 @@ def _diagnose(options: argparse.Namespace, model: Model, recordings: Sequence[Re
     from continuum.identification.dataset import Dataset
 
     with told() as tell:
-        diagnosis, found = answer(Dataset(tuple(recordings)), model, options.seed, options.processes, tell)
+        diagnosis, found = answer(Dataset(tuple(recordings)), model, options.seed, options.processes, tell, known=known)
     show(found)
     if options.json is not None:
         write_json(found, options.json)

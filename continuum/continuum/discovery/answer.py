@@ -19,6 +19,7 @@ from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
 from continuum.identification.dataset import Dataset
+from continuum.identification.noise import SensorKnowledge
 
 _NEXT_TO_NONE = 1e-3  # of a typical size
 
@@ -30,6 +31,7 @@ def answer(
     processes: int | None = None,
     tell: Tell = tell_nobody,
     effects: Sequence[str] | None = None,
+    known: SensorKnowledge | None = None,
 ) -> tuple[Diagnosis, Findings]:
     """Diagnose a model by data, and work out all that there is to tell.
 
@@ -40,6 +42,7 @@ def answer(
         processes: how many work at once; as many as there are cores without.
         tell: told of progress.
         effects: names of those to try; all that are installed without.
+        known: of the sensors.
 
     Raises:
         InvalidValueError: a negative seed, and as of `continuum.discovery.diagnose.diagnose`.
@@ -49,7 +52,7 @@ def answer(
     tried = list(effect_names() if effects is None else effects)
     left_out: list[str] = []
     while True:
-        diagnosis = diagnose(dataset, model, processes=processes, tell=tell, effects=tried)
+        diagnosis = diagnose(dataset, model, known, processes=processes, tell=tell, effects=tried)
         tell("predicting runs that were held out", 1.0)
         found = findings(diagnosis, np.random.default_rng(seed))
         absent = absent_cause(found)
