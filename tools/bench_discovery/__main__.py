@@ -34,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--only", nargs="+", default=[], choices=CHOICES, metavar="WHAT", help=", ".join(CHOICES))
     parser.add_argument("--jobs", type=int, default=2, help="cases at once; default %(default)s")
     parser.add_argument("--limit", type=float, default=1200.0, help="of one diagnosis [s]; default %(default)s")
-    parser.add_argument("--seed", type=int, default=2023, help="of the campaign; default %(default)s")
+    parser.add_argument("--seed", type=int, default=2027, help="of the campaign; default %(default)s")
     parser.add_argument("--accept-old", action="store_true", help="count results that other sources made too")
     parser.add_argument("--page-only", action="store_true", help="run no case")
     parser.add_argument("--results", type=Path, default=RESULTS, help="default %(default)s")

@@ -1,13 +1,14 @@
 """What a campaign hides, case by case, in an order of which every beginning is balanced.
 
 A round holds every effect of the library at each size, arms without any, effects outside of the library, and pairs;
-every round has other arms, and moves datasets and noises on by one place.
+every round has other arms, and moves datasets and noises on by one place. Where an effect begins is drawn by the
+campaign's seed: the first rounds of several campaigns do not hide it in the same dataset each time.
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 from blind.plant import EFFECTS, LIBRARY, OUTSIDE, SIZES, Plan
@@ -18,6 +19,7 @@ EIGHT = "eight_releases"
 NOISES = ("ordinary", "low", "ordinary", "high")
 CLEAN_IN_A_ROUND = 2 * len(DATASETS)
 PAIRS_IN_A_ROUND = len(DATASETS)
+_PLACES = 60  # in turns of all lengths that occur
 _MOST_IN_A_ROUND = _MOST_ROUNDS = 1000
 
 CHOICES = ("clean", "one", "pairs", "outside", *LIBRARY, *OUTSIDE)
@@ -38,12 +40,13 @@ def campaign_of(plan: Plan) -> int:
 
 def one_round(number: int, seed: int = 0) -> Iterator[tuple[tuple[str, ...], str, str, str]]:
     """Effects, size, dataset and noise of every case of a round, the number of which counts from 0."""
-    medium, large, small = (_every_effect(LIBRARY, size, number) for size in ("medium", "large", "small"))
+    begin = dict(zip(EFFECTS, np.random.default_rng(seed).integers(_PLACES, size=len(EFFECTS)).tolist(), strict=True))
+    medium, large, small = (_every_effect(LIBRARY, size, number, begin) for size in ("medium", "large", "small"))
     yield from medium
     for i in range(CLEAN_IN_A_ROUND):
         yield (), "medium", DATASETS[i % len(DATASETS)], _turn(NOISES, i // len(DATASETS) + i + number)
-    for i, name in enumerate(OUTSIDE):
-        yield from _every_effect([name], _turn(SIZES, 1 + number + i), number + i)
+    for name in OUTSIDE:
+        yield from _every_effect([name], _turn(SIZES, begin[name] + number), number, begin)
     yield from large
     for i, dataset in enumerate(DATASETS):
         pair = _pair(dataset, np.random.default_rng([seed, number, i]))
@@ -69,11 +72,13 @@ def _alone(plan: Plan) -> tuple[str, ...]:
     return plan.effects if len(plan.effects) == 1 else ()
 
 
-def _every_effect(names: Sequence[str], size: str, number: int) -> Iterator[tuple[tuple[str, ...], str, str, str]]:
+def _every_effect(
+    names: Sequence[str], size: str, number: int, begin: Mapping[str, int]
+) -> Iterator[tuple[tuple[str, ...], str, str, str]]:
     """Each where it can be seen; the noise moves on when all datasets were had."""
-    for i, name in enumerate(names):
+    for name in names:
         shown = [dataset for dataset in DATASETS if EFFECTS[name].seen_in & kinds(dataset)]
-        place = i + SIZES.index(size)
+        place = begin[name] + SIZES.index(size)
         yield (name,), size, _turn(shown, place + number), _turn(NOISES, place + number // len(shown))
 
 

@@ -61,6 +61,13 @@ def test_an_effect_meets_datasets_and_noises_in_turn(name: str) -> None:
     assert len({(plan.dataset, plan.noise) for plan in mine}) >= 2 * len(shown)
 
 
+@pytest.mark.parametrize("name", LIBRARY)
+def test_campaigns_begin_an_effect_in_several_datasets(name: str) -> None:
+    firsts = [next(plan for plan in campaign(seed, 1) if plan.effects == (name,)) for seed in range(8)]
+    assert len({plan.dataset for plan in firsts}) >= 2
+    assert len({plan.noise for plan in firsts}) >= 2
+
+
 def test_clean_arms_meet_every_dataset() -> None:
     found = Counter(plan.dataset for plan in A_ROUND if not plan.effects)
     assert set(found) == set(DATASETS)
