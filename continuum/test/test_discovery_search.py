@@ -261,6 +261,6 @@ def test_what_explains_nearly_all_names_every_effect_of_its_model() -> None:
     shares = {(): 0.6, ("tip_payload",): 0.3, ("base_tilt",): 0.5, both: 0.1}
     baseline, rounds = search(Fits(shares), EFFECTS, lambda _what, _part: None)
     verdict = judge(baseline, rounds)
-    assert verdict.nearly
+    assert verdict.to_close == 0.8
     assert {cause.addition.effect for cause in verdict.causes} == set(both)
     assert set(effects_of(verdict.extension)) == set(both)

@@ -34,7 +34,11 @@ def verdict_in_words(verdict: Verdict) -> str:
             return (
                 f"{_what(verdict.causes)} "
                 f"With that in the simulation, what it leaves unexplained falls from {before} of the data to {after}"
-                + (", and that has another cause or none that this data tells." if verdict.nearly else ".")
+                + (
+                    ", and that has another cause or none that this data tells."
+                    if verdict.to_close is not None
+                    else "."
+                )
             )
         case Kind.AMBIGUOUS:
             return (

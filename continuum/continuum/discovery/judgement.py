@@ -16,8 +16,10 @@ from continuum.dynamics.effect_lookup import effect_named
 _LEAST_CLOSED = 1 / 3  # of the distance to the noise floor, by a cause; those that are right close half or more
 _AWAY, _LEAST_OF_A_RUN = 4.0, 0.25  # noise floors, and what a run so far away comes nearer by; mostly by half or more
 _WORSE = 1.05  # times the error without the extension
-_MOST_CLOSED = 0.8  # of it, where windows stay unexplained
+_MOST_CLOSED = 0.8  # of it, where windows stay unexplained, but most are explained
+_ALL_CLOSED = 0.95  # of it, where it is the free runs alone that are explained
 _MOST_LEFT = 1 / 3  # of the unexplained windows, where most is explained
+_TELLING, _FEWEST = 2.0, 3  # noise floors, from which on a run has a way to come; runs that tell a cause by themselves
 _OTHERS = 0.5  # of the best one's gain, beyond which another effect may be the one as well
 
 
@@ -25,8 +27,8 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
     """What can be said.
 
     Causes are the effects that were added round after round. They are named where nothing is left that noise
-    does not explain; a model that is better and still wrong has an unknown cause, whatever helped it, unless it
-    explains nearly all and free runs confirm that.
+    does not explain; a model that is better and still wrong has an unknown cause, whatever helped it, unless no other
+    effect comes near it and free runs tell that it is right (`confirmed`).
     """
     added = [r for r in rounds if r.best is not r.before]
     if not added:
@@ -39,7 +41,9 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
     best, causes = added[-1].best, tuple(_cause(r) for r in added)
     share = unexplained(baseline), unexplained(best)
     if not complete:
-        return Verdict(Kind.UNKNOWN, causes, (), baseline, best, share, nearly=bool(nearly))
+        alone = len(added) == 1 and not _has_peers(added[0])
+        to_close = _MOST_CLOSED if nearly else _ALL_CLOSED if alone else None
+        return Verdict(Kind.UNKNOWN, causes, (), baseline, best, share, to_close=to_close)
     named = {cause.addition.effect for cause in causes}  # beside each other they are no alternatives
     rivals = tuple(rival for r in added for rival in _rivals(r) if rival.addition.effect not in named)
     if rivals:
@@ -55,13 +59,18 @@ def _those_that_explain_most(baseline: Trial, added: Sequence[Round]) -> list[Ro
     for count, one in enumerate(added, 1):
         if len(one.best.extension) != count:  # sought anew: this one stood beside an effect that a later round names
             continue
-        own = gain(one.best, one.before).log_likelihood
-        others = [trial for trial in one.leaders if trial.extension[-1].effect != one.best.extension[-1].effect]
-        if any(gain(trial, one.before).log_likelihood > _OTHERS * own for trial in others):
+        if _has_peers(one):
             return []
         if unexplained(one.best) <= enough:
             return list(added[:count])
     return []
+
+
+def _has_peers(one: Round) -> bool:
+    """Whether another effect did nearly as well as the best one."""
+    own = gain(one.best, one.before).log_likelihood
+    others = [trial for trial in one.leaders if trial.extension[-1].effect != one.best.extension[-1].effect]
+    return any(gain(trial, one.before).log_likelihood > _OTHERS * own for trial in others)
 
 
 def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunScore]) -> Verdict:
@@ -70,10 +79,11 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
     Windows as short as these are explained by what only looks like the cause, a free run is not: it comes nearer to the
     noise, where it was away from it, in every run that was far away, ends far off in none, and is worse in half of them
     at most. Where the model without it is adequate, nothing has to be explained, and that model it is; but no model is
-    whose free runs end far from what was measured. What explains nearly all windows is the cause where free runs come
-    nearly to the noise.
+    whose free runs end far from what was measured. What leaves windows unexplained is the cause nevertheless where free
+    runs come to the noise, nearly where it explains most windows: where joints stick and slip a right model leaves some
+    windows unexplained, begun a little wrong, but a wrong one hardly follows whole runs that it was not fitted to.
     """
-    if verdict.nearly and _comes_to_the_noise(before, after):
+    if verdict.to_close is not None and _comes_to_the_noise(before, after, verdict.to_close):
         return replace(verdict, kind=Kind.CAUSE)
     if verdict.kind is Kind.ADEQUATE:
         if is_far(before):
@@ -109,13 +119,19 @@ def _bear_out(before: Sequence[RunScore], after: Sequence[RunScore]) -> bool:
     return nearer and not is_far(after) and sum(worse) <= len(worse) / 2
 
 
-def _comes_to_the_noise(before: Sequence[RunScore], after: Sequence[RunScore]) -> bool:
-    """Whether free runs come nearly to the noise, also without any single run, and none ends far from it."""
+def _comes_to_the_noise(before: Sequence[RunScore], after: Sequence[RunScore], least: float) -> bool:
+    """Whether free runs come so near to the noise, also without any single run, and none ends far from it.
+
+    Where they have to come all the way it has to be one: of three runs or more most were away before.
+    """
     if is_far(after) or not all(math.isfinite(score.position) for score in before):
+        return False
+    away = sum(b.position > _TELLING * b.floor for b in before)
+    if least >= _ALL_CLOSED and (len(before) < _FEWEST or away <= len(before) / 2):
         return False
     pairs = list(zip(before, after, strict=True))
     parts = [pairs, *(pairs[:i] + pairs[i + 1 :] for i in range(len(pairs)) if len(pairs) > 1)]
-    return all(closed_gap(*zip(*part, strict=True)) >= _MOST_CLOSED for part in parts)
+    return all(closed_gap(*zip(*part, strict=True)) >= least for part in parts)
 
 
 def _cause(one: Round) -> Cause:

@@ -50,8 +50,8 @@ class Verdict:
         experiment: what to measure to tell alternatives apart, in words; empty where nothing is to be told apart.
         predicts: whether the best one's free runs come as near to what was held out as they should; if not, no cause is
             named, and no model is adequate.
-        nearly: whether the causes leave windows unexplained, and yet most are explained, and by no other effect. They
-            are UNKNOWN then, unless free runs confirm them.
+        to_close: of causes that leave windows unexplained, and no other effect comes near: the part of the distance to
+            the noise that free runs have to close for them to be named; None where no free run would do.
         vague: whether an ADEQUATE model's free runs end far from what was measured, as those of models do that the data
             do not tell from it.
         at_odds: whether the recordings contradict themselves, so that nothing fitted to them can be trusted.
@@ -65,7 +65,7 @@ class Verdict:
     unexplained: tuple[float, float]
     experiment: str = ""
     predicts: bool = True
-    nearly: bool = False
+    to_close: float | None = None
     vague: bool = False
     at_odds: bool = False
 

@@ -46,7 +46,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
             "entangled": [[str(a), str(b), r] for a, b, r in found.identifiability.entangled],
             "untold": [str(unknown) for unknown in found.identifiability.untold],
         },
-        "complete": not (unknown or verdict.nearly),
+        "complete": not unknown and verdict.to_close is None,
         "at_odds": verdict.at_odds,
         "vague": verdict.vague,
         "weakness": found.weakness,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 
 from continuum.dynamics.effect import Effect
@@ -31,4 +33,10 @@ def effect_names() -> list[str]:
 
 
 def _offered() -> dict[str, EntryPoint]:
+    return _offered_on(tuple(sys.path))
+
+
+@cache
+def _offered_on(_path: tuple[str, ...]) -> dict[str, EntryPoint]:
+    """Of the packages on a path: they are read once, a search asks for effects by the hundred."""
     return {entry.name: entry for entry in entry_points(group=GROUP)}
