@@ -9,7 +9,8 @@ import pytest
 from identification_laws import BENDS, recorded, small_simulator, white_noise
 
 from continuum.discovery import workers
-from continuum.discovery.candidate import Addition, Extension
+from continuum.discovery.candidate import SMALL, USUAL, Addition, Extension
+from continuum.discovery.evidence import is_adequate
 from continuum.discovery.likeliest_beginning import with_likeliest_beginning
 from continuum.discovery.question import Question
 from continuum.discovery.trial import Trial, fit_extension, judged
@@ -84,9 +85,9 @@ def test_windows_begun_afresh_forget_where_the_start_has_them(is_look: bool, mon
     without = judged((), fit_extension(question, ()))
     begun: list[Trial] = []
 
-    def fitted(question: Question, extension: Extension, near: Trial, *options: object) -> Fit:
+    def fitted(question: Question, extension: Extension, near: Trial, *options: int, **named: float) -> Fit:
         begun.append(near)
-        return fit_extension(question, extension, near, *options)
+        return fit_extension(question, extension, near, *options, **named)  # type: ignore[arg-type]
 
     monkeypatch.setattr(workers, "fit_extension", fitted)
     for afresh in (True, False):
@@ -103,10 +104,30 @@ def test_close_looks_find_beginnings_of_windows_as_well_as_fits_do(
     without = judged((), fit_extension(question, ()))
     steps: list[object] = []
 
-    def fitted(question: Question, extension: Extension, near: Trial, *options: int) -> Fit:
+    def fitted(question: Question, extension: Extension, near: Trial, *options: int, **named: float) -> Fit:
         steps.append(options[2])
-        return fit_extension(question, extension, near, *options)
+        return fit_extension(question, extension, near, *options, **named)  # type: ignore[arg-type]
 
     monkeypatch.setattr(workers, "fit_extension", fitted)
     workers.make(question, workers.first_look((), without, 1, closely=closely))
     assert [one == STEPS for one in steps] == [closely]
+
+
+DRAG = (Addition("quadratic_drag"),)
+
+
+def test_looks_begin_small_where_the_model_explains_the_data_nearly(monkeypatch: pytest.MonkeyPatch) -> None:
+    question = question_about(0.0, 0.3)
+    without = judged((), fit_extension(question, ()))
+    wrong = replace(without, held_out=tuple(9 * run for run in without.held_out))
+    assert is_adequate(without)
+    parts: list[float] = []
+
+    def fitted(question: Question, extension: Extension, near: Trial, *options: int, part: float) -> Fit:
+        parts.append(part)
+        return fit_extension(question, extension, near, *options, part=part)
+
+    monkeypatch.setattr(workers, "fit_extension", fitted)
+    for near in (without, wrong):
+        workers.make(question, workers.first_look(DRAG, near, 1))
+    assert parts == [SMALL, USUAL]

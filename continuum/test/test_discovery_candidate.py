@@ -10,7 +10,7 @@ from discovery_laws import quadratic
 from dynamics_laws import accelerations, prototype_model
 from effects_laws import EFFECTS, effect_of, resting_state
 
-from continuum.discovery.candidate import Addition, acts_at_joints, beginning, extended, unknowns_of
+from continuum.discovery.candidate import SMALL, USUAL, Addition, acts_at_joints, beginning, extended, unknowns_of
 from continuum.discovery.joints import acting_joints
 from continuum.dynamics.reading import Reading
 from continuum.errors import InvalidValueError
@@ -70,7 +70,8 @@ def test_a_fit_begins_at_a_size_only_where_no_slope_shows_the_way(effect: str) -
     """What may have either sign begins absent; the baseline begins at its values."""
     model, added = extended(MODEL, (Addition(effect),)), unknowns_of(Addition(effect), N, 2)
     space = FreeSpace(model, [Free("capstan_friction"), *baseline_unknowns(model), *added])
-    start = beginning(space, len(added))
+    start, small = (beginning(space, len(added), part) for part in (USUAL, SMALL))
+    np.testing.assert_allclose(small, start * SMALL / USUAL)
     assert not np.any(start[: -len(added)])
     for at, unknown in zip(start[-len(added) :], added, strict=True):
         parameter = effect_of(effect).parameters[unknown.name.split(".")[1]]

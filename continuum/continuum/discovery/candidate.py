@@ -12,7 +12,9 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.identification.free import Free, FreeSpace
 
-_PART = 0.3  # of a typical size
+USUAL, SMALL = 0.3, 0.03
+"""Parts of a typical size at which a fit begins an effect that cannot be negative: the second of one that must be
+small, since the model without it explains the data nearly."""
 
 
 @dataclass(frozen=True)
@@ -63,13 +65,13 @@ def acts_at_joints(effect: str) -> bool:
     return any(parameter.per_joint for parameter in effect_named(effect).parameters.values())
 
 
-def beginning(space: FreeSpace, added: int) -> Array:
-    """Coordinates to begin a fit at, (k,): of the last ``added`` at part of a typical size if it cannot be negative.
+def beginning(space: FreeSpace, added: int, part: float = USUAL) -> Array:
+    """Coordinates to begin a fit at, (k,): of the last ``added`` at a part of a typical size if it cannot be negative.
 
     Where an unknown may have either sign, slopes at zero show the way.
     """
     start = np.zeros(space.scale.size)
     one_sided = space.lower > -1e-2
     one_sided[: start.size - added] = False
-    start[one_sided] = _PART
+    start[one_sided] = part
     return space.clipped(start)

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from continuum.discovery.candidate import Extension
+from continuum.discovery.candidate import USUAL, Extension
 from continuum.discovery.question import Question
 from continuum.discovery.trial import Trial, fit_extension
 from continuum.dynamics.effect import Effect
@@ -24,7 +24,9 @@ _LONGEST = 3.0  # typical sizes
 _ITERATIONS = 2
 
 
-def with_likeliest_beginning(question: Question, extension: Extension, near: Trial, steps: int) -> Trial:
+def with_likeliest_beginning(
+    question: Question, extension: Extension, near: Trial, steps: int, part: float = USUAL
+) -> Trial:
     """The start of a fit: values of the last effect, where it names some or is late, that promise to explain most.
 
     Args:
@@ -32,6 +34,7 @@ def with_likeliest_beginning(question: Question, extension: Extension, near: Tri
         extension: to be fitted.
         near: a trial to start from; one with the last effect is the start.
         steps: of each window's first state, at most.
+        part: of a typical size, at which it begins that is not named.
     """
     if not extension:
         return near
@@ -40,7 +43,7 @@ def with_likeliest_beginning(question: Question, extension: Extension, near: Tri
         return near
 
     def hoped_for(start: Trial) -> float:
-        fitted = fit_extension(question, extension, start, _ITERATIONS, 0, steps)
+        fitted = fit_extension(question, extension, start, _ITERATIONS, 0, steps, part=part)
         return fitted.cost - fitted.promised
 
     starts = [_begun(near, effect, values) for values in (*effect.beginnings, *_delays(question, effect))]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.candidate import Extension, beginning, extended, unknowns_of
+from continuum.discovery.candidate import USUAL, Extension, beginning, extended, unknowns_of
 from continuum.discovery.held_out import held_out_misfits
 from continuum.discovery.price_of_own import OneForAll, own_prices
 from continuum.discovery.question import Question
@@ -77,6 +77,7 @@ def fit_extension(
     seekings: int = 2,
     steps: int = STEPS,
     to_the_end: bool = False,
+    part: float = USUAL,
 ) -> Fit:
     """Fit the extended model to all runs.
 
@@ -87,11 +88,12 @@ def fit_extension(
         near: a trial to start from; what is not among its unknowns starts absent or at a part of a typical size.
         seekings, steps: of the fit, at most.
         to_the_end: as of `continuum.identification.fit.fit`.
+        part: of a typical size, as of `beginning`.
     """
     model = extended(question.model, extension)
     added = [u for a in extension for u in unknowns_of(a, model.n_joints, len(question.recordings))]
     free = [*question.baseline, *added]
-    begin = beginning(FreeSpace(model, free), len(added))
+    begin = beginning(FreeSpace(model, free), len(added), part)
     there = {} if near is None else dict(zip(near.unknowns, map(float, near.coordinates), strict=True))
     for i, unknown in enumerate(free):
         begin[i] = there.get(unknown, begin[i])

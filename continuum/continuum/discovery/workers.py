@@ -10,8 +10,8 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-from continuum.discovery.candidate import Addition, Extension, acts_at_joints
-from continuum.discovery.evidence import gain
+from continuum.discovery.candidate import SMALL, USUAL, Addition, Extension, acts_at_joints
+from continuum.discovery.evidence import gain, is_adequate
 from continuum.discovery.joints import acting_joints
 from continuum.discovery.likeliest_beginning import with_likeliest_beginning
 from continuum.discovery.one_value import with_one_value
@@ -65,8 +65,9 @@ def make(question: Question, task: Task) -> Trial:
         if len(question.recordings) >= _MANY_RUNS:
             part, near = some_runs(question, task.near)
         steps = STEPS if task.closely else _LOOK_STEPS
-        near = with_likeliest_beginning(part, task.extension, _start(near, task), steps)
-        return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, 0, steps))
+        size = SMALL if is_adequate(task.near) else USUAL
+        near = with_likeliest_beginning(part, task.extension, _start(near, task), steps, size)
+        return judged(task.extension, fit_extension(part, task.extension, near, task.iterations, 0, steps, part=size))
     start = None if task.near is None else _start(task.near, task)
     fitted = fit_extension(question, task.extension, start, task.iterations)
     whole = _from_one_value(question, judged(task.extension, fitted), task.iterations)
