@@ -13,8 +13,9 @@ from blind.plant import EFFECTS, LIBRARY, OUTSIDE, SIZES, Plan
 from tools.bench_discovery.answer import Answer
 from tools.bench_discovery.calibration import bins, expected_error, statements
 from tools.bench_discovery.estimates import by_parameter, coverage, estimates, median_error
-from tools.bench_discovery.goals import counts, goals
+from tools.bench_discovery.goals import WANTED_OF_EACH, counts, goals
 from tools.bench_discovery.plans import campaign_of
+from tools.bench_discovery.reasons import REASONS
 from tools.bench_discovery.result import Result
 from tools.bench_discovery.score import (
     Tally,
@@ -52,6 +53,7 @@ def page(results: Sequence[Result], replaced: Sequence[Result] = ()) -> str:
         "Goals": table(("", "goal", "reached", ""), aims) + "\n\n" + RULES,
         "Cases that no version was mended on": _unseen(results, replaced),
         "One hidden effect, the worst first": _tally_table("effect", tallies(one, name_of)),
+        "Why some are seldom named": _reasons([*one, *outside]),
         "By size": _sizes(one),
         "One hidden effect, by dataset": _tally_table("dataset", tallies(one, _dataset)),
         "One hidden effect, by noise": _tally_table("noise", tallies(one, _noise)),
@@ -163,6 +165,13 @@ def _tally_table(what: str, groups: Mapping[str, Tally]) -> str:
         for name, group in groups.items()
     )
     return table(head, rows)
+
+
+def _reasons(results: Sequence[Result]) -> str:
+    """What is known of effects that are named less often than wanted."""
+    seldom = [name for name, group in tallies(results, name_of).items() if group.right.value < WANTED_OF_EACH]
+    lines = [paragraph(f"- `{name}`: {REASONS.get(name, 'not looked into yet.')}") for name in seldom]
+    return "\n".join(lines) or "None is."
 
 
 def _sizes(one: Sequence[Result]) -> str:

@@ -7,6 +7,7 @@ import re
 from dataclasses import replace
 
 import pytest
+from blind.plant import EFFECTS
 
 from tools.bench_discovery.answer import Answer
 from tools.bench_discovery.calibration import bins, expected_error, statements
@@ -14,6 +15,7 @@ from tools.bench_discovery.estimates import coverage, estimates, median_error
 from tools.bench_discovery.goals import MET, MISSED, TOO_FEW, at_least, at_most, goals
 from tools.bench_discovery.page import page
 from tools.bench_discovery.rate import Rate
+from tools.bench_discovery.reasons import REASONS
 from tools.bench_discovery.result import Result
 from tools.bench_discovery.score import (
     ambiguous_sets,
@@ -159,6 +161,16 @@ def test_the_page_holds_every_answer() -> None:
     assert all(answer.value in text for answer in Answer)
     for table in re.findall(r"(?:^\|.*\|\n)+", text, re.MULTILINE):
         assert len({line.count("|") for line in table.splitlines()}) == 1
+
+
+def test_the_page_says_why_an_effect_is_seldom_named() -> None:
+    unnamed = result([effect("backlash", 2)], verdict("unknown"))
+    _, _, why = page([FOUND, unnamed, NONE, STRANGE]).partition("## Why some are seldom named")
+    why = why.partition("\n## ")[0]
+    assert "- `backlash`: where joints stick" in why
+    assert "- `base_tilt`: not looked into yet." in why
+    assert why.count("- `") == 2
+    assert set(REASONS) <= set(EFFECTS)
 
 
 @pytest.mark.parametrize("one", ALL, ids=lambda one: f"{one.kind}, {one.plan.effects}")
