@@ -8,17 +8,34 @@ import pytest
 from identification_laws import releases, small_simulator
 
 import continuum.discovery.answer as asked
-from continuum.cli.sensor_options import add_sensor_options, sensor_knowledge
+from continuum.cli.sensor_options import (
+    add_sensor_options,
+    given_sensor_options,
+    sensor_knowledge,
+    unused_sensor_options,
+)
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
 from continuum.identification.dataset import Dataset
 from continuum.identification.noise import SensorKnowledge
 
 
-def parsed(*words: str) -> SensorKnowledge:
+def options(*words: str) -> argparse.Namespace:
     parser = argparse.ArgumentParser()
     add_sensor_options(parser)
-    return sensor_knowledge(parser.parse_args(words))
+    return parser.parse_args(words)
+
+
+def parsed(*words: str) -> SensorKnowledge:
+    return sensor_knowledge(options(*words))
+
+
+def test_what_tells_nothing_of_these_recordings_is_named() -> None:
+    given = options("--angle-wander", "0.5", "--rate-bias", "0.1", "--wander-time", "2")
+    assert unused_sensor_options(given, has_rates=True) == ["--angle-wander"]
+    assert unused_sensor_options(given, has_rates=False) == ["--rate-bias"]
+    assert unused_sensor_options(options(), has_rates=True) == []
+    assert given_sensor_options(given) == {"--angle-wander": 0.5, "--wander-time": 2.0, "--rate-bias": 0.1}
 
 
 def test_without_options_the_defaults_of_the_library_hold() -> None:

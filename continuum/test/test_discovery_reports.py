@@ -94,9 +94,10 @@ def test_what_an_extension_is_worth_may_be_less_than_nothing() -> None:
 @pytest.mark.parametrize("kind", Kind)
 def test_every_kind_for_machines(kind: Kind, tmp_path: Path) -> None:
     verdict = judged()[kind]
-    write_json(found(verdict), tmp_path / "verdict.json")
+    made = {"model": "arm.yaml", "recordings": ["run_1.csv", "run_2.csv"], "seed": 3}
+    write_json(found(verdict), tmp_path / "verdict.json", made)
     read = json.loads((tmp_path / "verdict.json").read_text(encoding="utf-8"))
-    assert read == as_mapping(found(verdict))
+    assert read == as_mapping(found(verdict)) | {"made": made}
     assert read["verdict"] == kind.value
     named, empty = ("helps", "causes") if kind is Kind.UNKNOWN else ("causes", "helps")
     assert [one["effect"] for one in read[named]] == [c.addition.effect for c in verdict.causes]
@@ -126,7 +127,7 @@ def test_joints_for_machines_count_from_one(joints: tuple[int, ...] | None, join
 
 def test_a_file_that_cannot_be_written(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="cannot be written"):
-        write_json(found(judged()[Kind.CAUSE]), tmp_path)
+        write_json(found(judged()[Kind.CAUSE]), tmp_path, {})
 
 
 def test_what_would_look_the_same_and_is_not_in_the_library_is_told() -> None:
@@ -137,6 +138,29 @@ def test_what_would_look_the_same_and_is_not_in_the_library_is_told() -> None:
             assert verdict.kind is Kind.AMBIGUOUS
             assert lookalikes_in_words(verdict) == [f"{name}: {effect_named(name).beware}" for name in effects]
             assert lookalikes_in_words(replace(verdict, kind=Kind.UNKNOWN)) == []
+
+
+@pytest.mark.parametrize(
+    ("amounts", "words"),
+    [
+        ((0.9, 0.1), "rubs more than the others"),
+        ((-0.4, -0.1), "rubs less than the others"),
+        ((0.9, -0.1), "tighter or looser"),
+    ],
+)
+def test_a_mechanic_is_told_which_way_it_is_off(amounts: tuple[float, float], words: str) -> None:
+    unknowns = (Free("stiffness"), Free("joint_friction.coulomb", 2), Free("joint_friction.viscous", 2))
+    found_so = replace(
+        trial(Addition("joint_friction", (2,)), seed=5), unknowns=unknowns, amounts=np.array([-0.1, *amounts])
+    )
+    verdict = judge(BAD, [a_round(BAD, found_so)])
+    assert words in verdict_in_words(verdict)
+    assert "(joint 3)" in verdict_in_words(verdict)
+
+
+def test_an_unknown_cause_asks_for_more_runs() -> None:
+    assert "record three more runs" in verdict_in_words(judged()[Kind.UNKNOWN])
+    assert "record three more runs" not in verdict_in_words(judged()[Kind.CAUSE])
 
 
 def test_what_the_data_tell_at_all_is_told() -> None:

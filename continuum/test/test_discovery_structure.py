@@ -12,6 +12,7 @@ from scipy.signal import lfilter
 from continuum.discovery.residual_torque import ResidualTorque
 from continuum.discovery.structure_tests import structure_tests
 from continuum.discovery.turns import way_since_turn
+from continuum.dynamics.tensions import LET_GO
 
 WINDOWS, JOINTS = 60, 2
 
@@ -86,4 +87,33 @@ def test_chance_is_as_rare_as_it_is_said_to_be() -> None:
 
 def test_joints_of_which_the_data_tell_nothing_go_with_nothing() -> None:
     untold = [replace(run, deviation=np.full(run.theta.shape, 1.0)) for run in runs(lambda r: r.theta)]
-    assert {test.correlation for test in structure_tests(untold, np.random.default_rng(0))} == {0.0}
+    assert structure_tests(untold, np.random.default_rng(0)) == []
+
+
+def test_windows_that_tell_nothing_have_no_say() -> None:
+    """Whether a window tells a torque goes with much: joints that stick show only that it is small."""
+    shown = runs(lambda r: r.theta)
+    spoilt = [
+        replace(
+            run,
+            torque=np.where(run.times[:, None] > run.times.mean(), 1e3, run.torque),
+            deviation=np.where(run.times[:, None] > run.times.mean(), 1.0, run.deviation),
+        )
+        for run in shown
+    ]
+    against = {t.against: t for t in structure_tests(spoilt, np.random.default_rng(0)) if t.joint == 0}
+    assert against["position"].correlation > 0.8
+    assert against["position"].p_value < 0.01
+
+
+def test_a_joint_that_misses_little_beside_another_is_not_compared() -> None:
+    little = [
+        replace(run, torque=run.torque * [1.0, *[0.05] * (run.torque.shape[1] - 1)]) for run in runs(lambda r: r.theta)
+    ]
+    assert {test.joint for test in structure_tests(little, np.random.default_rng(0))} == {0}
+
+
+def test_cables_that_were_let_go_are_no_tension() -> None:
+    """Their tension is a mark below zero; times the direction of motion it would be that direction again."""
+    gone = [replace(run, tension=np.full(run.tension.shape, LET_GO)) for run in runs(lambda r: np.sign(r.theta_rate))]
+    assert not [test for test in structure_tests(gone, np.random.default_rng(0)) if "tension" in test.against]

@@ -12,7 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from continuum.cli.output_files import check_apart, check_writable
-from continuum.cli.sensor_options import add_sensor_options, sensor_knowledge
+from continuum.cli.sensor_options import (
+    add_sensor_options,
+    given_sensor_options,
+    sensor_knowledge,
+    unused_sensor_options,
+)
 from continuum.cli.tables import print_pairs
 from continuum.printable import printable
 
@@ -64,6 +69,8 @@ def run(options: argparse.Namespace) -> int:
     for recording in recordings:
         for note in recording.notes:  # before minutes pass: what was not understood may be what matters
             print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
+    for name in unused_sensor_options(options, all(recording.theta_rate is not None for recording in recordings)):
+        print(f"continuum: {name} has no effect on these recordings", file=sys.stderr)
     return _diagnose(options, model, recordings, known)
 
 
@@ -81,7 +88,7 @@ def _diagnose(
         diagnosis, found = answer(Dataset(tuple(recordings)), model, options.seed, options.processes, tell, known=known)
     show(found)
     if options.json is not None:
-        write_json(found, options.json)
+        write_json(found, options.json, _made(options))
     if options.report is not None:
         _report(options, diagnosis, found)
     if options.extended is not None:
@@ -102,11 +109,21 @@ def _report(options: argparse.Namespace, diagnosis: Diagnosis, found: Findings) 
     write_report(options.report, diagnosis, found, (before, after), tests, _how(options))
 
 
-def _how(options: argparse.Namespace) -> str:
-    """How the page was made: the day, the version, and of what, without the folders."""
+def _made(options: argparse.Namespace) -> dict[str, object]:
+    """How a diagnosis was made: the version, of what, without the folders, and with which options."""
     *names, model = (printable(Path(path).name) for path in (*options.data, options.model))
-    day, version = datetime.datetime.now().astimezone().date().isoformat(), importlib.metadata.version("continuum")
-    return f"Made on {day} by continuum {version} of {', '.join(names)}; model {model}, seed {options.seed}."
+    sensors = given_sensor_options(options)
+    version = importlib.metadata.version("continuum")
+    return {"version": version, "recordings": names, "model": model, "seed": options.seed, "sensors": sensors}
+
+
+def _how(options: argparse.Namespace) -> str:
+    """The same in one line, and on which day."""
+    made, day = _made(options), datetime.datetime.now().astimezone().date().isoformat()
+    sensors = "".join(f", {name} {value:g}" for name, value in given_sensor_options(options).items())
+    recordings = ", ".join(printable(Path(path).name) for path in options.data)
+    what = f"model {made['model']}, seed {options.seed}{sensors}"
+    return f"Made on {day} by continuum {made['version']} of {recordings}; {what}."
 
 
 def read_recording(path: str) -> Recording:

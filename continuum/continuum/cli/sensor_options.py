@@ -11,7 +11,9 @@ from continuum.errors import InvalidValueError
 if TYPE_CHECKING:
     from continuum.identification.noise import SensorKnowledge
 
-_DEGREES = ("angle_wander", "rate_bias")  # the other option is in s
+_ATTRIBUTES = {"--angle-wander": "wander", "--wander-time": "wander_time", "--rate-bias": "rate_bias"}
+"""Of `SensorKnowledge`, by option."""
+_DEGREES = ("--angle-wander", "--rate-bias")  # the other option is in s
 
 
 def add_sensor_options(parser: argparse.ArgumentParser) -> None:
@@ -36,13 +38,22 @@ def sensor_knowledge(options: argparse.Namespace) -> SensorKnowledge:
     """
     from continuum.identification.noise import SensorKnowledge
 
-    given = {name: getattr(options, name) for name in ("angle_wander", "wander_time", "rate_bias")}
-    for name, value in given.items():
-        if value is not None and not 0 < value < math.inf:
-            raise InvalidValueError(f"--{name.replace('_', '-')}", value, "a number > 0")
-    named = {
-        name.removeprefix("angle_"): math.radians(value) if name in _DEGREES else value
-        for name, value in given.items()
-        if value is not None
-    }
-    return SensorKnowledge(**named)
+    given = given_sensor_options(options)
+    for option, value in given.items():
+        if not 0 < value < math.inf:
+            raise InvalidValueError(option, value, "a number > 0")
+    return SensorKnowledge(
+        **{_ATTRIBUTES[name]: math.radians(value) if name in _DEGREES else value for name, value in given.items()}
+    )
+
+
+def given_sensor_options(options: argparse.Namespace) -> dict[str, float]:
+    """Those that were given, by the names and in the units in which they were."""
+    values = {name: getattr(options, name.removeprefix("--").replace("-", "_"), None) for name in _ATTRIBUTES}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def unused_sensor_options(options: argparse.Namespace, has_rates: bool) -> list[str]:
+    """Those that were given and tell nothing: rates show how angles wander, and where there are none have no bias."""
+    unused = "--angle-wander" if has_rates else "--rate-bias"
+    return [name for name in given_sensor_options(options) if name == unused]

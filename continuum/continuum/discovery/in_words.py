@@ -16,6 +16,7 @@ _VAGUE = (
     " They leave much open, though: left to itself the simulation ends far from what was measured, and so it does with "
     "other parameters that explain these data as well. More recordings, of other motions, would tell more."
 )
+_NEXT = "Next: record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
 _NOTHING_TOLD = 1e5  # conditioning, beyond which some direction is not told at all
 _PAIRS = 4  # of estimates that hang together, told of at most; the JSON file has all
 _NOTICED = 0.02  # of the distance to the noise floor
@@ -64,9 +65,16 @@ def verdict_in_words(verdict: Verdict) -> str:
 
 
 def _what(causes: Sequence[Cause]) -> str:
-    return " Besides: ".join(
-        effect_named(c.addition.effect).in_words + (f" ({_where(c)})" if _where(c) else "") for c in causes
-    )
+    return " Besides: ".join(_matter(c) + (f" ({_where(c)})" if _where(c) else "") for c in causes)
+
+
+def _matter(cause: Cause) -> str:
+    """What is the matter, in one sentence; which way it is off where all that was found of it is off that way."""
+    effect = effect_named(cause.addition.effect)
+    pairs = zip(cause.trial.unknowns, cause.trial.amounts, strict=True)
+    sizes = [amount for unknown, amount in pairs if unknown.name.startswith(f"{effect.name}.")]
+    more, less = (bool(sizes) and all(sign * size > 0 for size in sizes) for sign in (1, -1))
+    return effect.in_words_if_more * more or effect.in_words_if_less * less or effect.in_words
 
 
 def _where(cause: Cause) -> str:
@@ -84,16 +92,17 @@ def _names(verdict: Verdict) -> str:
 def in_full(cause: Cause) -> str:
     """An effect's name, where it acts, and in brackets what that means."""
     where = f" at {_where(cause)}" if _where(cause) else ""
-    return f"{cause.addition.effect}{where} ({effect_named(cause.addition.effect).in_words.rstrip('.')})"
+    return f"{cause.addition.effect}{where} ({_matter(cause).rstrip('.')})"
 
 
 def _what_helps(verdict: Verdict, after: str) -> str:
     helps = " with ".join(in_full(c) for c in verdict.causes)
     if not helps:
-        return "None even helps."
+        return f"None even helps. {_NEXT}"
     if not verdict.predicts:
-        return f"{helps} explains short stretches of them, yet it does not predict runs that it was not fitted to."
-    return f"{helps} helps, yet {after} stay unexplained."
+        told = "explains short stretches of them, yet it does not predict runs that it was not fitted to"
+        return f"{helps} {told}. {_NEXT}"
+    return f"{helps} helps, yet {after} stay unexplained. {_NEXT}"
 
 
 def lookalikes_in_words(verdict: Verdict) -> list[str]:

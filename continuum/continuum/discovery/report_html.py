@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
 
@@ -26,6 +26,8 @@ from continuum.discovery.residual_torque import ResidualTorque
 from continuum.discovery.round import Round
 from continuum.discovery.structure_tests import StructureTest
 from continuum.discovery.verdict import Cause, Kind, Verdict
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.parameters import Parameter
 from continuum.whole_file import write_whole
 
 _HEAD = (
@@ -86,7 +88,7 @@ def write_report(
     kind = found.verdict.kind.value
     extended = bool(found.verdict.extension)
     body = [
-        f"<h1>What the simulation gets wrong: {escape(kind)}</h1>",
+        f"<h1>What the simulation gets wrong: {escape(_wrong(found.verdict))}</h1>",
         f'<p class="verdict {kind}">{escape(verdict_in_words(found.verdict))}</p>',
         *_candidates(found.verdict),
         *([f'<p class="note">Mind: {escape(found.weakness)}.</p>'] if found.weakness else []),
@@ -107,7 +109,7 @@ def write_report(
         *_hints(tests),
         *(part for number, one in enumerate(diagnosis.rounds, 1) for part in _evidence(number, one)),
         "<h2>Parameters</h2>",
-        _estimates(found.estimates),
+        _estimates(found.estimates, found.model.meanings()),
         _run_numbers(diagnosis, found),
         *(part for one in zip(found.verdict.alternatives, found.others, strict=True) for part in _instead(*one)),
         *(f'<p class="note">{escape(line)}</p>' for line in identifiability_in_words(found.identifiability)),
@@ -118,6 +120,17 @@ def write_report(
     write_whole(path, head + "\n".join(body) + "</html>\n")
 
 
+def _wrong(verdict: Verdict) -> str:
+    """The verdict as a title says it."""
+    match verdict.kind:
+        case Kind.ADEQUATE:
+            return "nothing that these data show"
+        case Kind.UNKNOWN:
+            return "something, and what is unknown"
+    named = dict.fromkeys(str(cause.addition) for cause in (*verdict.causes, *verdict.alternatives))
+    return (" or " if verdict.kind is Kind.AMBIGUOUS else " and ").join(named)
+
+
 def _hints(tests: Sequence[StructureTest]) -> Iterable[str]:
     """The surest things that the missing torque goes with."""
     surest = [test for test in tests if test.p_value <= _CHANCE][:_SHOWN]
@@ -126,6 +139,9 @@ def _hints(tests: Sequence[StructureTest]) -> Iterable[str]:
             ("missing torque at", "goes with", "correlation", "p"),
             [(f"joint {t.joint + 1}", t.against, f"{t.correlation:+.2f}", f"{t.p_value:.3f}") for t in surest],
         )
+    if not tests:
+        yield '<p class="note">These data tell it too seldom to compare it with anything.</p>'
+        return
     told = "The surest" if surest else "It goes with nothing; this is the outcome"
     yield f'<p class="note">{told} of {len(tests)} comparisons, of which chance puts one in twenty below {_CHANCE}.</p>'
 
@@ -134,27 +150,37 @@ def _candidates(verdict: Verdict) -> Iterable[str]:
     """Table of what is named, in the order in which it is believed."""
     named = (*verdict.causes, *verdict.alternatives)
     if named and verdict.kind is not Kind.UNKNOWN:
-        yield _table(("may be the cause", "confidence"), [(in_full(c), f"{c.confidence:.2f}") for c in named])
+        title = "cause" if verdict.kind is Kind.CAUSE else "may be the cause"
+        yield _table((title, "confidence"), [(in_full(c), f"{c.confidence:.2f}") for c in named])
+
+
+def _meanings(effect: str) -> Mapping[str, Parameter]:
+    return {f"{effect}.{name}": parameter for name, parameter in effect_named(effect).parameters.items()}
 
 
 def _instead(cause: Cause, own: Sequence[Estimate]) -> Iterable[str]:
     yield f'<p class="note">If it is {escape(in_full(cause))} instead:</p>'
-    yield _estimates(own)
+    yield _estimates(own, _meanings(cause.addition.effect))
 
 
-def _estimates(estimates: Sequence[Estimate]) -> str:
+def _estimates(estimates: Sequence[Estimate], meanings: Mapping[str, Parameter]) -> str:
     return _table(
-        ("parameter", "value", "95 % from", "to", "unit", ""),
+        ("parameter", "value", "95 % from", "to", "unit", "", "what it is"),
         [
             (
                 str(e.unknown),
                 *(f"{x:.4g}" for x in (e.value, e.low, e.high)),
-                e.unit * (e.unit != "1"),
+                e.unit * (e.unit != "1") + _in_degrees(e),
                 "at the limit" * e.at_limit,
+                meanings[e.unknown.name].meaning,
             )
             for e in estimates
         ],
     )
+
+
+def _in_degrees(e: Estimate) -> str:
+    return f" = {np.degrees(e.value):.3g} degrees" if e.unit == "rad" else ""
 
 
 def _run_numbers(diagnosis: Diagnosis, found: Findings) -> str:

@@ -18,6 +18,8 @@ from continuum.discovery.residual_torque import ResidualTorque
 
 _DRAWS = 400
 _ROUNDING = 1e-12
+_LITTLE = 0.1  # of the missing torque of the joint that misses most: what goes with less hints at nothing
+_FEWEST = 8  # windows that tell a joint's torque
 
 _QUICK, _SOON = 0.05, 0.03  # rad/s beyond which a direction is clear; rad after a turn that are soon after it
 
@@ -27,8 +29,8 @@ _LOOKS: dict[str, Callable[[ResidualTorque, int], Array]] = {
     "speed": lambda r, j: r.theta_rate[:, j],
     "speed squared, signed": lambda r, j: r.theta_rate[:, j] * np.abs(r.theta_rate[:, j]),
     "cube of the angle": lambda r, j: r.theta[:, j] ** 3,
-    "difference of tensions": lambda r, _: r.tension[:, 0] - r.tension[:, 1],
-    "direction times tension": lambda r, j: _direction(r, j) * r.tension.sum(axis=1),
+    "difference of tensions": lambda r, _: _pull(r)[:, 0] - _pull(r)[:, 1],
+    "direction times tension": lambda r, j: _direction(r, j) * _pull(r).sum(axis=1),
     "direction times load": lambda r, j: _direction(r, j) * r.load[:, j],
     "direction soon after a reversal": lambda r, j: np.where(r.way_since_turn[:, j] < _SOON, _direction(r, j), 0.0),
     "position of the whole arm": lambda r, _: r.theta.sum(axis=1),
@@ -38,6 +40,11 @@ _LOOKS: dict[str, Callable[[ResidualTorque, int], Array]] = {
 
 def _direction(r: ResidualTorque, joint: int) -> Array:
     return np.tanh(r.theta_rate[:, joint] / _QUICK)
+
+
+def _pull(r: ResidualTorque) -> Array:
+    """Tensions, (n_windows, n_cables) [N]; none of a cable that was let go, which a mark below zero stands for."""
+    return np.maximum(r.tension, 0.0)
 
 
 @dataclass(frozen=True)
@@ -58,24 +65,34 @@ class StructureTest:
 
 
 def structure_tests(residuals: Sequence[ResidualTorque], random: np.random.Generator) -> list[StructureTest]:
-    """All joints against all looks, the surest first.
+    """Joints that miss a torque to speak of against all looks, the surest first; where the data do not tell it, none.
 
     Args:
         residuals: of every run.
         random: for the turns.
     """
     found = []
-    for joint in range(residuals[0].torque.shape[1]):
-        torque = [np.where(r.is_told[:, joint], r.torque[:, joint], 0.0) for r in residuals]
+    for joint in _joints_that_miss(residuals):
+        told = [(r, r.is_told[:, joint]) for r in residuals if np.any(r.is_told[:, joint])]
+        torque = [r.torque[rows, joint] for r, rows in told]
         for against, look in _LOOKS.items():
-            other = [look(r, joint) for r in residuals]
+            other = [look(r, joint)[rows] for r, rows in told]
             if np.std(np.concatenate(other)) < 1e-9:
                 continue
             found.append(_tested(joint, against, torque, other, random))
-        if len(residuals) > 2:
-            order = [np.full(r.times.size, float(i)) for i, r in enumerate(residuals)]
+        if len(told) > 2:
+            order = [np.full(series.size, float(i)) for i, series in enumerate(torque)]
             found.append(_tested(joint, "order of the runs", torque, order, random))
     return sorted(found, key=lambda test: (test.p_value, -abs(test.correlation)))
+
+
+def _joints_that_miss(residuals: Sequence[ResidualTorque]) -> list[int]:
+    """Joints whose missing torque is told often enough, and is not little beside another's."""
+    sizes = []
+    for joint in range(residuals[0].torque.shape[1]):
+        told = np.concatenate([r.torque[r.is_told[:, joint], joint] for r in residuals])
+        sizes.append(float(np.sqrt(np.mean(told**2))) if told.size >= _FEWEST else 0.0)
+    return [joint for joint, size in enumerate(sizes) if size > _LITTLE * max(sizes)]
 
 
 def _tested(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +14,18 @@ from continuum.discovery.verdict import Cause, Kind
 from continuum.whole_file import write_whole
 
 
-def write_json(found: Findings, path: str | Path) -> None:
+def write_json(found: Findings, path: str | Path, made: Mapping[str, object]) -> None:
     """Write the findings.
+
+    Args:
+        found: what to tell.
+        path: where.
+        made: how the diagnosis was made: what it read, version, seed.
 
     Raises:
         FileError: the file cannot be written.
     """
-    write_whole(path, json.dumps(as_mapping(found), indent=2) + "\n")
+    write_whole(path, json.dumps(as_mapping(found) | {"made": dict(made)}, indent=2) + "\n")
 
 
 def as_mapping(found: Findings) -> dict[str, Any]:

@@ -120,6 +120,7 @@ def workers(question: Question, processes: int) -> Iterator[Make]:
     heard = signal.getsignal(signal.SIGINT)
     try:
         with ProcessPoolExecutor(processes, context, initializer=_keep, initargs=(question,)) as pool:
+            _begin_deaf(pool)
             try:
                 yield lambda tasks: (
                     made.result() for made in as_completed([pool.submit(_make_kept, t) for t in tasks])
@@ -131,6 +132,19 @@ def workers(question: Question, processes: int) -> Iterator[Make]:
                 raise
     finally:
         _set_interrupts(heard)
+
+
+def _begin_deaf(pool: ProcessPoolExecutor) -> None:
+    """Start all workers, with interrupts held back: one that hears an interrupt while it starts ends in a traceback."""
+    held = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        pool.submit(_nothing)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, held)
+
+
+def _nothing() -> None:
+    """What a pool starts its workers with."""
 
 
 def _set_interrupts(handler: signal.Handlers | Callable[..., object] | int | None) -> None:

@@ -31,6 +31,8 @@ class Effect:
             parameter above zero for its equations to have a solution: its default is then a value too small to see.
         source: where the equation is from.
         in_words: what is the matter with the arm, one sentence for a mechanic.
+        in_words_if_more, in_words_if_less: the same where all its sizes are above or below none; empty where that makes
+            no difference.
         looks_like: what it does to the data, one sentence.
         experiment: what to measure so that it stands out from what resembles it, one sentence.
         beware: what no effect here is and would look the same, one sentence; empty where nothing is known to.
@@ -48,6 +50,8 @@ class Effect:
     parameters: ClassVar[Mapping[str, Parameter]] = {}
     source: ClassVar[str] = ""
     in_words: ClassVar[str] = ""
+    in_words_if_more: ClassVar[str] = ""
+    in_words_if_less: ClassVar[str] = ""
     looks_like: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
     beware: ClassVar[str] = ""

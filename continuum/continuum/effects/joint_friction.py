@@ -24,6 +24,8 @@ class JointFriction(Effect):
     }
     source = "thesis Eq. 13; Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, 1083-1138"
     in_words = "A joint is tighter or looser than the others: it wants grease, or has lost its preload."
+    in_words_if_more = "A joint rubs more than the others: it wants grease, or is clamped too tight."
+    in_words_if_less = "A joint rubs less than the others: it has lost its preload."
     looks_like = "The joint's motion dies out sooner or later than its neighbours', and it sticks elsewhere."
     experiment = "Move each joint alone by hand at a steady speed, both ways, with a force gauge."
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.errors import FileError
+from continuum.recordings.motion_columns import ANGLE, RATE, TENSION
 
 _SAME_TIME = 1e-7  # s: no sensor is that fast
 _FEWEST_ROWS = 30
@@ -24,7 +25,7 @@ _LEAST_MOTION, _QUIETED = (
     8,
 )  # of the joint that moves most, noise being quieted by means of so many rows
 _ZERO_TENSION = 0.2  # N, by which a load cell may be off where a cable hangs loose
-_LARGEST_RATE, _LARGEST_TENSION = 200.0, 1e4  # rad/s, N; no arm of this kind has more
+_LARGEST_RATE, _LARGEST_TENSION = 200.0, 2e3  # rad/s, N; no arm of this kind has more
 _ALIKE = 0.5  # correlation of a joint's rate with the slope of its angle from which on their sizes are compared
 
 
@@ -74,7 +75,7 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
 
     def leave_out(bad: NDArray[np.bool_], why: str) -> Samples:
         if np.any(bad):
-            notes.append(f"{good.told(bad)} {why}, left out")
+            notes.append(f"{good.told(bad)} {why}")
         return good.chosen(~bad)
 
     good = leave_out(~_complete(good), "without a finite value in every column")
@@ -93,9 +94,8 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
         raise FileError(good.path, f"has {bad} bad {good.row}s of {samples.times.size}; at most {allowed}")
     _refuse_gaps(good)
     good, pushing = _without_pushing(good)
-    notes += pushing
     _refuse_units(good)
-    return good, tuple(notes)
+    return good, (*(f"{note}, left out" for note in notes), *pushing)
 
 
 def _complete(samples: Samples) -> NDArray[np.bool_]:
@@ -104,23 +104,29 @@ def _complete(samples: Samples) -> NDArray[np.bool_]:
     return np.all(np.isfinite(np.column_stack([samples.times, *blocks])), axis=1)
 
 
-def _limited(samples: Samples) -> list[tuple[Array, float, str]]:
-    """What was measured, beyond what no arm of this kind has it, and what is told of such a value."""
+def _limited(samples: Samples) -> list[tuple[Array, float, str, str]]:
+    """What was measured, the most that an arm of this kind has, what is told of more, and the letter of its columns."""
     blocks = (
         (
             samples.theta,
             _LARGEST_ANGLE,
             "joint angle of {:.3g} rad; no joint turns by more than 3.14: degrees taken for radians?",
+            ANGLE.letter,
         ),
-        (samples.rate, _LARGEST_RATE, "joint rate of {:.3g} rad/s: degrees taken for radians?"),
-        (samples.pull, _LARGEST_TENSION, "tension of {:.3g} N: another unit?"),
+        (samples.rate, _LARGEST_RATE, "joint rate of {:.3g} rad/s: degrees taken for radians?", RATE.letter),
+        (
+            samples.pull,
+            _LARGEST_TENSION,
+            "tension of {:.3g} N; no cable of this kind pulls with more than 2 kN: another unit?",
+            TENSION.letter,
+        ),
     )
-    return [(block, limit, what) for block, limit, what in blocks if block is not None]
+    return [(block, limit, what, letter) for block, limit, what, letter in blocks if block is not None]
 
 
 def _outliers(samples: Samples) -> NDArray[np.bool_]:
     """Few rows with a value too large for its unit, where all others are far from that: an error code, no unit."""
-    size = np.max([np.max(np.abs(block), axis=1) / limit for block, limit, _ in _limited(samples)], axis=0)
+    size = np.max([np.max(np.abs(block), axis=1) / limit for block, limit, *_ in _limited(samples)], axis=0)
     large = size > 1
     few = 0 < np.count_nonzero(large) <= _MOST_BAD * large.size
     return large if few and np.max(size[~large]) < 1 / 2 else np.zeros_like(large)
@@ -189,11 +195,12 @@ def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:
 
 def _refuse_units(samples: Samples) -> None:
     """Refuse what is too large or small for its unit."""
-    for block, limit, what in _limited(samples):
-        rows = np.max(np.abs(block), axis=1)
-        if np.max(rows) > limit:
-            at = samples.numbers[int(np.argmax(rows))]
-            raise FileError(samples.path, f"{samples.row} {at}: a " + what.format(np.max(rows)))
+    for block, limit, what, letter in _limited(samples):
+        large = np.abs(block) > limit
+        if np.any(large):
+            row, column = (int(at[0]) for at in np.nonzero(large))
+            where = f"{samples.row} {samples.numbers[row]}, {letter}{column + 1}"
+            raise FileError(samples.path, f"{where}: a " + what.format(abs(block[row, column])))
     largest = float(np.max(np.abs(samples.theta)))
     if largest < _LEAST_ANGLE:
         raise FileError(
