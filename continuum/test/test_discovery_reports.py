@@ -64,6 +64,7 @@ def test_the_terminal_shows_models_that_there_are_and_angles_in_degrees(
     out = "\n".join(line.rstrip() for line in capsys.readouterr().out.splitlines())
     assert "0.05236 (0.01 to 0.1) rad = 3 degrees, at the limit\n" in out
     assert "0.1 (0 to 0.2)\n" in out
+    assert "\nRate, of the angles' slopes: Eq. 19" in out  # RUN has no rates
     assert ("refitted -> extended model" in out) == (" -> " in out) == (kind is Kind.CAUSE)
 
 

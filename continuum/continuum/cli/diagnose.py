@@ -137,6 +137,7 @@ def read_recording(path: str) -> Recording:
 def show(found: Findings) -> None:
     """Print the verdict and what it rests on."""
     from continuum.discovery.in_words import (
+        RATE_IN_WORDS,
         cost_in_words,
         identifiability_in_words,
         scores_in_words,
@@ -159,8 +160,9 @@ def show(found: Findings) -> None:
     print("", *identifiability_in_words(found.identifiability), sep="\n")
     scores = [(b.name, scores_in_words(b), scores_in_words(a)) for b, a in zip(found.before, found.after, strict=True)]
     models = "refitted" + " -> extended" * bool(verdict.extension)
-    for what in ("position", "rate"):
-        print(f"\n{what.capitalize()}: Eq. 19 (95 %) on runs that were held out, {models} model")
+    measured = all(score.recording.theta_rate is not None for score in found.before)
+    for what, words in (("position", "position"), ("rate", RATE_IN_WORDS[measured])):
+        print(f"\n{words.capitalize()}: Eq. 19 (95 %) on runs that were held out, {models} model")
         print_pairs([(name, once[what] + f" -> {now[what]}" * bool(verdict.extension)) for name, once, now in scores])
     if verdict.extension:
         print(f"{worth_in_words(found.closed)}; {cost_in_words(found.before, found.after)}.")

@@ -12,6 +12,8 @@ from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.identification.fisher import Identifiability
 
+RATE_IN_WORDS = {True: "rate", False: "rate, of the angles' slopes"}
+"""Of which an error is told, by whether rates were measured."""
 _VAGUE = (
     " They leave much open, though: left to itself the simulation ends far from what was measured, and so it does with "
     "other parameters that explain these data as well. More recordings, of other motions, would tell more."

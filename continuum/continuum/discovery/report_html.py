@@ -13,6 +13,7 @@ from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
 from continuum.discovery.findings import Estimate, Findings
 from continuum.discovery.in_words import (
+    RATE_IN_WORDS,
     cost_in_words,
     identifiability_in_words,
     in_full,
@@ -196,7 +197,9 @@ def _scores(found: Findings, extended: bool) -> str:
     for before, after in zip(found.before, found.after, strict=True):
         models = [scores_in_words(score) for score in ((before, after) if extended else (before,))]
         rows.append((before.name, "position", *(told["position"] for told in models), f"{before.floor:.3f}"))
-        rows.append(("", "rate", *(told["rate"] for told in models), ""))
+        rows.append(
+            ("", RATE_IN_WORDS[before.recording.theta_rate is not None], *(told["rate"] for told in models), "")
+        )
     return _table(("run", "", "refitted", *(["extended"] if extended else []), "noise alone"), rows)
 
 
