@@ -25,7 +25,13 @@ class SensorDelay(Effect):
     needs_tension = True
     shifts_time = True
     source = "Nilsson and Handel, IEEE/ION PLANS 2010 (time synchronisation of sensor measurements)"
-    in_words = "The sensors report late."
+    in_words = (
+        "The sensors report late, or the motors get their commands as much too late, which is the same to the data."
+    )
+    beware = (
+        "Commands that reach the motors a fixed time late look exactly the same: step the command with the arm held still "
+        "and record the tension at the base of the cable."
+    )
     looks_like = "All joints follow the model, shifted by the same time, and the more wrong the faster they move."
     experiment = (
         "Film the release with a lamp that the recording switches on, or tap the arm and compare with a contact."
