@@ -43,11 +43,11 @@ def test_without_options_the_defaults_of_the_library_hold() -> None:
 
 
 def test_degrees_become_radians_and_seconds_stay() -> None:
-    known = parsed("--angle-wander", "0.5", "--wander-time", "3", "--rate-bias", "0.05")
-    assert known == SensorKnowledge(math.radians(0.5), 3.0, math.radians(0.05))
+    known = parsed("--angle-wander", "0.5", "--wander-time", "3", "--rate-bias", "0.05", "--angle-floor", "0.02")
+    assert known == SensorKnowledge(math.radians(0.5), 3.0, math.radians(0.05), math.radians(0.02))
 
 
-@pytest.mark.parametrize("option", ["--angle-wander", "--wander-time", "--rate-bias"])
+@pytest.mark.parametrize("option", ["--angle-wander", "--wander-time", "--rate-bias", "--angle-floor"])
 @pytest.mark.parametrize("value", ["0", "-1", "nan", "inf"])
 def test_a_size_that_is_none_is_refused_by_name(option: str, value: str) -> None:
     with pytest.raises(InvalidValueError, match=f"{option} is .*; allowed: a number > 0"):

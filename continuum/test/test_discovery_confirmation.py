@@ -18,6 +18,8 @@ from continuum.discovery.verdict_json import as_mapping
 from continuum.dynamics.reading import Reading
 from continuum.identification.recording import Recording
 
+NOTHING_MORE = a_round(HALF, trial("tip_payload", "base_tilt", bad=0.15, seed=3))
+
 
 def test_the_part_of_the_gap_that_is_closed() -> None:
     def runs(*positions: float) -> list[RunScore]:
@@ -122,13 +124,16 @@ def test_what_explains_nearly_all_is_the_cause_where_free_runs_say_so() -> None:
 
 
 def test_what_leaves_windows_unexplained_is_the_cause_where_whole_runs_come_to_the_noise() -> None:
-    """Joints that stick and slip leave windows of a right model unexplained; no wrong one follows whole runs."""
-    verdict = judge(BAD, [a_round(BAD, HALF, WORSE)])
+    """Joints that stick and slip leave windows of a right model unexplained; a wrong one hardly follows whole runs."""
+    verdict = judge(BAD, [a_round(BAD, HALF, WORSE), NOTHING_MORE])
     assert verdict.kind is Kind.UNKNOWN
     far, near = (0.45, 0.45, 0.45), (0.055, 0.06, 0.05)
     named = confirmed(verdict, scores(*far), scores(*near))
     assert named.kind is Kind.CAUSE
     assert "to 15 %, and that has another cause" in verdict_in_words(named)
+    assert named.causes[0].confidence == pytest.approx(closed_gap(scores(*far), scores(*near)), abs=0.02)
+    assert confirmed(verdict, scores(*far), scores(*near), scores(*near)).kind is Kind.UNKNOWN  # another one as well
+    assert confirmed(verdict, scores(*far), scores(*near), scores(*far)).kind is Kind.CAUSE
     assert as_mapping(found(named))["complete"] is False
     for before, after in (
         (far, (0.08, 0.08, 0.08)),  # nearly
@@ -136,6 +141,10 @@ def test_what_leaves_windows_unexplained_is_the_cause_where_whole_runs_come_to_t
         ((0.09, 0.09, 0.45), near),  # most were hardly away before
         ((np.inf, 0.45, 0.45), near),
         (far[:2], near[:2]),  # two runs, or the parts of a single one
+        (far, (0.0, 0.0, 0.12)),  # none below the noise pays for another
+        ((*far, *far), (*near, 0.05, 0.05, 0.14)),  # each comes most of the way
+        ((*far, 0.05), (*near, 0.29)),  # one run gets worse, to six times the noise
+        ((*far, 0.05, 0.05, 0.05, 0.05), (*near, 0.06, 0.06, 0.06, 0.06)),  # most get worse
     ):
         assert confirmed(verdict, scores(*before), scores(*after)).kind is Kind.UNKNOWN
     assert confirmed(verdict, scores(0.45, 0.45, 0.09), scores(*near)).kind is Kind.CAUSE
@@ -156,7 +165,17 @@ def test_what_explains_nearly_all_is_no_cause_beside_another_that_helps_as_well(
     most, rival = (trial(name, bad=bad, seed=1) for name, bad in (("tip_payload", 0.08), ("base_tilt", 0.15)))
     assert gain(rival, BAD).is_significant
     assert judge(BAD, [a_round(BAD, most, rival)]).to_close is None
-    assert judge(BAD, [a_round(BAD, HALF, WORSE)]).to_close == 0.95
+    assert judge(BAD, [a_round(BAD, HALF, WORSE), NOTHING_MORE]).to_close == 0.95
+    assert judge(BAD, [a_round(BAD, HALF, WORSE)]).to_close is None  # nothing further was sought
+
+
+def test_most_windows_name_no_cause_either_where_free_runs_get_worse() -> None:
+    verdict = judge(BAD, [a_round(BAD, trial("tip_payload", bad=0.08, seed=1), WORSE)])
+    assert verdict.to_close == 0.8
+    worse = scores(0.45, 0.45, 0.05, 0.05, 0.05), scores(0.05, 0.05, 0.29, 0.29, 0.29)
+    one_far = scores(0.6, 0.6, 0.6, 0.21), scores(0.05, 0.05, 0.05, 0.25)
+    for before, after in (worse, one_far):
+        assert confirmed(verdict, before, after).kind is Kind.UNKNOWN
 
 
 def test_as_far_as_models_go_apart_that_no_window_tells_apart_is_not_far() -> None:

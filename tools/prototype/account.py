@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,8 +16,12 @@ from continuum.discovery.candidate import Addition
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain, unexplained
 from continuum.discovery.in_words import verdict_in_words
-from continuum.discovery.trial import Trial, fit_extension, judged
+from continuum.discovery.question import Question
+from continuum.discovery.round import ITERATIONS
+from continuum.discovery.some_runs import carried
+from continuum.discovery.trial import Trial, fit_extension
 from continuum.discovery.verdict_json import as_mapping
+from continuum.discovery.workers import LONG_LOOK, Make, Task, first_look, workers
 from continuum.dynamics.effect_lookup import effect_names
 from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
@@ -25,10 +30,10 @@ from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.dynamics.values import with_vector
 from continuum.identification.dataset import Dataset
-from continuum.identification.fit import THESIS_PARAMETERS, Fit, fit
+from continuum.identification.fit import THESIS_PARAMETERS, fit
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.free_run import free_run
-from continuum.identification.noise import Noise, estimate_noise
+from continuum.identification.noise import Noise, SensorKnowledge, estimate_noise
 from continuum.identification.nrmse import measured_rates, nrmse, position_nrmse, rate_nrmse
 from continuum.identification.recording import Recording
 from continuum.identification.recording_csv import read_recording_csv
@@ -36,6 +41,7 @@ from continuum.identification.swarm import swarm_identification
 from continuum.identification.window_residual import WindowResidual
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "rep7"
+OTHER_FLOORS = (0.05, 0.2)  # degrees
 _WHOLE = 60  # iterations of a fit to the whole run, whose slopes tell little
 
 
@@ -51,10 +57,10 @@ class Simulated:
 
 @dataclass(frozen=True)
 class Alone:
-    """One effect added to the refitted model, at all joints where it belongs to joints.
+    """One effect added to the refitted model, where it belongs to joints at those that explain most.
 
     Attributes:
-        effect: its name.
+        effect: its name, and where it acts.
         unknowns: how many it adds.
         gain, deviation: of log-likelihood on stretches that were held out.
         is_significant: whether the gain is more than chance.
@@ -72,6 +78,21 @@ class Alone:
 
 
 @dataclass(frozen=True)
+class Floor:
+    """An answer with another belief of how good an angle is at best.
+
+    Attributes:
+        degrees: white noise that is believed at least.
+        verdict: of the whole diagnosis.
+        effects: that are named, or help.
+    """
+
+    degrees: float
+    verdict: str
+    effects: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Account:
     """What the page tells.
 
@@ -86,6 +107,7 @@ class Account:
         verdict: as `continuum diagnose --json` writes it.
         words: the verdict in words.
         alone: every effect, the largest gain first.
+        floors: the answers with other beliefs of how good an angle is at best.
     """
 
     recording: Recording
@@ -98,6 +120,7 @@ class Account:
     verdict: Mapping[str, Any]
     words: str
     alone: Sequence[Alone]
+    floors: Sequence[Floor]
 
 
 type Tell = Callable[[str, float], None]
@@ -154,7 +177,8 @@ def account(tell: Tell, processes: int | None = None, seed: int = 0) -> Account:
         extended,
         as_mapping(found),
         verdict_in_words(found.verdict),
-        every_effect_alone(diagnosis, measured, tell),
+        every_effect_alone(diagnosis, measured, tell, processes),
+        with_other_floors(measured, model, seed, processes, tell),
     )
 
 
@@ -197,27 +221,49 @@ def compared(seen: Reading | None, recording: Recording, name: str) -> Simulated
     return Simulated(name, position_nrmse(seen, recording), rate_nrmse(seen, recording), seen.theta)
 
 
-def every_effect_alone(diagnosis: Diagnosis, recording: Recording, tell: Tell) -> list[Alone]:
+def every_effect_alone(
+    diagnosis: Diagnosis, recording: Recording, tell: Tell, processes: int | None = None
+) -> list[Alone]:
     """Each one on top of the refitted model, whatever the search made of it; those that pull alone are left out."""
     question, before = diagnosis.question, diagnosis.verdict.baseline
     names = [look.extension[-1].effect for look in diagnosis.rounds[0].looks] if diagnosis.rounds else effect_names()
     found = []
-    for number, name in enumerate(names):
-        tell(f"alone: {name}", number / len(names))
-        fitted = fit_extension(question, (Addition(name),), before)
-        found.append(_alone(name, fitted, before, recording, question.noise))
+    with workers(question, processes or os.cpu_count() or 1) as make:
+        for number, name in enumerate(names):
+            tell(f"alone: {name}", number / len(names))
+            found.append(_alone(question, _best_fit(make, name, before), before, recording))
     return sorted(found, key=lambda one: -one.gain)
 
 
-def _alone(name: str, fitted: Fit, before: Trial, recording: Recording, noise: Noise) -> Alone:
-    unknowns = len(fitted.space.unknowns) - len(before.unknowns)
-    if not fitted.parts:
-        return Alone(name, unknowns, -np.inf, np.inf, False, 1.0, np.inf)
-    trial = judged((Addition(name),), fitted)
-    seen = free_run(Simulator(fitted.model), recording, noise, _own(trial))
+def _best_fit(make: Make, name: str, before: Trial) -> Trial:
+    """One effect at its best joints, begun from the refitted model, from windows as measured and from a close look."""
+    extension = (Addition(name),)
+    (look,) = make([first_look(extension, before, LONG_LOOK, closely=True)])
+    starts = [Task(extension, near, ITERATIONS, find_joints=True) for near in (before, carried(look, before))]
+    starts.append(Task(extension, before, ITERATIONS, find_joints=True, afresh=True))
+    return max(make(starts), key=lambda trial: gain(trial, before).log_likelihood)
+
+
+def _alone(question: Question, trial: Trial, before: Trial, recording: Recording) -> Alone:
+    model = fit_extension(question, trial.extension, trial, 1).model
+    seen = free_run(Simulator(model), recording, question.noise, _own(trial))
     position = np.inf if seen is None else position_nrmse(seen, recording)
-    won = gain(trial, before)
-    return Alone(name, unknowns, won.log_likelihood, won.deviation, won.is_significant, unexplained(trial), position)
+    won, unknowns = gain(trial, before), len(trial.unknowns) - len(before.unknowns)
+    return Alone(
+        str(trial.extension[-1]), unknowns, won.log_likelihood, won.deviation, won.is_significant, unexplained(trial),
+        position,
+    )  # fmt: skip
+
+
+def with_other_floors(measured: Recording, model: Model, seed: int, processes: int | None, tell: Tell) -> list[Floor]:
+    """What would be answered were angles believed to be better, or no better than worse."""
+    found = []
+    for degrees in OTHER_FLOORS:
+        known = SensorKnowledge(angle_floor=float(np.deg2rad(degrees)))
+        _, other = answer(Dataset((measured,)), model, seed, processes, tell, known=known)
+        helps = [str(cause.addition) for cause in other.verdict.causes]
+        found.append(Floor(degrees, other.verdict.kind.value, tuple(helps)))
+    return found
 
 
 def _own(trial: Trial) -> tuple[Free, ...]:

@@ -12,7 +12,7 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.identification.dataset import halves
 from continuum.identification.recording import Recording
 from tools.markdown import paragraph
-from tools.prototype.account import Account, Alone, Simulated
+from tools.prototype.account import Account, Alone, Floor, Simulated
 from tools.reproduction.release import TABLE_4_POSITION, TABLE_4_VELOCITY
 
 THE_GUESS = "inertia"
@@ -59,8 +59,10 @@ All of these were fitted to the run that they are compared with. Predicted by th
 ## Every effect alone
 
 Each effect of the library that can act without tension (`remounted_base` is `base_tilt` in a single run), added to the
-refitted model by itself, at all joints where it belongs to joints. The gain is that of log-likelihood on stretches of
-the run that were held out; *more than chance* is the rule by which an effect may be named (`discovery/evidence.py`).
+refitted model by itself, where it belongs to joints at those where it explains most, as the search does it: begun from
+the refitted model, from windows as measured and from a close look, the best of which counts. The gain is that of
+log-likelihood on stretches of the run that were held out; *more than chance* is the rule by which an effect may be
+named (`discovery/evidence.py`).
 Without any effect noise leaves {_percent(verdict["unexplained"]["before"])} of the windows unexplained.
 
 | effect | unknowns | gain | its deviation | more than chance | left unexplained | position, free run |
@@ -89,8 +91,11 @@ parts keep. A test (`tools/prototype/test`) makes sure that no other code of thi
 the reproduction of the thesis, which chose the two values that the thesis does not print by the author's *simulation*.
 There is one exception: that no joint angle is believed to be better than 0.1 degrees (`identification/noise.py`) was
 chosen after a look at this file, whose plotted angles show next to no noise; the estimate here is
-{_range(told.white)} degrees. Tried by hand on 2026-11-23, with an earlier version, 0.05 and 0.2 degrees changed
-nothing: the verdict was `unknown`.
+{_range(told.white)} degrees. With other limits the whole diagnosis answers (`--angle-floor`):
+
+| angles are believed to be no better than | verdict | named, or helps |
+|---|---|---|
+{_floors(told.floors)}
 """
 
 
@@ -161,7 +166,7 @@ def _deviation(part: Sequence[Recording]) -> float:
 
 
 def _guess(told: Account) -> str:
-    order = [one.effect for one in told.alone]
+    order = [one.effect.partition("@")[0] for one in told.alone]
     if THE_GUESS not in order:
         return "It was not tried."
     place = order.index(THE_GUESS)
@@ -202,6 +207,10 @@ def _held_out(verdict: Mapping[str, Any]) -> str:
         cells = (_figure(scores[when]) for scores in (position, rate) for when in ("before", "after"))
         lines.append(f"| {name} | {' | '.join(cells)} |")
     return "\n".join(lines)
+
+
+def _floors(floors: Sequence[Floor]) -> str:
+    return "\n".join(f"| {f.degrees:g} degrees | `{f.verdict}` | {', '.join(f.effects) or 'nothing'} |" for f in floors)
 
 
 def _alone(effects: Sequence[Alone]) -> str:

@@ -140,6 +140,7 @@ def show(found: Findings) -> None:
         RATE_IN_WORDS,
         cost_in_words,
         identifiability_in_words,
+        other_in_words,
         scores_in_words,
         verdict_in_words,
         worth_in_words,
@@ -166,6 +167,8 @@ def show(found: Findings) -> None:
         print_pairs([(name, once[what] + f" -> {now[what]}" * bool(verdict.extension)) for name, once, now in scores])
     if verdict.extension:
         print(f"{worth_in_words(found.closed)}; {cost_in_words(found.before, found.after)}.")
+    if found.other:
+        print(f"{other_in_words(found.other.addition, found.other.closed)}.")
     for line in (*found.notes, *([f"Mind: {found.weakness}."] if found.weakness else [])):
         print(line)
 

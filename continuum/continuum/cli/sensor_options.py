@@ -1,4 +1,4 @@
-"""Options of what is known of the sensors: `--angle-wander`, `--wander-time`, `--rate-bias`."""
+"""Options of what is known of the sensors: `--angle-wander`, `--wander-time`, `--rate-bias`, `--angle-floor`."""
 
 from __future__ import annotations
 
@@ -11,9 +11,14 @@ from continuum.errors import InvalidValueError
 if TYPE_CHECKING:
     from continuum.identification.noise import SensorKnowledge
 
-_ATTRIBUTES = {"--angle-wander": "wander", "--wander-time": "wander_time", "--rate-bias": "rate_bias"}
+_ATTRIBUTES = {
+    "--angle-wander": "wander",
+    "--wander-time": "wander_time",
+    "--rate-bias": "rate_bias",
+    "--angle-floor": "angle_floor",
+}
 """Of `SensorKnowledge`, by option."""
-_DEGREES = ("--angle-wander", "--rate-bias")  # the other option is in s
+_SECONDS = ("--wander-time",)  # the others are in degrees
 
 
 def add_sensor_options(parser: argparse.ArgumentParser) -> None:
@@ -27,6 +32,10 @@ def add_sensor_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--rate-bias", metavar="DEG_S", type=float,
         help="standard deviation of the rates' constant error, once calibrated; default 0.15",
+    )  # fmt: skip
+    group.add_argument(
+        "--angle-floor", metavar="DEG", type=float,
+        help="white noise of the angles that is believed at least, however quiet they look; default 0.1",
     )  # fmt: skip
 
 
@@ -43,7 +52,7 @@ def sensor_knowledge(options: argparse.Namespace) -> SensorKnowledge:
         if not 0 < value < math.inf:
             raise InvalidValueError(option, value, "a number > 0")
     return SensorKnowledge(
-        **{_ATTRIBUTES[name]: math.radians(value) if name in _DEGREES else value for name, value in given.items()}
+        **{_ATTRIBUTES[name]: value if name in _SECONDS else math.radians(value) for name, value in given.items()}
     )
 
 

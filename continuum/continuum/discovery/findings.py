@@ -8,13 +8,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.discovery.candidate import Addition
 from continuum.discovery.diagnose import Diagnosis
+from continuum.discovery.evidence import gain
 from continuum.discovery.in_words import lookalikes_in_words
 from continuum.discovery.judgement import confirmed, contradicted
 from continuum.discovery.measured_gain import RunScore, held_out_scores, told_gap
 from continuum.discovery.question import Question
-from continuum.discovery.trial import fit_extension
-from continuum.discovery.verdict import Cause, Verdict
+from continuum.discovery.trial import Trial, fit_extension
+from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.model import Model
 from continuum.identification.bootstrap import bootstrap, interval
 from continuum.identification.dataset import halves
@@ -54,6 +56,19 @@ class Estimate:
 
 
 @dataclass(frozen=True)
+class Other:
+    """The best effect that is not named, beside those that are.
+
+    Attributes:
+        addition: what it is.
+        closed: part of the distance to the noise floor that it closes instead of the first cause.
+    """
+
+    addition: Addition
+    closed: float
+
+
+@dataclass(frozen=True)
 class Findings:
     """What reports show.
 
@@ -68,6 +83,7 @@ class Findings:
         notes: on repairs of the data, how tensions were taken, and what the model leaves out.
         refitted, model: the model as it was and the extended one, both fitted to all runs.
         models: the latter as it is in each run, with what that run has for itself.
+        other: what the best other effect would gain; none where nothing is named, or nothing else promised anything.
     """
 
     verdict: Verdict
@@ -82,6 +98,7 @@ class Findings:
     refitted: Model
     model: Model
     models: tuple[Model, ...]
+    other: Other | None = None
 
 
 def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
@@ -96,7 +113,9 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
     before = held_out_scores(question, baseline, split, random)
     after = held_out_scores(question, best, split, random) if best.extension else before
     odd = odd_rates(question.recordings)
-    verdict = confirmed(diagnosis.verdict, before, after)
+    other = best_other(diagnosis)
+    beside = held_out_scores(question, other, split, random) if other else []
+    verdict = confirmed(diagnosis.verdict, before, after, beside)
     verdict = contradicted(verdict) if odd else verdict
     after = after if verdict.extension else before
     fitted = fit_extension(question, verdict.extension, verdict.best, _ITERATIONS, to_the_end=True)
@@ -118,7 +137,19 @@ def findings(diagnosis: Diagnosis, random: np.random.Generator) -> Findings:
         fit_extension(question, (), verdict.baseline, 2).model,
         _told(fitted, [r.name for r in question.recordings]),
         tuple(fitted.model_of(number) for number in range(len(question.recordings))),
+        Other(other.extension[-1], told_gap(before, beside)) if other and verdict.kind is Kind.CAUSE else None,
     )
+
+
+def best_other(diagnosis: Diagnosis) -> Trial | None:
+    """Of the effects that stood beside the first cause the one that gained most, where a cause may be named."""
+    verdict = diagnosis.verdict
+    if verdict.kind is not Kind.CAUSE and verdict.to_close is None:
+        return None
+    named = {cause.addition.effect for cause in verdict.causes}
+    first = next(one for one in diagnosis.rounds if one.best is not one.before)
+    others = [trial for trial in first.leaders if trial.extension[-1].effect not in named]
+    return max(others, key=lambda trial: gain(trial, first.before).log_likelihood, default=None)
 
 
 def as_given(scores: Sequence[RunScore], recordings: Sequence[Recording]) -> list[RunScore]:

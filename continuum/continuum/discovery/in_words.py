@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from continuum.discovery.candidate import Addition
 from continuum.discovery.measured_gain import RunScore
 from continuum.discovery.verdict import Cause, Kind, Verdict
 from continuum.dynamics.effect_lookup import effect_named
@@ -121,6 +122,11 @@ def worth_in_words(closed: float) -> str:
     if closed <= 0.0:
         return "The extension predicts runs that it was not fitted to no better"
     return f"The extension closes {100 * min(closed, 1.0):.0f} % of the distance to the noise"
+
+
+def other_in_words(addition: Addition, closed: float) -> str:
+    """What the best other effect would gain."""
+    return f"The best other effect, {addition}, would close {100 * min(max(closed, 0.0), 1.0):.0f} % of it"
 
 
 def scores_in_words(score: RunScore) -> dict[str, str]:

@@ -19,7 +19,8 @@ _WORSE = 1.05  # times the error without the extension
 _MOST_CLOSED = 0.8  # of it, where windows stay unexplained, but most are explained
 _ALL_CLOSED = 0.95  # of it, where it is the free runs alone that are explained
 _MOST_LEFT = 1 / 3  # of the unexplained windows, where most is explained
-_TELLING, _FEWEST = 2.0, 3  # noise floors, from which on a run has a way to come; runs that tell a cause by themselves
+_TELLING, _FEWEST = 2.0, 3  # noise floors, from which on a run is away; runs that tell a cause by themselves
+_NOTICED = 0.05  # of it: less is no help
 _OTHERS = 0.5  # of the best one's gain, beyond which another effect may be the one as well
 
 
@@ -41,7 +42,7 @@ def judge(baseline: Trial, rounds: Sequence[Round]) -> Verdict:
     best, causes = added[-1].best, tuple(_cause(r) for r in added)
     share = unexplained(baseline), unexplained(best)
     if not complete:
-        alone = len(added) == 1 and not _has_peers(added[0])
+        alone = len(added) == 1 < len(rounds) and not _has_peers(added[0])  # and nothing more helps
         to_close = _MOST_CLOSED if nearly else _ALL_CLOSED if alone else None
         return Verdict(Kind.UNKNOWN, causes, (), baseline, best, share, to_close=to_close)
     named = {cause.addition.effect for cause in causes}  # beside each other they are no alternatives
@@ -73,7 +74,9 @@ def _has_peers(one: Round) -> bool:
     return any(gain(trial, one.before).log_likelihood > _OTHERS * own for trial in others)
 
 
-def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunScore]) -> Verdict:
+def confirmed(
+    verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunScore], beside: Sequence[RunScore] = ()
+) -> Verdict:
     """The verdict, unless its model does not predict runs that were held out: then its cause is not the one.
 
     Windows as short as these are explained by what only looks like the cause, a free run is not: it comes nearer to the
@@ -81,17 +84,27 @@ def confirmed(verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunS
     at most. Where the model without it is adequate, nothing has to be explained, and that model it is; but no model is
     whose free runs end far from what was measured. What leaves windows unexplained is the cause nevertheless where free
     runs come to the noise, nearly where it explains most windows: where joints stick and slip a right model leaves some
-    windows unexplained, begun a little wrong, but a wrong one hardly follows whole runs that it was not fitted to.
+    windows unexplained, begun a little wrong, but a wrong one hardly follows whole runs that it was not fitted to. The
+    best other effect must not come there as well, and confidence is no more than the part that is closed.
+
+    Args:
+        verdict: of windows.
+        before, after: free runs of the model without and with what is named.
+        beside: of the model with the best other effect instead; none where there is none.
     """
     if verdict.to_close is not None and _comes_to_the_noise(before, after, verdict.to_close):
-        return replace(verdict, kind=Kind.CAUSE)
+        if beside and closed_gap(before, beside) >= _MOST_CLOSED:
+            return replace(verdict, to_close=None)
+        closed = min(1.0, closed_gap(before, after))
+        causes = tuple(replace(cause, confidence=closed * cause.confidence) for cause in verdict.causes)
+        return replace(verdict, kind=Kind.CAUSE, causes=causes)
     if verdict.kind is Kind.ADEQUATE:
         if is_far(before):
             return replace(verdict, kind=Kind.UNKNOWN, predicts=False)
         return replace(verdict, vague=True) if is_vague(before) else verdict
     named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
     if not named:  # what helps in windows alone has not helped
-        helps_nowhere = bool(verdict.causes) and is_open(before) and closed_gap(before, after) <= 0.0
+        helps_nowhere = bool(verdict.causes) and is_open(before) and closed_gap(before, after) < _NOTICED
         return replace(verdict, predicts=False) if helps_nowhere else verdict
     if _bear_out(before, after):
         return verdict
@@ -120,14 +133,21 @@ def _bear_out(before: Sequence[RunScore], after: Sequence[RunScore]) -> bool:
 
 
 def _comes_to_the_noise(before: Sequence[RunScore], after: Sequence[RunScore], least: float) -> bool:
-    """Whether free runs come so near to the noise, also without any single run, and none ends far from it.
+    """Whether free runs come so near to the noise, also without any single run, and bear the cause out.
 
-    Where they have to come all the way it has to be one: of three runs or more most were away before.
+    One that comes below the noise does not pay for another. Where they have to come all the way it has to be one: of
+    three runs or more most were away before, each of these comes most of it, and none ends away.
     """
-    if is_far(after) or not all(math.isfinite(score.position) for score in before):
+    if not (_bear_out(before, after) and all(math.isfinite(score.position) for score in before)):
         return False
-    away = sum(b.position > _TELLING * b.floor for b in before)
-    if least >= _ALL_CLOSED and (len(before) < _FEWEST or away <= len(before) / 2):
+    after = [a if a.position > a.floor else replace(a, position=a.floor) for a in after]
+    away = [(b, a) for b, a in zip(before, after, strict=True) if b.position > _TELLING * b.floor]
+    if least >= _ALL_CLOSED and (
+        len(before) < _FEWEST
+        or len(away) <= len(before) / 2
+        or any(closed_gap([b], [a]) < _MOST_CLOSED for b, a in away)
+        or any(a.position > _TELLING * a.floor for a in after)
+    ):
         return False
     pairs = list(zip(before, after, strict=True))
     parts = [pairs, *(pairs[:i] + pairs[i + 1 :] for i in range(len(pairs)) if len(pairs) > 1)]
@@ -141,7 +161,8 @@ def _cause(one: Round) -> Cause:
 def _rivals(one: Round) -> list[Cause]:
     """Effects that explain as much as the best one does, and those that explain all and are not surely told from it."""
     others = [trial for trial in one.leaders[1:] if _may_be_instead(trial, gain(one.best, trial))]
-    return [Cause(t.extension[-1], _confidence(one, t), gain(t, one.before), t) for t in others]
+    found = [Cause(t.extension[-1], _confidence(one, t), gain(t, one.before), t) for t in others]
+    return [cause for cause in found if cause.gain.log_likelihood > 0]  # what is worse than nothing explains nothing
 
 
 def _may_be_instead(trial: Trial, lead: Gain) -> bool:

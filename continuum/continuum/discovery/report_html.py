@@ -17,6 +17,7 @@ from continuum.discovery.in_words import (
     cost_in_words,
     identifiability_in_words,
     in_full,
+    other_in_words,
     scores_in_words,
     verdict_in_words,
     worth_in_words,
@@ -224,7 +225,8 @@ def _others(diagnosis: Diagnosis) -> str:
 
 
 def _worth(found: Findings) -> str:
-    return f"{worth_in_words(found.closed)}; {cost_in_words(found.before, found.after)}."
+    other = f" {other_in_words(found.other.addition, found.other.closed)}." if found.other else ""
+    return f"{worth_in_words(found.closed)}; {cost_in_words(found.before, found.after)}.{other}"
 
 
 def _evidence(number: int, one: Round) -> Iterable[str]:

@@ -42,6 +42,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
         "nrmse_position": _scores(found, "position"),
         "nrmse_velocity": _scores(found, "rate"),
         "gap_closed": found.closed,
+        "best_other": _other(found),
         "errors_by_phase": {"unit": "rad", **_by_phase(found)},
         "parameters": [{"name": str(e.unknown), **_estimate(e)} for e in found.estimates],
         "identifiability": {
@@ -73,6 +74,15 @@ def _cause(cause: Cause, estimates: Sequence[Estimate]) -> dict[str, Any]:
             str(e.unknown)[len(prefix) :]: _estimate(e) for e in estimates if e.unknown.name.startswith(prefix)
         },
     }
+
+
+def _other(found: Findings) -> dict[str, Any] | None:
+    """What the best effect that is not named would close of the distance to the noise."""
+    if found.other is None:
+        return None
+    at = found.other.addition
+    joints = None if at.joints is None else [joint + 1 for joint in at.joints]
+    return {"effect": at.effect, "joints": joints, "gap_closed": found.other.closed}
 
 
 def _estimate(e: Estimate) -> dict[str, Any]:

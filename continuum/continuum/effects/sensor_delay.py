@@ -29,8 +29,8 @@ class SensorDelay(Effect):
         "The sensors report late, or the motors get their commands as much too late, which is the same to the data."
     )
     beware = (
-        "Commands that reach the motors a fixed time late look exactly the same: step the command with the arm held still "
-        "and record the tension at the base of the cable."
+        "Commands that reach the motors a fixed time late look exactly the same: step the command with the arm held "
+        "still and record the tension at the base of the cable."
     )
     looks_like = "All joints follow the model, shifted by the same time, and the more wrong the faster they move."
     experiment = (

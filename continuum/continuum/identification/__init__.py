@@ -12,6 +12,7 @@ window_settling.py      the first state of each window, the parameters held
 arrow_least_squares.py  Levenberg-Marquardt for shared unknowns and unknowns of each run
 likeliest.py            of unknowns that mean the same arm those that are likeliest
 fit.py                  all of it together; free_run.py: one run simulated from its first instant
+several_starts.py       the same from starts over all of the prior
 nrmse.py, swarm.py      the thesis's objective (Eq. 19) and its particle swarm (Table 2)
 nrmse_interval.py       how well the objective is known of one run
 fisher.py               what the data can tell; bootstrap.py: intervals

@@ -16,7 +16,6 @@ from scipy.stats import gamma
 from continuum.arrays import Array
 from continuum.identification.recording import Recording
 
-_ANGLE_FLOOR = np.deg2rad(0.1)  # no joint angle from inertial sensors is better [rad]
 _RATE_FLOOR = np.deg2rad(0.1)  # no rate of a joint, which two gyros measure, is better [rad/s]
 _SIMULATED_RATE = np.deg2rad(0.5)  # what another slope of smoothed dry friction changes in a simulated rate [rad/s]
 _STRETCH = 16  # samples
@@ -36,11 +35,13 @@ class SensorKnowledge:
         wander: standard deviation of the angles' slow error, where rates do not tell it [rad].
         wander_time: how long that error stays alike [s].
         rate_bias: standard deviation of the rates' constant error after calibration [rad/s].
+        angle_floor: standard deviation of white noise, than which no joint angle from inertial sensors is better [rad].
     """
 
     wander: float = np.deg2rad(0.2)
     wander_time: float = 1.0
     rate_bias: float = np.deg2rad(0.15)
+    angle_floor: float = np.deg2rad(0.1)
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,7 @@ class Noise:
 def estimate_noise(recordings: Sequence[Recording], known: SensorKnowledge | None = None) -> Noise:
     """Noise of the sensors, common to all recordings."""
     known = known or SensorKnowledge()
-    white = _white_covariance([r.theta for r in recordings], _ANGLE_FLOOR)
+    white = _white_covariance([r.theta for r in recordings], known.angle_floor)
     scale = float(np.mean(np.diag(white)))
     rates = [r.theta_rate for r in recordings if r.theta_rate is not None]
     if len(rates) < len(recordings):

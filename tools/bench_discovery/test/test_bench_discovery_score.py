@@ -141,7 +141,20 @@ def test_quantiles() -> None:
 )
 def test_a_goal_is_met_missed_or_open(rate: Rate, status: str) -> None:
     assert at_least("", 0.95, rate).status == status
-    assert at_most("", 0.05, Rate(rate.n - rate.k, rate.n)).status == status
+
+
+@pytest.mark.parametrize(
+    ("rate", "status"),
+    [
+        (Rate(0, 40), TOO_FEW),  # one of twenty would have shown in 60
+        (Rate(0, 60), MET),
+        (Rate(5, 60), MISSED),
+        (Rate(9, 10), MISSED),
+        (Rate(0, 0), TOO_FEW),
+    ],
+)
+def test_that_something_is_rare_takes_more_cases(rate: Rate, status: str) -> None:
+    assert at_most("", 0.05, rate).status == status
 
 
 def test_goals_tell_the_worst_effect() -> None:
@@ -185,8 +198,8 @@ def test_cases_that_no_version_was_mended_on_count_as_they_were_answered_first()
         result(hidden, verdict("cause", named(name, 5)), seed=2024000083) for name in ("rest_angle", "angle_offset")
     )
     mended_on = result(hidden, verdict("cause", named("base_tilt")), seed=2023000001)
-    whole, _, unseen = page([right, mended_on], [wrong]).partition("## Cases that no version was mended on")
-    unseen = unseen.partition("\n## ")[0]
+    _, _, text = page([right, mended_on], [wrong]).partition("## Goals, on cases that no version was mended on")
+    unseen, _, whole = text.partition("## Goals, on all cases")
     goal = "| a wrong cause or joint is named, whatever is hidden | none wanted |"
     assert f"{goal} 50 %" in whole
     assert f"{goal} 100 %" in unseen

@@ -12,7 +12,7 @@ import pytest
 
 from continuum.identification.noise import estimate_noise
 from continuum.identification.recording import Recording
-from tools.prototype.account import DATA, Account, Alone, Simulated
+from tools.prototype.account import DATA, Account, Alone, Floor, Simulated
 from tools.prototype.page import page
 from tools.prototype.picture import draw
 
@@ -45,6 +45,7 @@ def account(said: dict[str, Any], *alone: Alone) -> Account:
         replace(some, name="extended", position=0.31) if [*said["causes"], *said["helps"]] else None, said,
         "Two sentences.",
         alone or (THE_CABLE, THE_GUESS),
+        [Floor(0.05, "unknown", ("angle_offset@3",)), Floor(0.2, "adequate", ())],
     )  # fmt: skip
 
 
@@ -65,6 +66,12 @@ PAGES = {name: page(account(said)) for name, said in VERDICTS.items()}
 def flat(text: str) -> str:
     """Without its line breaks."""
     return " ".join(text.split())
+
+
+def test_other_limits_to_how_good_an_angle_is_are_told() -> None:
+    for text in PAGES.values():
+        assert "| 0.05 degrees | `unknown` | angle_offset@3 |" in text
+        assert "| 0.2 degrees | `adequate` | nothing |" in text
 
 
 def test_every_verdict_has_a_text_of_its_own() -> None:
