@@ -159,6 +159,14 @@ def test_a_mechanic_is_told_which_way_it_is_off(amounts: tuple[float, float], wo
     assert "(joint 3)" in verdict_in_words(verdict)
 
 
+def test_a_small_effect_is_called_one() -> None:
+    verdict = judged()[Kind.CAUSE]
+    assert "falls from 30 % of the data to 0 %" in verdict_in_words(verdict)
+    small = verdict_in_words(replace(verdict, unexplained=(0.004, 0.001)))
+    assert "falls" not in small
+    assert "That is little here" in small
+
+
 def test_an_unknown_cause_asks_for_more_runs() -> None:
     assert "record three more runs" in verdict_in_words(judged()[Kind.UNKNOWN])
     assert "record three more runs" not in verdict_in_words(judged()[Kind.CAUSE])

@@ -19,6 +19,7 @@ _VAGUE = (
     " They leave much open, though: left to itself the simulation ends far from what was measured, and so it does with "
     "other parameters that explain these data as well. More recordings, of other motions, would tell more."
 )
+_SMALL = "That is little here: no short stretch asks for it by itself, but all of them together do, and whole runs too."
 _NEXT = "Next: record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
 _NOTHING_TOLD = 1e5  # conditioning, beyond which some direction is not told at all
 _PAIRS = 4  # of estimates that hang together, told of at most; the JSON file has all
@@ -36,7 +37,9 @@ def verdict_in_words(verdict: Verdict) -> str:
             )
         case Kind.CAUSE:
             return (
-                f"{_what(verdict.causes)} "
+                f"{_what(verdict.causes)} {_SMALL}"
+                if before == after
+                else f"{_what(verdict.causes)} "
                 f"With that in the simulation, what it leaves unexplained falls from {before} of the data to {after}"
                 + (
                     ", and that has another cause or none that this data tells."
