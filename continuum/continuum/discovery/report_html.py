@@ -43,7 +43,7 @@ h1 { font-size: 1.5rem; } h2 { font-size: 1.1rem; margin-top: 2.2rem; border-bot
 .unknown, .ambiguous { border-color: #d1802b; background: #fbf5ec; }
 table { border-collapse: collapse; font-size: .85rem; display: block; overflow-x: auto; }
 td, th { padding: .2rem .9rem .2rem 0; text-align: right; }
-td:first-child, th:first-child { text-align: left; } th { border-bottom: 1px solid #bbb; font-weight: 600; }
+td:first-child, th:first-child, .words td:last-child, .words th:last-child { text-align: left; } th { border-bottom: 1px solid #bbb; font-weight: 600; }
 img { max-width: 100%; } .note { color: #666; font-size: .85rem; }
 """
 _CHANCE, _SHOWN = 0.05, 8
@@ -178,6 +178,7 @@ def _estimates(estimates: Sequence[Estimate], meanings: Mapping[str, Parameter])
             )
             for e in estimates
         ],
+        "words",
     )
 
 
@@ -251,7 +252,7 @@ def _image(shown: str, png: bytes) -> str:
     return f'<img alt="{escape(shown)}" src="data:image/png;base64,{base64.b64encode(png).decode()}">'
 
 
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]], kind: str = "numbers") -> str:
     cells = "".join(f"<th>{escape(cell)}</th>" for cell in head)
     lines = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
-    return f"<table><tr>{cells}</tr>{lines}</table>"
+    return f'<table class="{kind}"><tr>{cells}</tr>{lines}</table>'
