@@ -43,7 +43,8 @@ h1 { font-size: 1.5rem; } h2 { font-size: 1.1rem; margin-top: 2.2rem; border-bot
 .unknown, .ambiguous { border-color: #d1802b; background: #fbf5ec; }
 table { border-collapse: collapse; font-size: .85rem; display: block; overflow-x: auto; }
 td, th { padding: .2rem .9rem .2rem 0; text-align: right; }
-td:first-child, th:first-child, .words td:last-child, .words th:last-child { text-align: left; } th { border-bottom: 1px solid #bbb; font-weight: 600; }
+td:first-child, th:first-child, .words td:last-child, .words th:last-child { text-align: left; }
+th { border-bottom: 1px solid #bbb; font-weight: 600; }
 img { max-width: 100%; } .note { color: #666; font-size: .85rem; }
 """
 _CHANCE, _SHOWN = 0.05, 8
