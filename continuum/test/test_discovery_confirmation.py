@@ -9,9 +9,10 @@ import pytest
 from discovery_laws import a_round, trial
 from discovery_verdicts import BAD, GOOD, HALF, WORSE, found, judged, score, scores
 
+from continuum.discovery.confirmation import confirmed
 from continuum.discovery.evidence import gain
 from continuum.discovery.in_words import verdict_in_words
-from continuum.discovery.judgement import confirmed, judge
+from continuum.discovery.judgement import judge
 from continuum.discovery.measured_gain import RunScore, closed_gap, spread_of, told_gap
 from continuum.discovery.verdict import Kind
 from continuum.discovery.verdict_json import as_mapping

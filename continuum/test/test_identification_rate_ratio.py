@@ -10,10 +10,10 @@ import pytest
 from discovery_verdicts import judged
 from identification_laws import N, small_simulator
 
+from continuum.discovery.confirmation import contradicted
 from continuum.discovery.diagnose import diagnose
 from continuum.discovery.findings import findings
 from continuum.discovery.in_words import verdict_in_words
-from continuum.discovery.judgement import contradicted
 from continuum.discovery.verdict import Kind
 from continuum.discovery.verdict_json import as_mapping
 from continuum.identification.dataset import Dataset

@@ -10,6 +10,7 @@ round.py               all effects tried on top of what was found; workers.py: o
 search.py              round after round, until nothing is left
 rows_asked_again.py    whether tensions go on or jump between rows, when a cause is known
 judgement.py           from the rounds to verdict.py, the answer as a typed value
+confirmation.py        and whether free runs of held-out recordings bear it out
 measured_gain.py       free runs before and after (Table 4); motion_phases.py: and when they go wrong
 findings.py            all that there is to tell
 residual_torque.py     what torque is missing; structure_tests.py: and what it goes with; turns.py: reversals

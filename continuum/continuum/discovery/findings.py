@@ -9,10 +9,10 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Addition
+from continuum.discovery.confirmation import confirmed, contradicted
 from continuum.discovery.diagnose import Diagnosis
 from continuum.discovery.evidence import gain
 from continuum.discovery.in_words import lookalikes_in_words
-from continuum.discovery.judgement import confirmed, contradicted
 from continuum.discovery.measured_gain import RunScore, held_out_scores, told_gap
 from continuum.discovery.question import Question
 from continuum.discovery.trial import Trial, fit_extension
