@@ -172,17 +172,22 @@ def _guess(told: Account) -> str:
     place = order.index(THE_GUESS)
     guess, best = told.alone[place], told.alone[0]
     chance = "more than chance" if guess.is_significant else "no more than chance"
-    most = f"The most is gained by `{best.effect}`: {best.gain:.0f} by {best.unknowns} unknowns." if place else ""
+    most = f"The most is gained by `{best.effect}`: {best.gain:.0f} by {_unknowns(best)}." if place else ""
     return paragraph(
-        f"Alone it gains {guess.gain:.0f} (deviation {guess.deviation:.0f}), {chance}, by {guess.unknowns} unknowns,",
+        f"Alone it gains {guess.gain:.0f} (deviation {guess.deviation:.0f}), {chance}, by {_unknowns(guess)},",
         f"and leaves {_percent(guess.unexplained)} of the windows unexplained: place {place + 1} of {len(order)}.",
         most,
-        _of_the_guess(told.verdict),
+        _of_the_guess(told.verdict, guess.is_significant),
         "Of a release without tension, masses, springs and frictions all larger by one factor cannot be told at all.",
     )
 
 
-def _of_the_guess(verdict: Mapping[str, Any]) -> str:
+def _unknowns(one: Alone) -> str:
+    return f"{one.unknowns} unknown{'s' * (one.unknowns != 1)}"
+
+
+def _of_the_guess(verdict: Mapping[str, Any], some: bool) -> str:
+    """What the verdict says of it, and whether alone it explains more than chance."""
     causes, alternatives, helps = (
         [cause["effect"] for cause in verdict[key]] for key in ("causes", "alternatives", "helps")
     )
@@ -193,6 +198,11 @@ def _of_the_guess(verdict: Mapping[str, Any]) -> str:
         return "The verdict holds it possible beside others: this run neither confirms nor refutes the guess."
     if THE_GUESS in helps:
         return "It is part of what helps, but does not suffice: this run does not confirm the guess."
+    if some:
+        return (
+            "The verdict does not name it: alone it explains something, others more by fewer unknowns, and none "
+            "enough. This run neither confirms nor refutes the guess."
+        )
     return "The verdict does not name it: this run does not speak for the guess."
 
 

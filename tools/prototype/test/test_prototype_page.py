@@ -97,6 +97,10 @@ def test_the_guess_is_told_as_the_verdict_has_it() -> None:
     }
     assert all(text in flat(PAGES[name]) for name, text in said.items())
     assert "Alone it gains 12 (deviation 9), no more than chance, by 10 unknowns" in flat(PAGES["cause"])
+    some = replace(
+        account(VERDICTS["cause"]), alone=(THE_CABLE, replace(THE_GUESS, effect="inertia@1,5", is_significant=True))
+    )
+    assert "explains something, others more" in flat(page(some))
     assert "place 2 of 2. The most is gained by `sensor_cable`: 90 by 4 unknowns." in flat(PAGES["cause"])
 
 
