@@ -9,11 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from discovery_laws import a_round, trial
-from discovery_verdicts import BAD, RUN, found, judged, score
+from discovery_verdicts import BAD, PAYLOAD, RUN, WORSE, found, judged, score
+from dynamics_laws import prototype_model
+from identification_laws import white_noise
 
 from continuum.cli.diagnose import show
 from continuum.discovery.candidate import Addition
-from continuum.discovery.findings import Estimate, as_given
+from continuum.discovery.diagnose import Diagnosis
+from continuum.discovery.findings import Estimate, Other, as_given, best_other
 from continuum.discovery.in_words import (
     cost_in_words,
     identifiability_in_words,
@@ -23,6 +26,7 @@ from continuum.discovery.in_words import (
 )
 from continuum.discovery.judgement import judge
 from continuum.discovery.motion_phases import PHASES
+from continuum.discovery.question import Question
 from continuum.discovery.verdict import Kind
 from continuum.discovery.verdict_json import as_mapping, write_json
 from continuum.dynamics.effect_lookup import effect_named
@@ -157,6 +161,17 @@ def test_a_mechanic_is_told_which_way_it_is_off(amounts: tuple[float, float], wo
     verdict = judge(BAD, [a_round(BAD, found_so)])
     assert words in verdict_in_words(verdict)
     assert "(joint 3)" in verdict_in_words(verdict)
+
+
+def test_the_best_other_effect_is_told() -> None:
+    verdict, rounds = judged()[Kind.CAUSE], (a_round(BAD, PAYLOAD, WORSE),)
+    asked = Question(prototype_model(), (), (), white_noise())
+    assert best_other(Diagnosis(asked, rounds, verdict)) is WORSE
+    assert best_other(Diagnosis(asked, rounds, replace(verdict, kind=Kind.AMBIGUOUS))) is None
+    assert best_other(Diagnosis(asked, (a_round(BAD, PAYLOAD),), verdict)) is None
+    assert as_mapping(found(verdict))["best_other"] is None
+    told = replace(found(verdict), other=Other(Addition("rest_angle", (2,)), 0.123))
+    assert as_mapping(told)["best_other"] == {"effect": "rest_angle", "joints": [3], "gap_closed": 0.123}
 
 
 def test_a_small_effect_is_called_one() -> None:

@@ -52,6 +52,16 @@ def test_a_start_in_the_wrong_valley_is_left() -> None:
     assert several.best.value(Free("stiffness")) == pytest.approx(TRUTH["stiffness"], rel=0.1)
 
 
+def test_the_best_start_goes_on() -> None:
+    """From the model's own values, which are wrong, one more iteration would not come as far."""
+    wrong = small_simulator().model.with_values({"stiffness": 30.0, "coulomb_friction": 0.9})
+    simulator = small_simulator(None, TOLERANCES).around(wrong)
+    runs = releases(2, small_simulator(), 0, TRUTH)
+    random = np.random.default_rng(1)
+    several = fit_from_several(simulator, runs, white_noise(), FREE, random, starts=8, iterations=1, short=3)
+    assert several.best.cost <= np.min(several.costs) + 1e-6 < several.costs[0]
+
+
 def test_no_start_is_refused() -> None:
     with pytest.raises(InvalidValueError, match="starts is 0; allowed: 1 or more"):
         fit_from_several(small_simulator(), (), white_noise(), FREE, np.random.default_rng(0), starts=0)
