@@ -109,7 +109,7 @@ def _report(options: argparse.Namespace, diagnosis: Diagnosis, found: Findings) 
     write_report(options.report, diagnosis, found, (before, after), tests, _how(options))
 
 
-def _made(options: argparse.Namespace) -> dict[str, object]:
+def _made(options: argparse.Namespace) -> dict[str, Any]:
     """How a diagnosis was made: the version, of what, without the folders, and with which options."""
     *names, model = (printable(Path(path).name) for path in (*options.data, options.model))
     sensors = given_sensor_options(options)
@@ -120,10 +120,9 @@ def _made(options: argparse.Namespace) -> dict[str, object]:
 def _how(options: argparse.Namespace) -> str:
     """The same in one line, and on which day."""
     made, day = _made(options), datetime.datetime.now().astimezone().date().isoformat()
-    sensors = "".join(f", {name} {value:g}" for name, value in given_sensor_options(options).items())
-    recordings = ", ".join(printable(Path(path).name) for path in options.data)
-    what = f"model {made['model']}, seed {options.seed}{sensors}"
-    return f"Made on {day} by continuum {made['version']} of {recordings}; {what}."
+    sensors = "".join(f", {name} {value:g}" for name, value in made["sensors"].items())
+    what = f"{', '.join(made['recordings'])}; model {made['model']}, seed {made['seed']}{sensors}"
+    return f"Made on {day} by continuum {made['version']} of {what}."
 
 
 def read_recording(path: str) -> Recording:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from continuum.discovery.candidate import Addition
 from continuum.discovery.findings import Estimate, Findings
 from continuum.discovery.motion_phases import PHASES, errors_by_phase
 from continuum.discovery.verdict import Cause, Kind
@@ -61,7 +62,7 @@ def as_mapping(found: Findings) -> dict[str, Any]:
 
 
 def _cause(cause: Cause, estimates: Sequence[Estimate]) -> dict[str, Any]:
-    joints = None if cause.addition.joints is None else [joint + 1 for joint in cause.addition.joints]
+    joints = _joints(cause.addition)
     prefix = cause.addition.effect + "."
     return {
         "effect": cause.addition.effect,
@@ -76,13 +77,17 @@ def _cause(cause: Cause, estimates: Sequence[Estimate]) -> dict[str, Any]:
     }
 
 
+def _joints(addition: Addition) -> list[int] | None:
+    """Where an effect acts, from 1; null where it belongs to no joints."""
+    return None if addition.joints is None else [joint + 1 for joint in addition.joints]
+
+
 def _other(found: Findings) -> dict[str, Any] | None:
     """What the best effect that is not named would close of the distance to the noise."""
     if found.other is None:
         return None
     at = found.other.addition
-    joints = None if at.joints is None else [joint + 1 for joint in at.joints]
-    return {"effect": at.effect, "joints": joints, "gap_closed": found.other.closed}
+    return {"effect": at.effect, "joints": _joints(at), "gap_closed": found.other.closed}
 
 
 def _estimate(e: Estimate) -> dict[str, Any]:
