@@ -56,7 +56,7 @@ class Backlash(Effect):
     def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """T in the place of spring and friction of Eq. 12, (n,) [N m]."""
         move, p = now.motion, now.p
-        taken = spring_torque(move.theta, p) + joint_friction(move.theta_rate, p)
+        taken = spring_torque(move.theta, p) + joint_friction(move.theta_rate, p, move.slip_rate)
         return _stops(*_play(state, p), own, p) - taken
 
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:

@@ -50,7 +50,7 @@ class HeldCable(Effect):
     def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """-J_s^T W B T, (n,) [N m]: not by way of the commanded tensions, whose corner at 0 is where k begins."""
         move, p = now.motion, now.p
-        local = tension_propagation(move.theta, move.theta_rate, p) * held_tension(now, own)
+        local = tension_propagation(move.theta, move.slip_rate, p) * held_tension(now, own)
         return -serial_jacobian_transposed_times(link_wrenches(local, move.theta, p), move.link_angle, p)
 
 

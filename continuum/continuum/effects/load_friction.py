@@ -45,7 +45,7 @@ class LoadFriction(Effect):
     experiment = "Release the arm with and without a weight on its tip, or pull both cables alike while it swings."
 
     def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
-        w, p = now.motion.theta_rate, now.p
+        w, p = now.motion.slip_rate, now.p
         force = joint_force(now)
         size = np.sqrt((force * force).sum(axis=1) + _LEAST_FORCE**2)
         rubbing = replace(p, coulomb_friction=own["radius"] * size, stribeck_gain=own["stribeck"])

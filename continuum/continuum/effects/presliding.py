@@ -69,7 +69,7 @@ class Presliding(Effect):
 
     def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """The dry friction with memory less the one without, (n,) [N m]."""
-        w, p = now.motion.theta_rate, now.p
+        w, p = now.motion.slip_rate, now.p
         s = _by_element(state)
         bent = positive_part(1 - (s / _stribeck(w, p)) ** 2) ** 2
         lost = _LOSS_TIME * w * bent / (_PLACES.size * (own["angle"] + _LEAST_ANGLE))

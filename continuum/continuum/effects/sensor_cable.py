@@ -49,5 +49,5 @@ class SensorCable(Effect):
         way, lever = theta + own["lever"] * theta**2 / 2, 1 + own["lever"] * theta
         drawn = lever * w
         force = own["preload"] + own["stiffness"] * way + own["viscous"] * drawn
-        rubbing = own["dry"] * smooth_sign(drawn, now.p.friction_slope)
+        rubbing = own["dry"] * smooth_sign(lever * now.motion.slip_rate[:1], now.p.friction_slope)
         return np.concatenate([lever * (force + rubbing), np.zeros(now.p.n_joints - 1)])

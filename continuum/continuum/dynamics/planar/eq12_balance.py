@@ -21,7 +21,7 @@ def torque_balance(now: Instant) -> Numbers:
     return (
         rigid_body_torque(now)
         + spring_torque(move.theta, p)
-        + joint_friction(move.theta_rate, p)
+        + joint_friction(move.theta_rate, p, move.slip_rate)
         - cable_torque(move, now.u, p)
     )
 

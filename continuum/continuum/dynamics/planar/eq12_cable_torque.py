@@ -18,5 +18,5 @@ def cable_torque(move: Motion, u: Numbers, p: Parameters) -> Numbers:
         u: tension of each cable at the base, (n_cables,) [N]; below 0 there is none, a cable cannot push.
         p: parameters.
     """
-    local = tension_propagation(move.theta, move.theta_rate, p) * positive_part(u)
+    local = tension_propagation(move.theta, move.slip_rate, p) * positive_part(u)
     return serial_jacobian_transposed_times(link_wrenches(local, move.theta, p), move.link_angle, p)

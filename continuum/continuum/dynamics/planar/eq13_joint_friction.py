@@ -12,9 +12,16 @@ from continuum.dynamics.expressions import Numbers, smooth_sign
 from continuum.dynamics.parameters import Parameters
 
 
-def joint_friction(theta_rate: Numbers, p: Parameters) -> Numbers:
-    """F(theta'), (n,) [N m], against the motion: it stands on the left of Eq. 12. Rates (n,) [rad/s]."""
-    return p.viscous_friction * theta_rate + dry_friction(theta_rate, p) * smooth_sign(theta_rate, p.friction_slope)
+def joint_friction(theta_rate: Numbers, p: Parameters, slip_rate: Numbers | None = None) -> Numbers:
+    """F(theta'), (n,) [N m], against the motion: it stands on the left of Eq. 12.
+
+    Args:
+        theta_rate: of the joints, (n,) [rad/s].
+        p: parameters.
+        slip_rate: the same as dry friction sees it, `Motion.slip_rate`, (n,) [rad/s]; ``theta_rate`` without.
+    """
+    slip = theta_rate if slip_rate is None else slip_rate
+    return p.viscous_friction * theta_rate + dry_friction(slip, p) * smooth_sign(slip, p.friction_slope)
 
 
 def dry_friction(theta_rate: Numbers, p: Parameters) -> Numbers:

@@ -16,14 +16,14 @@ from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.planar.cables import chord_slopes
 
 
-def tension_propagation(theta: Numbers, theta_rate: Numbers, p: Parameters) -> Numbers:
+def tension_propagation(theta: Numbers, slip_rate: Numbers, p: Parameters) -> Numbers:
     """B(theta, theta'): tension in each module for one newton at the base, (n, n_cables).
 
     Args:
-        theta, theta_rate: of the joints, (n,) [rad, rad/s].
+        theta, slip_rate: of the joints, (n,) [rad, rad/s].
         p: parameters.
     """
-    taken_in = -suffix_sum(chord_slopes(theta, p) * theta_rate[:, None])  # cable speed over each disc [m/s]
+    taken_in = -suffix_sum(chord_slopes(theta, p) * slip_rate[:, None])  # cable speed over each disc [m/s]
     losing = smooth_sign(taken_in, p.cable_slope)
     return np.exp(-p.capstan_friction * np.cumsum(losing * wrap_angles(theta)[:, None], axis=0))
 

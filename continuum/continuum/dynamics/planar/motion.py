@@ -26,6 +26,11 @@ class Motion:
     base_acceleration: Numbers
 
     @property
+    def slip_rate(self) -> Numbers:
+        """Joint rates as dry friction and its sign see them, (n,) [rad/s]; known beforehand while motion is estimated."""
+        return self.theta_rate
+
+    @property
     def link_angle(self) -> Numbers:
         """Angle of each link from the straight arm, (n,) [rad]."""
         return self.base_angle + self.summed(self.theta)
