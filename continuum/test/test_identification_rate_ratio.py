@@ -7,16 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from discovery_verdicts import judged
-from identification_laws import N, small_simulator
+from identification_laws import N
 
-from continuum.discovery.confirmation import contradicted
-from continuum.discovery.diagnose import diagnose
-from continuum.discovery.findings import findings
-from continuum.discovery.in_words import verdict_in_words
-from continuum.discovery.verdict import Kind
-from continuum.discovery.verdict_json import as_mapping
-from continuum.identification.dataset import Dataset
 from continuum.identification.rate_ratio import odd_rates, rate_ratio
 from continuum.identification.recording import Recording
 
@@ -120,23 +112,3 @@ def test_one_recording_and_one_joint_that_are_off_are_named() -> None:
              for run in sound if run.theta_rate is not None]  # fmt: skip
     (told,) = odd_rates(outer)  # one that moves little says little of all
     assert told.startswith("joint 2: angles change 0.8")
-
-
-@pytest.mark.parametrize("by", [1.0, 1.1])
-def test_a_diagnosis_minds_it(by: float) -> None:
-    spoiled = [slow_clock(run, by) for run in runs(count=2)]
-    found = findings(
-        diagnose(Dataset(tuple(spoiled)), small_simulator().model, processes=1, effects=()), np.random.default_rng(0)
-    )
-    is_odd = by != 1.0
-    assert any("their rates add up to" in note for note in found.notes) == is_odd
-    assert found.verdict.at_odds == ("contradict themselves" in verdict_in_words(found.verdict)) == is_odd
-    assert found.verdict.kind is Kind.UNKNOWN or not is_odd
-    assert as_mapping(found)["at_odds"] == is_odd
-
-
-def test_what_contradicts_itself_has_no_cause() -> None:
-    for verdict in judged().values():
-        told = contradicted(verdict)
-        assert (told.kind, told.alternatives, told.experiment) == (Kind.UNKNOWN, (), "")
-        assert told.best is verdict.best

@@ -1,0 +1,98 @@
+"""`continuum diagnose` from files to files: what it refuses in one line, what it writes, and its exit codes."""
+
+from __future__ import annotations
+
+import json
+from html import unescape
+from pathlib import Path
+
+import numpy as np
+import pytest
+from dynamics_laws import prototype_model
+from identification_laws import BENDS, FINE, N, recorded
+
+from continuum.cli import main
+from continuum.cli.diagnose import EXIT_CODES
+from continuum.dynamics.model_file import load_model, save_model
+from continuum.dynamics.simulator import Simulator
+from continuum.recordings.motion_table import write_measured_motion
+
+type Captured = pytest.CaptureFixture[str]
+
+
+def test_bad_data_are_refused_in_one_line(tmp_path: Path, capsys: Captured) -> None:
+    table = tmp_path / "run.csv"
+    table.write_text("t_s,q1_deg\n0,1\n")
+    assert main(["diagnose", str(table), "--json", str(tmp_path / "out.json")]) == 2
+    told = capsys.readouterr().err
+    assert "run.csv: has 1 usable rows" in told
+    assert told.count("\n") == 1
+    assert not (tmp_path / "out.json").exists()
+
+
+def test_what_was_not_understood_is_told_before_the_search(
+    tmp_path: Path, capsys: Captured, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A pulled run whose tensions have another name is another run."""
+    table = tmp_path / "run.csv"
+    rows = [f"{i / 120},{10 * np.cos(i / 9)},3" for i in range(60)]
+    table.write_text("\n".join(["t_s,q1_deg,pull", *rows]))
+    monkeypatch.setattr("continuum.cli.diagnose._diagnose", lambda *_: 0)
+    assert main(["diagnose", str(table)]) == 0
+    assert capsys.readouterr().err == "continuum: run: columns that are not understood, and not used: pull\n"
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    """File of a small arm."""
+    save_model(prototype_model(N), tmp_path / "small.yaml")
+    return tmp_path / "small.yaml"
+
+
+def releases(folder: Path, **truth: float) -> list[str]:
+    """Files of two releases of an arm that may differ from the nominal one, noisy."""
+    random = np.random.default_rng(5)
+    simulator = Simulator(prototype_model(N).with_values(truth), FINE)
+    files = []
+    for number, bend in enumerate(BENDS[:2], start=1):
+        run = recorded(simulator, (2 * bend[0], 2 * bend[1]), random, seconds=0.7)
+        assert run.theta_rate is not None
+        files.append(str(folder / f"run_{number}.csv"))
+        write_measured_motion(run.times, run.theta, run.theta_rate, files[-1])
+    return files
+
+
+def test_a_diagnosis_is_told_and_written(tmp_path: Path, model: Path, capsys: Captured) -> None:
+    files = releases(tmp_path, stiffness=1.3)
+    out = {name: tmp_path / f"out.{name}" for name in ("json", "html", "yaml")}
+    words = ["--json", str(out["json"]), "--report", str(out["html"]), "--extended", str(out["yaml"])]
+    code = main(["diagnose", *files, "--model", str(model), *words, "--processes", "1", "--seed", "3"])
+    told = json.loads(out["json"].read_text(encoding="utf-8"))
+    assert code == EXIT_CODES[told["verdict"]]
+    assert capsys.readouterr().out.startswith(told["verdict"].upper() + "\n")
+    made = told["made"]
+    assert (made["recordings"], made["model"], made["seed"]) == (["run_1.csv", "run_2.csv"], "small.yaml", 3)
+    page = unescape(out["html"].read_text(encoding="utf-8"))
+    assert "of run_1.csv, run_2.csv; model small.yaml, seed 3." in page
+    assert "data:image/png;base64," in page
+    assert load_model(out["yaml"]).n_joints == N
+
+
+def test_an_arm_of_another_number_of_joints_is_refused(tmp_path: Path, capsys: Captured) -> None:
+    assert main(["diagnose", *releases(tmp_path), "--processes", "1"]) == 2
+    assert "joints of run_1 is 2; allowed: 5, as the model has" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("processes", ["0", "-2"])
+def test_a_number_of_processes_that_is_none(tmp_path: Path, model: Path, capsys: Captured, processes: str) -> None:
+    assert main(["diagnose", *releases(tmp_path), "--model", str(model), "--processes", processes]) == 2
+    assert "processes is" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", ["--json", "--report", "--extended"])
+def test_what_cannot_be_written_is_refused_before_the_search(tmp_path: Path, capsys: Captured, option: str) -> None:
+    words = [option, str(tmp_path / "nowhere" / "out"), "--processes", "1"]
+    assert main(["diagnose", *releases(tmp_path), *words]) == 2
+    told = capsys.readouterr().err
+    assert "cannot be written" in told
+    assert told.count("\n") == 1
