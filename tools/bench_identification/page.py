@@ -73,9 +73,8 @@ def page(compared: Sequence[Comparison], diagnosed: Diagnosed) -> str:
         paragraph(
             "The swarm starts every run at rest from its first measured angles, so that their noise is in all of a",
             "run; the fit finds first states with the rest. It needs one start: from wrong ones on all sides it ends",
-            "in the same place (`continuum/test/test_identification_fit.py`); where that is to be made sure of,",
-            "`identification/several_starts.py` begins all over the prior, within the bounds, and the best start",
-            "goes on. Discovery begins every effect that contends from several places",
+            "in the same place; where that is to be made sure of, `identification/several_starts.py` begins all over",
+            "the prior, within the bounds, and the best start goes on. Discovery begins every effect that contends from several places",
             "(`discovery/other_beginnings.py`), and effects that have valleys of their own name",
             "where to begin (`continuum.discovery.likeliest_beginning`). The two `stribeck_` parameters are",
             "of the friction between sliding and rest, which shows only where a joint comes to rest.",
