@@ -1,4 +1,4 @@
-"""Whether recorded tensions hold from row to row, as commands do, or change linearly, as measured ones, the data tell."""
+"""Do recorded tensions hold from row to row, as commands do, or change linearly, as measured ones? The data tell."""
 
 from __future__ import annotations
 
