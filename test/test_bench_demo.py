@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from continuum.identification.recording_bag import read_recording_bag
 from continuum.inertial.calibration import load_calibration
+from continuum.recordings.recording_bag import read_recording_bag
 from tools.bench_demo.command import main
 from tools.bench_demo.runs import RUNS
 

@@ -14,7 +14,7 @@ from continuum.dynamics.measuring import lateness, readings
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.identification.noise import Channel, Noise
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 N = 2
 """Joints: the fewest that pull at each other."""

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import InvalidValueError
 from continuum.identification.dataset import Dataset, halves
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 T = np.arange(40) / 120
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from continuum.identification.noise import Channel, Noise, SensorKnowledge, estimate_noise
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 JOINTS, SECONDS, RATE = 3, 1.6, 120
 T = np.arange(round(SECONDS * RATE)) / RATE

@@ -10,7 +10,7 @@ import pytest
 from identification_laws import N
 
 from continuum.identification.rate_ratio import odd_rates, rate_ratio
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 
 def runs(seed: int = 3, count: int = 3) -> list[Recording]:

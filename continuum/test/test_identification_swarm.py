@@ -11,8 +11,8 @@ from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.nrmse import measured_rates, nrmse, nrmse_by_joint, position_nrmse, rate_nrmse
-from continuum.identification.recording import Recording
 from continuum.identification.swarm import SwarmSettings, particle_swarm, swarm_identification
+from continuum.recordings.recording import Recording
 
 RANDOM = np.random.default_rng(5)
 MEASURED = RANDOM.normal(size=(50, 3)) * np.array([1.0, 10.0, 0.1])

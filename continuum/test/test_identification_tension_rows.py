@@ -11,8 +11,8 @@ from identification_laws import BENDS, recorded, small_simulator, white_noise
 from continuum.discovery.trial import TOLERANCES
 from continuum.dynamics.tensions import Tensions
 from continuum.identification.free import Free
-from continuum.identification.recording import Recording
 from continuum.identification.tension_rows import jumps_tell, with_likelier_rows
+from continuum.recordings.recording import Recording
 
 SIMULATOR = small_simulator()
 ROUGH = small_simulator(None, TOLERANCES)

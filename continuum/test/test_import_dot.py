@@ -20,9 +20,9 @@ from inertial_arm import (
     write_exports,
 )
 
-from continuum.identification.recording_csv import read_recording_csv
 from continuum.inertial.calibration import load_calibration
 from continuum.inertial.imu_recording import ImuRecording
+from continuum.recordings.recording_csv import read_recording_csv
 
 HOW = ("--first-turn", "1", "--zero", "0:5")
 

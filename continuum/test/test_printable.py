@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from continuum.identification.recording_csv import read_recording_csv
 from continuum.printable import printable
+from continuum.recordings.recording_csv import read_recording_csv
 
 
 @pytest.mark.parametrize("name", ["run 1", "Rückweg", "走行", "a\\b"])

@@ -11,8 +11,8 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from blind.plant import make_case, write_case
 
-from continuum.identification.recording import Recording
-from continuum.identification.recording_csv import read_recording_csv
+from continuum.recordings.recording import Recording
+from continuum.recordings.recording_csv import read_recording_csv
 
 _NAMES = {
     "stiffness": "stiffness",

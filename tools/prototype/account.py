@@ -35,10 +35,10 @@ from continuum.identification.free import Free, FreeSpace
 from continuum.identification.free_run import free_run
 from continuum.identification.noise import Noise, SensorKnowledge, estimate_noise
 from continuum.identification.nrmse import measured_rates, nrmse, position_nrmse, rate_nrmse
-from continuum.identification.recording import Recording
-from continuum.identification.recording_csv import read_recording_csv
 from continuum.identification.swarm import swarm_identification
 from continuum.identification.window_residual import WindowResidual
+from continuum.recordings.recording import Recording
+from continuum.recordings.recording_csv import read_recording_csv
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "rep7"
 OTHER_FLOORS = (0.05, 0.2)  # degrees

@@ -10,7 +10,7 @@ import numpy as np
 
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.identification.dataset import halves
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 from tools.markdown import paragraph
 from tools.prototype.account import Account, Alone, Floor, Simulated
 from tools.reproduction.release import TABLE_4_POSITION, TABLE_4_VELOCITY

@@ -14,8 +14,8 @@ from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
 from continuum.identification.nrmse import measured_rates, nrmse
-from continuum.identification.recording import Recording
-from continuum.identification.recording_csv import read_recording_csv
+from continuum.recordings.recording import Recording
+from continuum.recordings.recording_csv import read_recording_csv
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "rep7"
 TABLE_4_POSITION, TABLE_4_VELOCITY = 0.58105, 0.63264  # the thesis's NRMSE of repetition 7

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from continuum.discovery.findings import Estimate, Findings
     from continuum.dynamics.model import Model
     from continuum.identification.noise import SensorKnowledge
-    from continuum.identification.recording import Recording
+    from continuum.recordings.recording import Recording
 
 EXIT_CODES = {"adequate": 0, "cause": 3, "ambiguous": 4, "unknown": 5}  # 1 is a crash, 2 wrong usage
 
@@ -127,8 +127,8 @@ def _how(options: argparse.Namespace) -> str:
 
 def read_recording(path: str) -> Recording:
     """One run from a CSV file or the folder of a rosbag2 recording."""
-    from continuum.identification.recording_bag import read_recording_bag
-    from continuum.identification.recording_csv import read_recording_csv
+    from continuum.recordings.recording_bag import read_recording_bag
+    from continuum.recordings.recording_csv import read_recording_csv
 
     return read_recording_bag(path) if Path(path).is_dir() else read_recording_csv(path)
 

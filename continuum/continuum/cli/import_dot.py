@@ -142,8 +142,8 @@ def _posture(text: str | None) -> list[float] | None:
 
 
 def _write(options: argparse.Namespace, angles: RecordedAngles) -> int:
-    from continuum.identification.recording_csv import read_recording_csv
     from continuum.recordings.motion_table import write_measured_motion
+    from continuum.recordings.recording_csv import read_recording_csv
 
     inside = (angles.times >= options.begin) & (angles.times <= options.end)
     good = inside & angles.good.all(axis=1)

@@ -24,7 +24,7 @@ from continuum.identification.fisher import Identifiability, identifiability
 from continuum.identification.fit import THESIS_PARAMETERS, Fit
 from continuum.identification.free import Free
 from continuum.identification.rate_ratio import odd_rates
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 _ITERATIONS = 8
 _NEAR = 1e-3  # to a limit, of a value

@@ -24,7 +24,7 @@ from continuum.identification.free_run import begun, free_run
 from continuum.identification.noise import Noise
 from continuum.identification.nrmse import measured_rates, nrmse, position_nrmse, rate_nrmse
 from continuum.identification.nrmse_interval import nrmse_interval
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 _ITERATIONS = 8
 _OPEN = 1.05  # times the noise floor, an error is more than noise

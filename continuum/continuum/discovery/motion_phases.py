@@ -12,7 +12,7 @@ from scipy.ndimage import uniform_filter1d
 from continuum.arrays import Array
 from continuum.discovery.measured_gain import RunScore
 from continuum.identification.nrmse import measured_rates
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 PHASES = ("at rest", "turning back", "speeding up", "slowing down")
 

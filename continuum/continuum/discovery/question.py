@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from continuum.dynamics.model import Model
 from continuum.identification.free import Free
 from continuum.identification.noise import Noise
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,6 @@
 """Identification: parameters of the dynamic model from recordings, with intervals that hold.
 
 ======================  ============================================================================
-recording.py            what was measured in one run; `recording_csv.py`, `recording_bag.py` read it
 dataset.py              several runs, split by whole runs into identification and validation
 noise.py                how much the sensors err, from the data themselves
 free.py                 which parameters a fit may move, shared, per joint or per recording

@@ -9,8 +9,8 @@ from itertools import combinations
 import numpy as np
 
 from continuum.errors import InvalidValueError
-from continuum.identification.cable_sides import refuse_swapped_cables
-from continuum.identification.recording import Recording
+from continuum.recordings.cable_sides import refuse_swapped_cables
+from continuum.recordings.recording import Recording
 
 _PART_FOR_FIT = 0.6  # of the samples of a single run
 

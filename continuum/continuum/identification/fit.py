@@ -23,10 +23,10 @@ from continuum.identification.arrow_least_squares import (
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.likeliest import likeliest
 from continuum.identification.noise import Noise
-from continuum.identification.recording import Recording
 from continuum.identification.window_residual import WindowAt, WindowResidual
 from continuum.identification.window_settling import STEPS, descended
 from continuum.identification.windows import usual_length
+from continuum.recordings.recording import Recording
 
 THESIS_PARAMETERS = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
 """What the thesis identified (chapter 3.3), each common to all joints."""

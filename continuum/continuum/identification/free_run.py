@@ -12,9 +12,9 @@ from continuum.dynamics.simulator import Simulator
 from continuum.identification.fit import fit
 from continuum.identification.free import Free
 from continuum.identification.noise import Noise
-from continuum.identification.recording import Recording
 from continuum.identification.window_residual import WindowResidual
 from continuum.identification.windows import usual_length, window_rows
+from continuum.recordings.recording import Recording
 
 _ITERATIONS = 6
 

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.stats import gamma
 
 from continuum.arrays import Array
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 _RATE_FLOOR = np.deg2rad(0.1)  # no rate of a joint, which two gyros measure, is better [rad/s]
 _SIMULATED_RATE = np.deg2rad(0.5)  # what another slope of smoothed dry friction changes in a simulated rate [rad/s]

@@ -7,7 +7,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.reading import Reading
 from continuum.identification.local_slopes import local_slope
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 
 def nrmse(simulated: Array, measured: Array) -> float:

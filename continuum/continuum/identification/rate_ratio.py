@@ -15,7 +15,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from continuum.arrays import Array
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 _ENOUGH = 0.03  # off 1, of all recordings or of one; where joints stick and slip sound ones are off by up to 0.02
 _ENOUGH_OF_A_JOINT = 0.15  # one that sticks all the time is off by up to 0.08

@@ -18,7 +18,7 @@ from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
 from continuum.dynamics.values import parameter_slots
 from continuum.identification.local_slopes import local_slope
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 NUDGE = 1e-5
 """Of a coordinate, by which slopes of sensors and of effects' beginnings are taken."""

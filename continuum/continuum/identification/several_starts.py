@@ -18,7 +18,7 @@ from continuum.errors import InvalidValueError
 from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.noise import Noise
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 _OUTERMOST = 0.01  # quantiles: no start is farther out
 

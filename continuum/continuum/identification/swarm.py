@@ -16,7 +16,7 @@ from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.identification.free import FreeSpace
 from continuum.identification.nrmse import rate_nrmse
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 
 @dataclass(frozen=True)

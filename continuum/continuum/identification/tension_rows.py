@@ -16,7 +16,7 @@ from continuum.dynamics.simulator import Simulator
 from continuum.identification.fit import Fit, fit
 from continuum.identification.free import Free
 from continuum.identification.noise import Noise
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 _JUMP, _STEEPER = 3.0, 3.0  # N from one row to the next, and times as much as in the rows beside it
 _JOLT = 40.0  # rad/s2, by which arms answer at once

@@ -15,9 +15,9 @@ from continuum.dynamics.values import with_vector
 from continuum.identification.arrow_least_squares import Part
 from continuum.identification.free import FreeSpace
 from continuum.identification.noise import Noise
-from continuum.identification.recording import Recording
 from continuum.identification.sensors import NUDGE, Sensors, first_state
 from continuum.identification.windows import whitener, window_rows
+from continuum.recordings.recording import Recording
 
 _ANGLE_UNIT, _RATE_UNIT = np.deg2rad(1.0), 0.1  # of the coordinates of a window's first state [rad, rad/s]
 _ANGLE_SPREAD, _RATE_SPREAD = 10.0, 20.0  # prior of these coordinates

@@ -15,7 +15,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.identification.noise import Channel, Noise
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 WITH_RATES, WITHOUT_RATES = 0.1, 0.15  # usual length of a window, by what was measured [s]
 

@@ -1,1 +1,11 @@
-"""Reading what the workspace recorded, and what a recording says of the arm's kinematics."""
+"""Recordings: what was measured in a run of an arm, read, checked and written; and what it says of the kinematics.
+
+=====================  ===================================================================================
+recording.py           what was measured in one run; `recording_csv.py`, `recording_bag.py` read it
+recording_checks.py    what may be wrong with its samples; `csv_layout.py`: what may be wrong with a table
+cable_sides.py         whether the arm bends towards the cable that pulls more
+motion_columns.py      names of columns; `motion_table.py`, `tension_table.py`, `cable_table.py`: tables
+bag.py                 rosbag2 without ROS; `named_values.py`: values of a message by name
+arm_recording.py       the arm's kinematic chain of messages; `kinematic_report.py` says whether it holds
+=====================  ===================================================================================
+"""

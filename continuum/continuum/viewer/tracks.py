@@ -11,11 +11,11 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.errors import FileError
-from continuum.identification.recording_csv import read_recording_csv
 from continuum.joint_names import cable_names, theta_joints
 from continuum.recordings.arm_recording import TOPICS
 from continuum.recordings.bag import Bag, stamp_ns
 from continuum.recordings.named_values import named_values
+from continuum.recordings.recording_csv import read_recording_csv
 
 SIMULATED = "/simulated"
 """Namespace of a simulated arm beside a measured one."""

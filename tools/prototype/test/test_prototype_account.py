@@ -11,7 +11,7 @@ from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.free import Free
 from continuum.identification.noise import Noise, estimate_noise
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 from tools.prototype.account import at_rest, compared, free, whole
 
 MODEL = load_model("lamecc_prototype.yaml")

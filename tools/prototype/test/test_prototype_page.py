@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from continuum.identification.noise import estimate_noise
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 from tools.prototype.account import DATA, Account, Alone, Floor, Simulated
 from tools.prototype.page import page
 from tools.prototype.picture import draw

@@ -15,8 +15,8 @@ from identification_laws import PULLS, small_simulator
 from continuum.cli import main
 from continuum.dynamics.trajectory import Trajectory
 from continuum.errors import FileError
-from continuum.identification.recording_csv import read_recording_csv
 from continuum.recordings.motion_table import write_motion_table
+from continuum.recordings.recording_csv import read_recording_csv
 
 ROWS = 120
 T = np.arange(ROWS) / 120

@@ -10,9 +10,9 @@ from identification_laws import recorded, small_simulator
 
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import InvalidValueError
-from continuum.identification.cable_sides import side_correlation
 from continuum.identification.dataset import Dataset
-from continuum.identification.recording import Recording
+from continuum.recordings.cable_sides import side_correlation
+from continuum.recordings.recording import Recording
 
 PULLS = Tensions([0.0, 0.6, 1.8, 2.4], [[0, 0], [6, 0], [0, 6], [0, 0]])
 

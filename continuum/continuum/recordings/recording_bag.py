@@ -16,13 +16,13 @@ from continuum.arrays import Array
 from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
-from continuum.identification.recording import Recording
-from continuum.identification.recording_checks import Samples, repaired
 from continuum.joint_names import cable_names, phi_joint, theta_joints
 from continuum.printable import printable
 from continuum.recordings.arm_recording import TOPICS
 from continuum.recordings.bag import Bag, stamp_ns
 from continuum.recordings.named_values import named_values
+from continuum.recordings.recording import Recording
+from continuum.recordings.recording_checks import Samples, repaired
 
 _JOINTS, _CABLES = "/joint_states", "/cable_states"
 _IN_PLANE = 1e-3  # rad, by which the bending plane may turn

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from continuum.errors import FileError
-from continuum.identification.recording_checks import Samples, repaired
+from continuum.recordings.recording_checks import Samples, repaired
 
 T = np.arange(120) / 120
 SWING = Samples(

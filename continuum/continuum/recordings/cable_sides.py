@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from continuum.errors import InvalidValueError
-from continuum.identification.recording import Recording
+from continuum.recordings.recording import Recording
 
 _OPPOSED = -0.5
 _LENGTH = 0.5  # s; the arm swings in less

@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from continuum.arrays import Array
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
-from continuum.identification.csv_layout import hint_of_cell, hint_of_row, problem_of_header
-from continuum.identification.recording import Recording
-from continuum.identification.recording_checks import Samples, repaired
 from continuum.printable import printable
+from continuum.recordings.csv_layout import hint_of_cell, hint_of_row, problem_of_header
 from continuum.recordings.motion_columns import ANGLE, RATE, TENSION, TIME, Quantity
+from continuum.recordings.recording import Recording
+from continuum.recordings.recording_checks import Samples, repaired
 
 
 def read_recording_csv(path: str | Path) -> Recording:

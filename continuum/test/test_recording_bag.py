@@ -10,7 +10,7 @@ from recorded_runs import run as kinematic_run
 
 from continuum.cli.diagnose import read_recording
 from continuum.errors import FileError
-from continuum.identification.recording_bag import read_recording_bag
+from continuum.recordings.recording_bag import read_recording_bag
 
 ROWS, JOINTS = 90, 3
 T = np.arange(ROWS) / 120
