@@ -22,7 +22,7 @@ from continuum.dynamics.planar.motion import Motion
 
 
 @dataclass(frozen=True)
-class _TracedMotion(Motion):
+class TracedMotion(Motion):
     """A motion that notes which symbols stand for sums of which others."""
 
     sums: dict[tuple[str, ...], tuple[Numbers, Numbers]] = field(default_factory=dict)
@@ -32,7 +32,7 @@ class _TracedMotion(Motion):
             return super().summed(joints)  # an effect's own angles
         key = tuple(str(joint) for joint in joints)
         if key not in self.sums:
-            self.sums[key] = (joints, _symbols(f"sum_{len(self.sums)}", len(joints)))
+            self.sums[key] = (joints, symbols(f"sum_{len(self.sums)}", len(joints)))
         return self.sums[key][1]
 
 
@@ -46,14 +46,14 @@ class SymbolicBalance:
 
     def __init__(self, model: Model) -> None:
         n, extra, still = model.n_joints, model.n_states, np.zeros(1)
-        x, v, u = _symbols("x", 2 * n + extra), _symbols("v", n + extra), _symbols("u", len(SIDES))
-        values = {name: _symbols(name, len(value)) for name, value in model.values().items()}
-        motion = _TracedMotion(x[:n], x[n : 2 * n], v[:n], still, still, still)
-        self._r = _column(balance(model.built_from(values), x, v, u, motion))
+        x, v, u = symbols("x", 2 * n + extra), symbols("v", n + extra), symbols("u", len(SIDES))
+        values = {name: symbols(name, len(value)) for name, value in model.values().items()}
+        motion = TracedMotion(x[:n], x[n : 2 * n], v[:n], still, still, still)
+        self._r = column(balance(model.built_from(values), x, v, u, motion))
         self._sums = list(motion.sums.values())
-        self._x, self._v, self._p = _column(x), _column(v), _column(np.concatenate(list(values.values())))
+        self._x, self._v, self._p = column(x), column(v), column(np.concatenate(list(values.values())))
         self._n, self._hg = n, casadi.SX.sym("hg")
-        self._packed = casadi.vertcat(self._x, self._v, _column(u), self._p, self._hg)
+        self._packed = casadi.vertcat(self._x, self._v, column(u), self._p, self._hg)
 
     @cached_property
     def residual(self) -> casadi.Function:
@@ -81,7 +81,7 @@ class SymbolicBalance:
     def _function(self, name: str, matrices: list[Any]) -> casadi.Function:
         wanted = casadi.vertcat(self._r, *(casadi.vec(casadi.densify(matrix)) for matrix in matrices))
         for joints, sums in self._sums:
-            wanted = casadi.substitute(wanted, _column(sums), casadi.cumsum(_column(joints)))
+            wanted = casadi.substitute(wanted, column(sums), casadi.cumsum(column(joints)))
         return casadi.Function(name, [self._packed], [casadi.densify(wanted)])
 
     def _derivative(self, by: Any) -> Any:
@@ -90,7 +90,7 @@ class SymbolicBalance:
         names = _names(by)
         for joints, sums in self._sums:
             if str(joints[0]) in names:
-                through = _through_sums(casadi.jacobian(self._r, _column(sums)))
+                through = _through_sums(casadi.jacobian(self._r, column(sums)))
                 whole[:, [names.index(str(joint)) for joint in joints]] += through
         return whole
 
@@ -102,8 +102,8 @@ class SymbolicBalance:
         x, v = _names(self._x), _names(self._v)
         weight = dict.fromkeys(x[:n], hg**2) | dict.fromkeys(x[n:], hg) | dict.fromkeys(v, 1.0)
         for joints, sums in self._sums:
-            given.append(_column(sums))
-            where.append(_column(sums) + weight.get(str(joints[0]), 0.0) * summed)
+            given.append(column(sums))
+            where.append(column(sums) + weight.get(str(joints[0]), 0.0) * summed)
         (r,) = casadi.substitute([self._r], given, where)
         both = casadi.densify(casadi.jacobian(r, casadi.vertcat(moved, summed)))
         J = both[:, :size]
@@ -125,9 +125,9 @@ def _names(symbols: Any) -> list[str]:
     return [str(symbols[i]) for i in range(symbols.numel())]
 
 
-def _symbols(name: str, size: int) -> Numbers:
+def symbols(name: str, size: int) -> Numbers:
     return np.array([casadi.SX.sym(f"{name}_{i}") for i in range(size)], dtype=object)
 
 
-def _column(symbols: Numbers) -> Any:
-    return casadi.densify(casadi.vertcat(*symbols))
+def column(parts: Numbers) -> Any:
+    return casadi.densify(casadi.vertcat(*parts))
