@@ -36,6 +36,7 @@ _RANGES = {
     "cable_slope": (20.0, 60.0),
     "gravity": (5.0, 15.0),
     "hang_angle": (-3.0, 3.0),
+    "rotor_inertia": (1e-5, 1e-4),
 }
 """From which random parameters are drawn, in their own units; frictions smooth enough to be differentiated."""
 
@@ -51,9 +52,9 @@ PROTOTYPE = {
 
 
 def random_parameters(random: np.random.Generator, n_joints: int) -> Parameters:
-    """Parameters of which every joint has its own."""
-    sizes = {name: n_joints if parameter.per_joint else 1 for name, parameter in PARAMETERS.items()}
-    return Parameters(**{name: random.uniform(*_RANGES[name], sizes[name]) for name in PARAMETERS})
+    """Parameters of which every joint has its own; links are as long as their discs lie apart."""
+    sizes = {name: n_joints if PARAMETERS[name].per_joint else 1 for name in _RANGES}
+    return Parameters(**{name: random.uniform(*bounds, sizes[name]) for name, bounds in _RANGES.items()})
 
 
 def random_model(seed: int, n_joints: int, effects: tuple[ActiveEffect, ...] = ()) -> Model:
@@ -63,8 +64,7 @@ def random_model(seed: int, n_joints: int, effects: tuple[ActiveEffect, ...] = (
 
 def prototype_model(n_joints: int = 5) -> Model:
     """The prototype, hanging, or one like it with another number of joints."""
-    given = {name: parameter.default for name, parameter in PARAMETERS.items()} | PROTOTYPE
-    return Model(Parameters(**{name: PARAMETERS[name].array(given[name], n_joints, name) for name in PARAMETERS}))
+    return Model(Parameters(**{name: PARAMETERS[name].array(x, n_joints, name) for name, x in PROTOTYPE.items()}))
 
 
 def moving(theta: np.ndarray, rate: np.ndarray, acceleration: np.ndarray | None = None) -> Motion:

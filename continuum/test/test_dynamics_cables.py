@@ -99,6 +99,15 @@ def test_cable_torque_is_the_cables_virtual_work(n: int) -> None:
         np.testing.assert_allclose(chord_slopes(theta, p), np.einsum("iji->ij", slopes), rtol=0, atol=1e-12)
 
 
+@each_size
+def test_longer_links_change_nothing_of_the_cables_virtual_work(n: int) -> None:
+    """A link with two discs: the cable between them pulls them together, which moves no joint."""
+    for p, theta, rate, u in cases(n, 6):
+        longer = replace(p, link_length=p.joint_spacing + np.random.default_rng(n).uniform(0.0, 0.3, n))
+        torque = cable_torque(moving(theta, rate), u, p)
+        np.testing.assert_allclose(cable_torque(moving(theta, rate), u, longer), torque, rtol=1e-10, atol=1e-12)
+
+
 @pytest.mark.parametrize("n", [1, 4])
 @pytest.mark.parametrize("bend", [-0.9, 0.0, 1e-9, 0.3, 1.2])
 def test_chords_add_up_to_the_lengths_of_the_kinematics(n: int, bend: float) -> None:

@@ -84,7 +84,7 @@ def test_a_tilted_base_is_a_turned_hang_angle() -> None:
 
 def test_a_turning_base_moves_the_links_as_a_joint_would() -> None:
     """Without what hangs on the first joint's own angle, it does not matter what turns the first link."""
-    nothing = FRICTIONLESS | {"stiffness": 0.0}
+    nothing = FRICTIONLESS | {"stiffness": 0.0, "rotor_inertia": 0.0}
     x, v = instant(7, 2)
     found = balance(with_effects(active(TurningBase())).with_values(nothing), x, v, np.zeros(2))
     joint = x[: 2 * N].copy(), v[:N].copy()

@@ -21,7 +21,7 @@ from continuum.dynamics.parameters import PARAMETERS
 from continuum.errors import ContinuumError, FileError, InvalidValueError
 
 UNITS = {name: parameter.unit for name, parameter in PARAMETERS.items()}
-REQUIRED = [name for name, parameter in PARAMETERS.items() if parameter.default is None]
+REQUIRED = ["mass", "inertia", "center_of_mass", "half_spacing", "hole_radius"]
 
 
 def content(n_joints: int = 3) -> dict[str, object]:

@@ -60,7 +60,7 @@ class Model:
 
     def meanings(self) -> dict[str, Parameter]:
         """What each of `values` means and may be, by the same names."""
-        found = dict(PARAMETERS)
+        found = {name: PARAMETERS[name] for name in self.parameters.named()}
         for active in self.effects:
             found |= {f"{active.effect.name}.{name}": spec for name, spec in active.effect.parameters.items()}
         return found
@@ -68,10 +68,12 @@ class Model:
     def with_values(self, changed: Mapping[str, object]) -> Model:
         """The model with some values changed, checked against their bounds.
 
+        A parameter that may be absent, as ``link_length``, can be given to a model that has none.
+
         Raises:
             InvalidValueError: an unknown name, or a value that its parameter may not have.
         """
-        meanings = self.meanings()
+        meanings = PARAMETERS | self.meanings()
         for name in changed:
             if name not in meanings:
                 raise InvalidValueError("parameter", name, "one of " + ", ".join(meanings))
@@ -84,7 +86,7 @@ class Model:
         """The same model around other arrays, floats or symbols, named as in `values`; unchecked."""
         return replace(
             self,
-            parameters=Parameters(**{name: values[name] for name in PARAMETERS}),
+            parameters=Parameters(**{name: values[name] for name in PARAMETERS if name in values}),
             effects=tuple(
                 replace(active, values={name: values[f"{active.effect.name}.{name}"] for name in active.values})
                 for active in self.effects

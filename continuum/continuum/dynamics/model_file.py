@@ -68,7 +68,11 @@ def model_from_mapping(block: Mapping[str, object]) -> Model:
         own, own_sources = _values(given, effect.parameters, n, f"effects.{name}.")
         effects.append(ActiveEffect(effect, own))
         sources |= {f"{name}.{key}": source for key, source in own_sources.items()}
-    return Model(Parameters(**values), tuple(effects), sources)
+    try:
+        parameters = Parameters(**values)
+    except InvalidValueError as error:
+        raise InvalidValueError(f"parameters.{error.name}", error.value, error.allowed) from None
+    return Model(parameters, tuple(effects), sources)
 
 
 def save_model(model: Model, path: str | Path) -> None:
@@ -97,6 +101,8 @@ def _values(
     values, sources = {}, {}
     for name, parameter in allowed.items():
         if name not in block:
+            if parameter.optional:
+                continue
             if parameter.default is None:
                 raise InvalidValueError(prefix + name, None, parameter.allowed)
             values[name] = parameter.array(parameter.default, n, prefix + name)

@@ -26,6 +26,7 @@ class Parameter:
         default: used where a model file leaves it out; None makes it required.
         typical: size that it has where it matters, the scale of fits; without, the model's own value is.
         per_recording: differs from recording to recording, as a sensor's offset after each start.
+        optional: without a default and not required: an arm may have no such thing, its model then no such value.
     """
 
     symbol: str
@@ -37,6 +38,7 @@ class Parameter:
     default: float | None = None
     typical: float | None = None
     per_recording: bool = False
+    optional: bool = False
 
     @property
     def allowed(self) -> str:
@@ -66,32 +68,51 @@ class Parameter:
 
 
 def _joint(symbol: str, unit: str, lower: float, upper: float, meaning: str, default: float | None = None) -> Any:
-    return field(metadata={"parameter": Parameter(symbol, unit, lower, upper, True, meaning, default)})
+    return _field(Parameter(symbol, unit, lower, upper, True, meaning, default))
+
+
+def _if_any(symbol: str, unit: str, lower: float, upper: float, meaning: str) -> Any:
+    return _field(Parameter(symbol, unit, lower, upper, True, meaning, optional=True))
 
 
 def _section(symbol: str, unit: str, lower: float, upper: float, meaning: str, default: float | None = None) -> Any:
-    return field(metadata={"parameter": Parameter(symbol, unit, lower, upper, False, meaning, default)})
+    return _field(Parameter(symbol, unit, lower, upper, False, meaning, default))
 
 
-@dataclass(frozen=True)
+def _field(parameter: Parameter) -> Any:
+    if parameter.default is None and not parameter.optional:
+        return field(metadata={"parameter": parameter})
+    return field(default=None, metadata={"parameter": parameter})
+
+
+@dataclass(frozen=True, kw_only=True)
 class Parameters:
     """Values of the parameters, (n_joints,) or (1,) each: floats, or symbols while a model is compiled.
 
-    Joints and links count from the base. Link i lies between joint i and joint i + 1 and carries disc i.
+    Joints and links count from the base. Link i lies between joint i and joint i + 1 and carries disc i, where the arm
+    has discs. What is left out has its default. Without one it is None, and no value of the model: ``link_length``
+    follows from the discs then (`joint_spacing`), and an arm without ``half_spacing`` has neither discs nor cables.
+
+    Raises:
+        InvalidValueError: there is neither ``link_length`` nor ``half_spacing``.
     """
 
     mass: Numbers = _joint("m", "kg", 1e-6, 1e3, "mass of a link with its disc and sensor")
     inertia: Numbers = _joint("I_z", "kg m2", 0.0, 1e3, "inertia of a link about its centre of mass, in the plane")
     center_of_mass: Numbers = _joint("c", "m", -10.0, 10.0, "centre of mass beyond the link's joint")
-    half_spacing: Numbers = _joint("b", "m", 1e-4, 10.0, "from a joint to the discs before and after it")
-    hole_radius: Numbers = _joint("a", "m", 1e-4, 10.0, "from the axis to the cables' holes in these discs")
-    stiffness: Numbers = _joint("K", "N m/rad", 0.0, 1e4, "stiffness of a joint's spring, Eq. 12")
+    link_length: Numbers = _if_any("d", "m", 1e-4, 10.0, "from a joint to the next, from the last to the tip")
+    half_spacing: Numbers = _if_any("b", "m", 1e-4, 10.0, "from a joint to the discs before and after it")
+    hole_radius: Numbers = _if_any("a", "m", 1e-4, 10.0, "from the axis to the cables' holes in these discs")
+    rotor_inertia: Numbers = _joint("J_r", "kg m2", 0.0, 1e3, "inertia of a joint's drive, reflected to the joint", 0.0)
+    stiffness: Numbers = _joint("K", "N m/rad", 0.0, 1e4, "stiffness of a joint's spring, Eq. 12", 0.0)
     rest_angle: Numbers = _joint("theta_0", "rad", -math.pi, math.pi, "angle of a joint's relaxed spring, Eq. 12", 0.0)
-    viscous_friction: Numbers = _joint("tau_mu", "N m s/rad", 0.0, 1e3, "viscous friction of a joint, Eq. 13")
-    coulomb_friction: Numbers = _joint("tau_c", "N m", 0.0, 1e3, "Coulomb friction of a joint, Eq. 13")
-    stribeck_gain: Numbers = _joint("S", "1", 0.0, 100.0, "relative size of the Stribeck effect, Eq. 13")
-    stribeck_speed: Numbers = _joint("v_d", "rad/s", 1e-3, 1e3, "Stribeck speed, Eq. 13")
-    friction_slope: Numbers = _section("k_v", "s/rad", 1.0, 1e6, "slope of the smoothed sign of joint speed, Eq. 13")
+    viscous_friction: Numbers = _joint("tau_mu", "N m s/rad", 0.0, 1e3, "viscous friction of a joint, Eq. 13", 0.0)
+    coulomb_friction: Numbers = _joint("tau_c", "N m", 0.0, 1e3, "Coulomb friction of a joint, Eq. 13", 0.0)
+    stribeck_gain: Numbers = _joint("S", "1", 0.0, 100.0, "relative size of the Stribeck effect, Eq. 13", 0.0)
+    stribeck_speed: Numbers = _joint("v_d", "rad/s", 1e-3, 1e3, "Stribeck speed, Eq. 13", 0.3)
+    friction_slope: Numbers = _section(
+        "k_v", "s/rad", 1.0, 1e6, "slope of the smoothed sign of joint speed, Eq. 13", 300.0
+    )
     capstan_friction: Numbers = _section("mu_c", "1", 0.0, 2.0, "friction of cables on discs, Eqs. 14 and 15", 0.0)
     cable_slope: Numbers = _section("k_l", "s/m", 1.0, 1e6, "slope of the smoothed sign of cable speed, Eq. 15", 2e3)
     gravity: Numbers = _section("g", "m/s2", 0.0, 100.0, "acceleration of gravity", 9.81)
@@ -104,19 +125,65 @@ class Parameters:
         0.0,
     )
 
+    def __post_init__(self) -> None:
+        if self.link_length is None and self.half_spacing is None:
+            allowed = PARAMETERS["link_length"].allowed + "; only where half_spacing is given it may be left out"
+            raise InvalidValueError("link_length", None, allowed)
+        for name, parameter in PARAMETERS.items():
+            if getattr(self, name) is None and parameter.default is not None:
+                size = self.n_joints if parameter.per_joint else 1
+                object.__setattr__(self, name, np.full(size, parameter.default))
+
     def named(self) -> dict[str, Numbers]:
-        """The arrays by name, in the order of declaration."""
-        return {name: getattr(self, name) for name in PARAMETERS}
+        """The arrays by name, in the order of declaration, without those that the arm has not."""
+        return {name: value for name in PARAMETERS if (value := getattr(self, name)) is not None}
+
+    @property
+    def has_cables(self) -> bool:
+        """Whether the arm has discs with holes for cables."""
+        return self.half_spacing is not None and self.hole_radius is not None
 
     @property
     def joint_spacing(self) -> Numbers:
-        """From each joint to the next, b_i + b_(i+1), and to the tip disc's far side for the last, (n,) [m]."""
-        return self.half_spacing + np.append(self.half_spacing[1:], self.half_spacing[-1:])
+        """From each joint to the next, and to the tip for the last, (n,) [m].
+
+        The length of the links, or where that is left out b_i + b_(i+1), to the tip disc's far side for the last.
+        """
+        return self._between_discs if self.link_length is None else self.link_length
+
+    @property
+    def disc_gap(self) -> Numbers:
+        """From the disc after a joint to the disc before the next, (n,) [m]; 0 where one disc is both."""
+        if self.link_length is None or self.half_spacing is None:
+            return np.zeros(self.n_joints)
+        return self.link_length - self._between_discs
+
+    @property
+    def middle(self) -> Numbers:
+        """From each joint to its link's disc, to the middle of a link without, (n,) [m]."""
+        return self.link_length / 2 if self.half_spacing is None else self.half_spacing
+
+    @property
+    def tip(self) -> Numbers:
+        """From the last joint to the tip disc, to the end of the last link without, (1,) [m]."""
+        return self.link_length[-1:] if self.half_spacing is None else self.half_spacing[-1:]
+
+    @property
+    def mount(self) -> Numbers:
+        """From the centre of the base plate to joint 1, (1,) [m]; 0 where there are no discs."""
+        return np.zeros(1) if self.half_spacing is None else self.half_spacing[:1]
 
     @property
     def contact_angle(self) -> Numbers:
-        """Angle of each joint at which the cable holes of its two discs meet, 2 atan(b / a), (n,) [rad]."""
+        """Angle of each joint at which the cable holes of its two discs meet, (n,) [rad]; infinite without holes."""
+        if not self.has_cables:
+            return np.full(self.n_joints, np.inf)
         return 2 * np.arctan2(self.half_spacing, self.hole_radius)
+
+    @property
+    def _between_discs(self) -> Numbers:
+        """b_i + b_(i+1), (n,) [m]."""
+        return self.half_spacing + np.append(self.half_spacing[1:], self.half_spacing[-1:])
 
     @property
     def n_joints(self) -> int:

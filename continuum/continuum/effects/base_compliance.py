@@ -1,4 +1,4 @@
-"""The base plate turns on its mount: by psi about its centre, b_1 above joint 1.
+"""The base plate turns on its mount: by psi about its centre, b_1 above joint 1 (in joint 1 without discs).
 
 With e the mount's compliance, w_0 and zeta the frequency and damping of the plate alone on it,
 
@@ -26,7 +26,7 @@ from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, Own
 from continuum.dynamics.expressions import Numbers, suffix_sum
 from continuum.dynamics.parameters import Parameter, Parameters
-from continuum.dynamics.planar.eq12_balance import rigid_body_torque
+from continuum.dynamics.planar.eq12_balance import link_torque
 from continuum.dynamics.planar.eq12_gravity_torque import link_gravity_torque
 from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.planar.link_coupling import mass_moments
@@ -91,7 +91,7 @@ class BaseCompliance(Effect):
         move, p, lean = now.motion, now.p, _lean(now.motion)
         beyond = mass_moments(p) * (np.cos(lean) * move.link_acceleration - np.sin(lean) * move.link_rate**2)
         of_joint_1 = _first_moment(p) * move.base_acceleration + beyond.sum(keepdims=True)
-        on_joints = rigid_body_torque(now)[:1] + self.torque(now, own, state)[:1]
+        on_joints = link_torque(now)[:1] + self.torque(now, own, state)[:1]
         return on_joints + _lever(p) * of_joint_1 + _hanging(move.base_angle, p)
 
 
@@ -107,7 +107,7 @@ def _lean(move: Motion) -> Numbers:
 
 def _lever(p: Parameters) -> Numbers:
     """d_0, from the plate's centre to joint 1, (1,) [m]."""
-    return p.half_spacing[:1]
+    return p.mount
 
 
 def _first_moment(p: Parameters) -> Numbers:

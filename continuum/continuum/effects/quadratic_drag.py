@@ -1,5 +1,7 @@
 """Drag of the medium on every link: a force c |v| v across it, at its disc, v its absolute speed across.
 
+A link without a disc is taken hold of at its middle.
+
 c = (1/2) rho C_d A. |v| is rounded to at least 1 mm/s. A disc and link of 40 mm x 77 mm with C_d = 1.2 have 0.002
 N s^2/m^2 in air, which nothing here can see, and 1.8 in water; 0.3 takes 0.02 N m from the first joint of an arm whose
 tip moves at 0.6 m/s, as a slack skirt of film or a bundle of loose wires does.
@@ -43,7 +45,7 @@ class QuadraticDrag(Effect):
 
 
 def speed_across(move: Motion, p: Parameters) -> Numbers:
-    """Speed of each disc's centre across its own link, (n,) [m/s]."""
+    """Speed of each disc's centre, or link's middle, across the link, (n,) [m/s]."""
     side = across(move.link_angle)
     before = sum_before((p.joint_spacing * move.link_rate)[:, None] * side)
-    return (side * before).sum(axis=1) + p.half_spacing * move.link_rate
+    return (side * before).sum(axis=1) + p.middle * move.link_rate

@@ -1,4 +1,4 @@
-"""A point mass M at the centre of the tip disc, b beyond the last joint.
+"""A point mass M at the centre of the tip disc, b beyond the last joint; at the last link's end where are no discs.
 
 The last link's centre of mass c moves to c + (b - c) M / (m + M), its inertia about it grows by the parallel axes'
 m M / (m + M) (b - c)^2. 50 g beyond five links of 220 g add 5 % to the weight, 9 % to its moment about joint 1.
@@ -22,7 +22,16 @@ class TipPayload(Effect):
 
     name = "tip_payload"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "mass": Parameter("M", "kg", 0.0, 10.0, False, "mass at the centre of the tip disc", 0.0, 0.05)
+        "mass": Parameter(
+            "M",
+            "kg",
+            0.0,
+            10.0,
+            False,
+            "mass at the centre of the tip disc, or at the end of a last link without",
+            0.0,
+            0.05,
+        )
     }
     source = "Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119 (loads)"
     in_words = "The tip carries a weight that the model does not know."
@@ -30,7 +39,7 @@ class TipPayload(Effect):
     experiment = "Take off what hangs on the tip, weigh it, and weigh the last link without it."
 
     def change_parameters(self, p: Parameters, own: Own) -> Parameters:
-        m, c, beyond = p.mass[-1:], p.center_of_mass[-1:], p.half_spacing[-1:] - p.center_of_mass[-1:]
+        m, c, beyond = p.mass[-1:], p.center_of_mass[-1:], p.tip - p.center_of_mass[-1:]
         share = own["mass"] / (m + own["mass"])
         return replace(
             p,

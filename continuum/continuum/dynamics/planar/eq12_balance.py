@@ -10,6 +10,7 @@ from continuum.dynamics.planar.eq12_cable_torque import cable_torque
 from continuum.dynamics.planar.eq12_coriolis_matrix import link_coriolis_torque
 from continuum.dynamics.planar.eq12_gravity_torque import link_gravity_torque
 from continuum.dynamics.planar.eq12_inertia_matrix import link_inertia_times
+from continuum.dynamics.planar.eq12_rotor_torque import rotor_torque
 from continuum.dynamics.planar.eq12_spring_torque import spring_torque
 from continuum.dynamics.planar.eq13_joint_friction import joint_friction
 from continuum.dynamics.planar.instant import Instant
@@ -27,7 +28,12 @@ def torque_balance(now: Instant) -> Numbers:
 
 
 def rigid_body_torque(now: Instant) -> Numbers:
-    """M theta'' + C theta' + G, (n,) [N m]; formed in the links' absolute angles, which a turning base moves too."""
+    """M theta'' + C theta' + G, (n,) [N m], of links and drives."""
+    return link_torque(now) + rotor_torque(now.motion.theta_acceleration, now.p)
+
+
+def link_torque(now: Instant) -> Numbers:
+    """That of the links alone, (n,) [N m]; formed in their absolute angles, which a turning base moves too."""
     move, p = now.motion, now.p
     return suffix_sum(
         link_inertia_times(move.link_angle, move.link_acceleration, p)

@@ -2,7 +2,7 @@
 
 With link angles phi = L theta, L lower triangular of ones: M = L^T (A o cos(phi_i - phi_j) + diag(I)) L. The product
 with a vector needs no matrix: cos(phi_i - phi_j) = c_i c_j + s_i s_j, so the masses' accelerations along x and z are
-added up, which is most of what makes long arms cheap.
+added up, which is most of what makes long arms cheap. Rotors of the drives stand on the diagonal, `eq12_rotor_torque`.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ def inertia_matrix(link_angle: Numbers, p: Parameters) -> Numbers:
         link_angle: absolute angle of each link, (n,) [rad].
         p: parameters.
     """
-    return joint_space(link_inertia_matrix(link_angle, p))
+    return joint_space(link_inertia_matrix(link_angle, p)) + np.diag(p.rotor_inertia)
 
 
 def link_inertia_matrix(link_angle: Numbers, p: Parameters) -> Numbers:
-    """The same in the links' absolute angles, (n, n) [kg m2]."""
+    """That of the links alone in their absolute angles, (n, n) [kg m2]."""
     return link_coupling(p) * np.cos(link_angle[:, None] - link_angle[None, :]) + np.diag(p.inertia)
 
 

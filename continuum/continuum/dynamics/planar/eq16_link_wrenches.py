@@ -3,7 +3,8 @@
 A cable pulls a disc backwards along the chord of module i and forwards along that of module i + 1. By symmetry a
 chord is parallel to the bisector of its two links, so it leans by half the joint's angle. Compared with the printed
 matrix the signs are those of this plane (z along the link, moments from z to x); that J_s^T W B u is the virtual work
-of the cables is tested.
+of the cables is tested. A link longer than b_i + b_(i+1) has two discs; what pulls at the further one is told at the
+nearer one.
 """
 
 from __future__ import annotations
@@ -28,4 +29,6 @@ def link_wrenches(tensions: Numbers, theta: Numbers, p: Parameters) -> Numbers:
     twist = (tensions * SIDES).sum(axis=1)
     module = np.stack([pull * sine, pull * cosine, twist * a * cosine], axis=1)
     beyond = np.concatenate([module[1:], np.zeros((1, 3))])  # the cables end at the last disc
-    return module * np.array([1.0, -1.0, 1.0]) + beyond * np.array([1.0, 1.0, -1.0])
+    further = p.disc_gap * beyond[:, 0]  # a lever longer by the gap
+    at_disc = np.stack([np.zeros_like(further), np.zeros_like(further), further], axis=1)
+    return module * np.array([1.0, -1.0, 1.0]) + beyond * np.array([1.0, 1.0, -1.0]) + at_disc

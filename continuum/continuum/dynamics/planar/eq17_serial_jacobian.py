@@ -24,7 +24,7 @@ def serial_jacobian_transposed_times(wrenches: Numbers, link_angle: Numbers, p: 
     force = turned(wrenches[:, :2], link_angle)
     beyond = suffix_sum(force) - force
     across = np.stack([np.cos(link_angle), -np.sin(link_angle)], axis=1)  # d(sin, cos) / d angle
-    lever_work = p.half_spacing * (across * force).sum(axis=1) + p.joint_spacing * (across * beyond).sum(axis=1)
+    lever_work = p.middle * (across * force).sum(axis=1) + p.joint_spacing * (across * beyond).sum(axis=1)
     return suffix_sum(lever_work + wrenches[:, 2])
 
 

@@ -1,6 +1,6 @@
 """How masses couple the links of a planar chain: A of the energy (1/2) sum_ij A_ij cos(phi_i - phi_j) phi_i' phi_j'.
 
-Mass k moves with link i through the lever rho_ki: the joint spacing d_i where i < k, its own c_k where i = k. Hence
+Mass k moves with link i through the lever rho_ki: the link's length d_i where i < k, its own c_k where i = k. Hence
 A_ij = sum over k >= max(i, j) of m_k rho_ki rho_kj, a constant of the arm.
 """
 

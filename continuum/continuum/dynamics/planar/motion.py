@@ -27,7 +27,7 @@ class Motion:
 
     @property
     def slip_rate(self) -> Numbers:
-        """Joint rates as dry friction and its sign see them, (n,) [rad/s]; known beforehand while motion is estimated."""
+        """Joint rates as dry friction and its sign see them, (n,) [rad/s]; given while motion is estimated."""
         return self.theta_rate
 
     @property

@@ -16,5 +16,8 @@ def joint_force(now: Instant) -> Numbers:
     phi, turning = move.link_angle, (move.link_rate**2)[:, None] * along(move.link_angle)
     inwards = sum_before(p.joint_spacing[:, None] * turning) + p.center_of_mass[:, None] * turning
     down = p.gravity * np.concatenate([-np.sin(p.hang_angle), np.cos(p.hang_angle)])
+    of_mass = -suffix_sum(p.mass[:, None] * (inwards + down))
+    if not p.has_cables:
+        return of_mass
     pull = (tension_propagation(move.theta, move.slip_rate, p) * positive_part(now.u)).sum(axis=1)
-    return pull[:, None] * along(phi - move.theta / 2) - suffix_sum(p.mass[:, None] * (inwards + down))
+    return pull[:, None] * along(phi - move.theta / 2) + of_mass
