@@ -1,14 +1,14 @@
 """Cases: files as an analysis gets them, and the truth, which it does not."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from blind.plant.effect import RELEASE, SIZES, Effect
 from blind.plant.effects import EFFECTS, LIBRARY, OUTSIDE
-from blind.plant.machine import RATE, STEPS, Machine
+from blind.plant.machine import RATE, STEPS, Machine, Motion
 from blind.plant.parameters import JOINTS, Parameters, varied
 from blind.plant.regimes import DATASETS, Run, driven, duration, kinds, release
 from blind.plant.sensors import NOISES, Noise, Reading
@@ -79,6 +79,24 @@ class Case:
     without_noise: dict[str, np.ndarray]
 
 
+class Arm(Protocol):
+    """What moves in a recording, whatever computes it: see ``Machine``."""
+
+    def pull_to(self, bend: float) -> np.ndarray: ...
+
+    def settle(self, command: np.ndarray) -> None: ...
+
+    def record(self, command: np.ndarray, let_go_at: int | None = None, hold: bool = True) -> Motion: ...
+
+
+class Builder(Protocol):
+    """What makes an arm for one recording: see ``Machine``."""
+
+    def __call__(
+        self, p: Parameters, effects: Sequence[Effect], rng: np.random.Generator, steps: int, duration: float
+    ) -> Arm: ...
+
+
 def make_case(
     effects: Sequence[str | Effect] = (),
     size: str | float = "medium",
@@ -93,6 +111,8 @@ def make_case(
     tensions: bool = True,
     hold: bool = True,
     steps: int = STEPS,
+    machine: Builder = Machine,
+    noises: Mapping[str, Noise] = NOISES,
 ) -> Case:
     """Measure an arm with given effects.
 
@@ -104,7 +124,7 @@ def make_case(
         size: of SIZES (amounts within a tenth of it), or an exact multiple of medium.
         dataset: of DATASETS, or the regimes of its recordings ("release" and names of COMMANDS).
         seed: of everything that is drawn.
-        noise: of NOISES, or one's own.
+        noise: of ``noises``, or one's own.
         joint: of the named effects that belong to a joint, instead of a drawn one.
         seconds: length of driven recordings.
         variation: of the arm's parameters, as a multiple of the ordinary one.
@@ -112,23 +132,21 @@ def make_case(
         tensions: whether files hold cable tensions.
         hold: tensions of a row act until the next; else they change linearly from row to row.
         steps: of the integrator in a sample, a multiple of 8.
+        machine: what moves.
+        noises: levels by name.
     """
     wanted = DATASETS[dataset] if isinstance(dataset, str) else dataset
     arm, hidden, order, *recordings = streams(seed, 3 + len(wanted))
     p = varied(arm, variation)
     chosen = tuple(e if isinstance(e, Effect) else _sized(e, size, joint, hidden) for e in effects)
-    level = NOISES[noise] if isinstance(noise, str) else noise
+    level = noises[noise] if isinstance(noise, str) else noise
     regimes = [wanted[i] for i in order.permutation(len(wanted))]
     sides = _sides(regimes, order)
     files, clean, of_file = {}, {}, {}
     for number, (regime, side, rng) in enumerate(zip(regimes, sides, recordings, strict=True), start=1):
         moving, drawn, sensing, noisy = rng.spawn(4)
-        machine = Machine(p, chosen, drawn, steps, duration(regime, seconds))
-        run = (
-            release(machine, moving, side, hold)
-            if regime == RELEASE
-            else driven(machine, moving, regime, seconds, hold)
-        )
+        arm = machine(p, chosen, drawn, steps, duration(regime, seconds))
+        run = release(arm, moving, side, hold) if regime == RELEASE else driven(arm, moving, regime, seconds, hold)
         reading = Reading(JOINTS, chosen, sensing)
         name = f"run_{number}.csv"
         clean[name] = reading.take(run.motion, Noise(), np.random.default_rng(0))[0]

@@ -1,0 +1,25 @@
+"""A second plant to test diagnoses on: Moreau's time stepping, hidden effects; no code of the library, nor of MuJoCo.
+
+It hides every effect of ``blind.plant``, by the same names, amounts and units, and its files are written in the same
+way. What an analysis may know of them is what ``blind.plant`` says, but for this:
+
+- There are angles and no rates, and each joint's zero is wrong by tenths of a degree in every recording.
+- Dry friction falls with speed as S / (1 + (w / v_d)^2), not as S exp(-(w / v_d)^2).
+- The cables' friction at the discs is that of the belt formula, exact and with stiction as well.
+- Springs that harden do so by their cubic term alone, and the ball of a joint with play has next to no inertia.
+"""
+
+from blind.moreau.case import NOISES, draw_case, make_case
+from blind.moreau.machine import Machine
+from blind.plant import EFFECTS, LIBRARY, OUTSIDE, write_case
+
+__all__ = [
+    "EFFECTS",
+    "LIBRARY",
+    "NOISES",
+    "OUTSIDE",
+    "Machine",
+    "draw_case",
+    "make_case",
+    "write_case",
+]

@@ -1,0 +1,35 @@
+"""Small symmetric systems."""
+
+import numpy as np
+
+from blind.moreau.compiled import compiled
+
+
+@compiled
+def factorise(matrix: np.ndarray) -> None:
+    """The lower triangle of a positive definite matrix (n, n) becomes L, with L L' the matrix."""
+    n = len(matrix)
+    for i in range(n):
+        for k in range(i + 1):
+            value = matrix[i, k]
+            for c in range(k):
+                value -= matrix[i, c] * matrix[k, c]
+            matrix[i, k] = np.sqrt(value) if i == k else value / matrix[k, k]
+
+
+@compiled
+def forward(factor: np.ndarray, vector: np.ndarray) -> None:
+    """A vector x (n,) becomes L^-1 x."""
+    for i in range(vector.size):
+        for c in range(i):
+            vector[i] -= factor[i, c] * vector[c]
+        vector[i] /= factor[i, i]
+
+
+@compiled
+def back(factor: np.ndarray, vector: np.ndarray) -> None:
+    """A vector x (n,) becomes L'^-1 x."""
+    for i in range(vector.size - 1, -1, -1):
+        for c in range(i + 1, vector.size):
+            vector[i] -= factor[c, i] * vector[c]
+        vector[i] /= factor[i, i]
