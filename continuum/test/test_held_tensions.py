@@ -7,6 +7,7 @@ from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
+from continuum.dynamics.values import shared_directions
 
 MODEL = load_model("lamecc_prototype.yaml")
 TIMES = np.array([0.0, 0.1, 0.2, 0.3])
@@ -49,8 +50,7 @@ def test_rates_are_begun_anew_after_a_jump() -> None:
 def test_slopes_after_a_jump_are_those_of_the_trajectory() -> None:
     simulator, out = Simulator(MODEL, Tolerances(1e-7, 1e-8, 0.01)), np.array([0.0, 0.12])
     p = simulator.equations.values
-    free = np.zeros((p.size, 1))
-    free[25:30] = 1.0  # stiffness
+    free = shared_directions(MODEL, ["stiffness"])
     slope = simulator.run(np.full(5, 0.1), out, HELD, free=free).slopes[-1, :, 0]
     moved = [simulator.run(np.full(5, 0.1), out, HELD, values=p + sign * 1e-5 * free[:, 0]) for sign in (1, -1)]
     np.testing.assert_allclose(slope, (moved[0].states[-1] - moved[1].states[-1]) / 2e-5, rtol=0.02, atol=1e-3)

@@ -17,8 +17,8 @@ from continuum.cli.tables import print_pairs
 from continuum.errors import InvalidValueError
 
 if TYPE_CHECKING:
+    from continuum.dynamics.input_signal import InputSignal
     from continuum.dynamics.model import Model
-    from continuum.dynamics.tensions import Tensions
     from continuum.dynamics.trajectory import Trajectory
 
 _RELEASE_DURATION = 1.6
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
     # Here, so that the other commands need neither CasADi and numba nor the time to load them and Matplotlib.
     from continuum.cli.simulation_hints import beyond_contact, hints
     from continuum.dynamics.model_file import load_model
-    from continuum.dynamics.tensions import slack
+    from continuum.dynamics.model_inputs import undriven
     from continuum.dynamics.trajectory import SimulationStatus
     from continuum.recordings.motion_table import write_motion_table
     from continuum.recordings.tension_table import read_tension_table
@@ -79,18 +79,21 @@ def run(options: argparse.Namespace) -> int:
     if options.pulled and (options.release is None or "," in options.release):
         raise InvalidValueError("--release", options.release, "with --pulled, one total bend in degrees")
     model = load_model(options.model)
+    for option in ("tensions", "pulled"):
+        if getattr(options, option):
+            model.require_cables(f"--{option}")
     posture = release_posture(options.release or "0", model.n_joints)
-    tensions = slack() if options.tensions is None else read_tension_table(options.tensions)
-    times = _times(options, tensions)
+    inputs = undriven(model) if options.tensions is None else read_tension_table(options.tensions)
+    times = _times(options, inputs)
     check_writable(options.csv)
     check_picture(options.picture)
     check_apart((options.csv, options.picture), (options.model, options.tensions))
-    for hint in hints(posture, tensions, model.parameters, times):
+    for hint in hints(posture, inputs, model.parameters, times):
         print(f"continuum: {hint}", file=sys.stderr)
     if options.pulled:
         posture = _pulled(model, posture, options.release)
     began = time.perf_counter()
-    simulate = _simulation(model, posture, times, tensions, options.integrator)
+    simulate = _simulation(model, posture, times, inputs, options.integrator)
     loaded = time.perf_counter()
     motion = simulate()
     _show(motion, loaded - began, time.perf_counter() - loaded)
@@ -99,15 +102,15 @@ def run(options: argparse.Namespace) -> int:
     bent = beyond_contact(motion.theta, model.parameters)
     if bent:
         print(f"continuum: {bent}, which the model does not know", file=sys.stderr)
-    if np.abs(motion.theta).max() > math.pi:
+    if model.parameters.has_cables and np.abs(motion.theta).max() > math.pi:
         print("continuum: no joint bends by more than half a turn; nothing is written", file=sys.stderr)
         return 1
     if options.csv is not None:
-        write_motion_table(motion, tensions, options.csv)
+        write_motion_table(motion, inputs, options.csv)
     if options.picture is not None:
         from continuum.recordings.motion_figure import write_motion_figure
 
-        write_motion_figure(motion, tensions, model.parameters, options.picture)
+        write_motion_figure(motion, inputs, model.parameters, options.picture)
     written = [path for path in (options.csv, options.picture) if path is not None]
     print(f"written: {', '.join(written)}" if written else "nothing written; --csv and --picture name files")
     return 0
@@ -144,14 +147,14 @@ def _pulled(model: Model, posture: Array, release: str) -> Array:
     return held.theta
 
 
-def _times(options: argparse.Namespace, tensions: Tensions) -> Array:
-    """Output times from the tensions' first instant on, 0 where that is later [s]."""
+def _times(options: argparse.Namespace, inputs: InputSignal) -> Array:
+    """Output times from the inputs' first instant on, 0 where that is later [s]."""
     for name in ("duration", "rate"):
         value = getattr(options, name)
         if value is not None and not 0 < value < math.inf:
             raise InvalidValueError(f"--{name}", value, f"a number > 0 [{'s' if name == 'duration' else 'Hz'}]")
-    begin = min(0.0, float(tensions.times[0]))
-    lasts = float(tensions.times[-1]) - begin
+    begin = min(0.0, float(inputs.times[0]))
+    lasts = float(inputs.times[-1]) - begin
     duration = options.duration or (lasts if lasts > 0 else _RELEASE_DURATION)
     samples = duration * options.rate
     if not 1 <= samples + 1e-6 <= _MOST_SAMPLES:
@@ -160,7 +163,7 @@ def _times(options: argparse.Namespace, tensions: Tensions) -> Array:
 
 
 def _simulation(
-    model: Model, posture: Array, times: Array, tensions: Tensions, integrator: str
+    model: Model, posture: Array, times: Array, inputs: InputSignal, integrator: str
 ) -> Callable[[], Trajectory]:
     """What is to be called for the integration alone: equations are compiled here, and all code is loaded."""
     if integrator == "bdf":
@@ -168,12 +171,12 @@ def _simulation(
         from continuum.dynamics.integration.scipy_bdf import simulate_bdf
 
         equations = CompiledEquations(model)
-        return lambda: simulate_bdf(model, posture, times, tensions, equations=equations)
+        return lambda: simulate_bdf(model, posture, times, inputs, equations=equations)
     from continuum.dynamics.simulator import Simulator
 
     simulator = Simulator(model)
     simulator.run(posture, times[:1])  # nothing to integrate, but the compiled loops are loaded
-    return lambda: simulator.run(posture, times, tensions)
+    return lambda: simulator.run(posture, times, inputs)
 
 
 def _show(motion: Trajectory, loading: float, integrating: float) -> None:

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.tensions import Tensions
 
 _SMALL_BEND = 3.2
 """Total bend [degrees] up to which a number looks like one in radians: half a turn is 3.14."""
@@ -17,22 +18,22 @@ _LONG, _RARE = 100.0, 1.0
 """Length of a table, and time between its rows [s], from which on its times look like milliseconds."""
 
 
-def hints(posture: Array, tensions: Tensions, p: Parameters, times: Array) -> Iterator[str]:
-    """Lines about the start (n_joints,) [rad], the tensions, and the times simulated (n_times,) [s]."""
+def hints(posture: Array, inputs: InputSignal, p: Parameters, times: Array) -> Iterator[str]:
+    """Lines about the start (n_joints,) [rad], the inputs, and the times simulated (n_times,) [s]."""
     bend = float(np.abs(np.degrees(posture)).sum())
     if 0 < bend <= _SMALL_BEND:
         yield f"--release is in degrees, and {bend:.3g} in total is little: were these radians?"
     bent = beyond_contact(posture[None], p)
     if bent:
         yield f"at the start {bent}"
-    most, enough = float(tensions.values.max()), enough_tension(p)
-    if most > enough:
+    most = float(inputs.values.max())
+    if inputs.kind is InputKind.CABLES and most > (enough := enough_tension(p)):
         yield (
             f"tensions are in newtons, and {most:g} N is more than the {enough:.0f} N that fold this arm's stiffest "
             "joint by half a turn: were these millinewtons?"
         )
     lasts = float(times[-1] - times[0])
-    if lasts >= _LONG and tensions.times.size > 1 and np.median(np.diff(tensions.times)) >= _RARE:
+    if lasts >= _LONG and inputs.times.size > 1 and np.median(np.diff(inputs.times)) >= _RARE:
         yield f"t_s is in seconds, and {lasts:g} s are simulated: were these milliseconds? --duration S simulates less"
 
 

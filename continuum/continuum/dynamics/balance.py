@@ -8,10 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.planar.eq12_balance import torque_balance
 from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.planar.motion import Motion
+from continuum.dynamics.tensions import LET_GO
 
 
 def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | None = None) -> Numbers:
@@ -21,7 +24,7 @@ def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | N
         model: the model, its values floats or symbols.
         x: state, joint angles, joint rates, effects' states, (2 n + n_states,) [rad, rad/s, ...].
         v: joint accelerations and rates of the effects' states, (n + n_states,) [rad/s2, ...].
-        u: commanded tension of each cable, (n_cables,) [N].
+        u: inputs, (n_inputs,): commanded tension of each cable [N], or torque of each joint's drive [N m].
         motion: of the joints, where it is known already; made from ``x`` and ``v`` without.
     """
     now, told = _instant(model, x, v, u, motion or joint_motion(model, x, v))
@@ -44,12 +47,14 @@ def joint_motion(model: Model, x: Numbers, v: Numbers) -> Motion:
 
 def _instant(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion) -> tuple[Instant, list[Numbers]]:
     """What the torques see, and the tensions that each effect is told before it changes them."""
-    told = []
+    drive, told = np.zeros(1), []
+    if model.inputs is InputKind.JOINT_TORQUES:
+        drive, u = u, np.full(len(SIDES), LET_GO)
     for active, state, rate in _parts(model, x, v):
         told.append(u)
         motion = active.effect.move_base(motion, active.values, state, rate)
         u = active.effect.pull(u, active.values, state)
-    return Instant(motion, u, model.changed_parameters), told
+    return Instant(motion, u, model.changed_parameters, drive), told
 
 
 def _parts(model: Model, x: Numbers, v: Numbers) -> Iterator[tuple[ActiveEffect, Numbers, Numbers]]:

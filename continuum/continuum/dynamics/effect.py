@@ -40,7 +40,8 @@ class Effect:
             none. Such values are that one's to explain.
         state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
             units; 0 where it is certain.
-        needs_tension: whether only a cable that pulls can show it.
+        uses_cables: whether it acts on cables: none of an arm that joint torques drive.
+        needs_tension: whether only a cable that pulls can show it, or where there are none a torque that drives.
         shifts_time: whether a little of it looks as if all tensions came later.
         beginnings: values of some of its parameters that belong to the whole arm; a fit begins at those that promise
             most. For effects from whose usual beginning no slope leads to what is right.
@@ -57,6 +58,7 @@ class Effect:
     beware: ClassVar[str] = ""
     alike_in_all_runs: ClassVar[str] = ""
     state_spread: ClassVar[float] = 0.0
+    uses_cables: ClassVar[bool] = False
     needs_tension: ClassVar[bool] = False
     shifts_time: ClassVar[bool] = False
     beginnings: ClassVar[Sequence[Mapping[str, float]]] = ()

@@ -1,4 +1,4 @@
-"""A dynamic model: the parameters of Eq. 12, and the effects that extend it."""
+"""A dynamic model: the parameters of Eq. 12, what drives the arm, and the effects that extend the equation."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from dataclasses import dataclass, field, replace
 
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
+from continuum.dynamics.planar.cables import SIDES
 from continuum.errors import InvalidValueError
 
 
@@ -21,22 +23,56 @@ class ActiveEffect:
 
 @dataclass(frozen=True)
 class Model:
-    """One planar section.
+    """One planar arm.
 
     Attributes:
         parameters: of Eq. 12.
         effects: beyond Eq. 12, in the order in which they are applied.
         sources: where each parameter's value comes from, by its name.
+        inputs: what drives the arm. Where torques do, cables that it may have are let go.
+
+    Raises:
+        InvalidValueError: cables are to drive an arm that has none, or an effect acts on cables where torques drive it.
     """
 
     parameters: Parameters
     effects: tuple[ActiveEffect, ...] = ()
     sources: Mapping[str, str] = field(default_factory=dict)
+    inputs: InputKind = InputKind.CABLES
+
+    def __post_init__(self) -> None:
+        if self.inputs is InputKind.CABLES:
+            for name in ("half_spacing", "hole_radius"):
+                if getattr(self.parameters, name) is None:
+                    allowed = f"{PARAMETERS[name].allowed}; only an arm whose inputs are joint_torques has none"
+                    raise InvalidValueError(name, None, allowed)
+            return
+        for active in self.effects:
+            if active.effect.uses_cables:
+                allowed = "one that does not act on cables, as the model's inputs are joint_torques"
+                raise InvalidValueError("effect", active.effect.name, allowed)
+
+    def require_cables(self, user: str) -> None:
+        """Refuse a model that no cables drive.
+
+        Args:
+            user: what needs them, as the message names it.
+
+        Raises:
+            InvalidValueError: joint torques drive it.
+        """
+        if self.inputs is not InputKind.CABLES:
+            raise InvalidValueError("the model's inputs", self.inputs.value, f"cables, which {user} needs")
 
     @property
     def n_joints(self) -> int:
         """Number of joints."""
         return self.parameters.n_joints
+
+    @property
+    def n_inputs(self) -> int:
+        """Number of inputs: of cables, or of joints."""
+        return len(SIDES) if self.inputs is InputKind.CABLES else self.n_joints
 
     @property
     def changed_parameters(self) -> Parameters:

@@ -3,11 +3,15 @@
 ::
 
     n_joints: 5
+    inputs: cables
     parameters:
       stiffness: {value: 1.2379, unit: N m/rad, source: thesis Table 3}
     effects:
       tip_payload:
         mass: {value: 0.05, unit: kg, source: diagnosis of run_3.csv}
+
+``inputs`` are ``cables`` or ``joint_torques``; without the line they are cables, unless the arm is told to have none: a
+chain with neither ``half_spacing`` nor ``hole_radius`` is driven by torques.
 """
 
 from __future__ import annotations
@@ -21,6 +25,7 @@ import yaml
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.model_path import model_path
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
@@ -42,7 +47,7 @@ def load_model(path: str | Path) -> Model:
     block = read_parameter_file(model_path(path))
     if "arm" in block or "sections" in block:
         raise FileError(
-            path, "is an arm file, of `info` and `solve`; a model file has n_joints, parameters and effects"
+            path, "is an arm file, of `info` and `solve`; a model file has n_joints, inputs, parameters and effects"
         )
     try:
         return model_from_mapping(block)
@@ -56,7 +61,7 @@ def model_from_mapping(block: Mapping[str, object]) -> Model:
     Raises:
         InvalidValueError: a name, value or unit that is not allowed, or a required parameter that is missing.
     """
-    _only(block, ("n_joints", "parameters", "effects"), "")
+    _only(block, ("n_joints", "inputs", "parameters", "effects"), "")
     n = block.get("n_joints")
     if not isinstance(n, int) or isinstance(n, bool) or not 1 <= n <= 1000:
         raise InvalidValueError("n_joints", n, "a whole number from 1 to 1000")
@@ -68,11 +73,12 @@ def model_from_mapping(block: Mapping[str, object]) -> Model:
         own, own_sources = _values(given, effect.parameters, n, f"effects.{name}.")
         effects.append(ActiveEffect(effect, own))
         sources |= {f"{name}.{key}": source for key, source in own_sources.items()}
+    inputs = _inputs(block.get("inputs"), values)
     try:
-        parameters = Parameters(**values)
+        return Model(Parameters(**values), tuple(effects), sources, inputs)
     except InvalidValueError as error:
-        raise InvalidValueError(f"parameters.{error.name}", error.value, error.allowed) from None
-    return Model(parameters, tuple(effects), sources)
+        where = "parameters." if error.name in PARAMETERS else ""
+        raise InvalidValueError(f"{where}{error.name}", error.value, error.allowed) from None
 
 
 def save_model(model: Model, path: str | Path) -> None:
@@ -89,8 +95,18 @@ def save_model(model: Model, path: str | Path) -> None:
         entry = {"value": number, "unit": meanings[name].unit, "source": model.sources.get(name, "not stated")}
         owner, _, key = name.rpartition(".")
         (effects[owner] if owner else parameters)[key] = entry
-    written = {"n_joints": model.n_joints, "parameters": parameters, "effects": effects}
+    written = {"n_joints": model.n_joints, "inputs": model.inputs.value, "parameters": parameters, "effects": effects}
     write_whole(path, yaml.safe_dump(written, sort_keys=False))
+
+
+def _inputs(given: object, values: Mapping[str, Numbers]) -> InputKind:
+    """What drives the arm; what the arm is told to have where the file does not say."""
+    if given is None:
+        return InputKind.CABLES if {"half_spacing", "hole_radius"} & values.keys() else InputKind.JOINT_TORQUES
+    for kind in InputKind:
+        if given == kind.value:
+            return kind
+    raise InvalidValueError("inputs", given, " or ".join(kind.value for kind in InputKind))
 
 
 def _values(

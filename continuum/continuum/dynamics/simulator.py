@@ -9,13 +9,14 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.compiled.equations import CompiledEquations
 from continuum.dynamics.compiled.machine_code import address_of
+from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.integration.esdirk import STATUSES, integrate
 from continuum.dynamics.integration.esdirk_tableau import Tableau, third_order
 from continuum.dynamics.integration.problem import Method, Problem
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import Model
+from continuum.dynamics.model_inputs import suitable_inputs
 from continuum.dynamics.simulation_input import finite_array, initial_state, output_times
-from continuum.dynamics.tensions import Tensions, slack
 from continuum.dynamics.trajectory import Trajectory
 from continuum.dynamics.values import parameter_vector
 from continuum.errors import InvalidValueError
@@ -37,7 +38,14 @@ class Simulator:
         self.equations = CompiledEquations(model)
 
     def around(self, model: Model) -> Simulator:
-        """The same compiled equations with another model's values; it must have the same effects."""
+        """The same compiled equations with another model's values.
+
+        Raises:
+            InvalidValueError: it has other effects, other values, another number of joints or other inputs.
+        """
+        if _structure(model) != _structure(self.model):
+            allowed = f"one with the values {', '.join(self.model.values())} and the same joints and inputs"
+            raise InvalidValueError("model", ", ".join(model.values()), allowed)
         other = copy(self)
         other.model = model
         return other
@@ -46,7 +54,7 @@ class Simulator:
         self,
         initial: Array,
         times: Array,
-        tensions: Tensions | None = None,
+        inputs: InputSignal | None = None,
         values: Array | None = None,
         free: Array | None = None,
         free_initial: Array | None = None,
@@ -56,25 +64,26 @@ class Simulator:
         Args:
             initial: state at the first time, (2 n + n_states,) [rad, rad/s, ...]; angles alone start at rest.
             times: output times, increasing, (n_times,) [s].
-            tensions: of the cables; slack without.
+            inputs: what drives the arm, `Tensions` or `JointTorques` as the model says; nothing without.
             values: flat parameter values as `parameter_vector` gives them, (n_p,); the model's own without.
             free: directions in these values to differentiate by, (n_p, n_free).
             free_initial: derivative of the initial state by the same free quantities, (n_x, n_free).
 
         Raises:
-            InvalidValueError: an argument of the wrong shape, not finite, or times that do not increase.
+            InvalidValueError: an argument of the wrong shape, not finite, times that do not increase, or inputs that
+                the model does not take.
         """
-        n, tensions = self.model.n_joints, tensions or slack()
+        n, drive = self.model.n_joints, suitable_inputs(self.model, inputs)
         x0, times = initial_state(self.model, initial), output_times(times)
         p = self._values(values)
         directions, slope0 = self._free(p.size, x0.size, free, free_initial)
         equations, tableau, limits = self.equations, self._tableau, self.tolerances
-        input_times, inputs = tensions.rows()
+        input_times, rows_of_inputs = drive.rows()
         rows, columns = np.nonzero(directions)
         problem = Problem(
             address_of(equations.residual), address_of(equations.stage),
             address_of(equations.slopes) if directions.shape[1] else 0,
-            n, p, input_times - times[0], inputs, rows, columns, directions[rows, columns],
+            n, p, input_times - times[0], rows_of_inputs, rows, columns, directions[rows, columns],
         )  # fmt: skip
         method = Method(
             tableau.a, tableau.c, tableau.error, tableau.order, limits.relative, limits.absolute, limits.max_step
@@ -107,3 +116,9 @@ class Simulator:
         if slope0.shape != wanted:
             raise InvalidValueError("shape of free_initial", slope0.shape, str(wanted))
         return directions, slope0
+
+
+def _structure(model: Model) -> tuple[object, ...]:
+    """What is compiled in."""
+    effects = tuple(active.effect.name for active in model.effects)
+    return model.inputs, effects, tuple((name, len(value)) for name, value in model.values().items())

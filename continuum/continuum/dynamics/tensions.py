@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
-from continuum.arrays import Array
-from continuum.dynamics.simulation_input import finite_array, output_times
+from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.input_signal import InputSignal
+from continuum.dynamics.planar.cables import SIDES
 from continuum.errors import InvalidValueError
 
 LET_GO = -1e-3
@@ -15,51 +17,22 @@ LET_GO = -1e-3
 
 
 @dataclass(frozen=True)
-class Tensions:
-    """Linear between its rows, or each row held until the next; held before the first and after the last in any case.
+class Tensions(InputSignal):
+    """Tension of each cable, (rows, n_cables) [N], none negative but LET_GO: a cable that no motor holds."""
 
-    Attributes:
-        times: of the rows, increasing, (rows,) [s].
-        values: tension of each cable, (rows, n_cables) [N], none negative but LET_GO: a cable that no motor holds.
-        held: a row holds until the next one, as a command does; else tensions change linearly, as measured ones.
-    """
-
-    times: Array
-    values: Array
-    held: bool = False
+    kind: ClassVar[InputKind] = InputKind.CABLES
+    allowed: ClassVar[str] = "finite, >= 0 N"
 
     def __post_init__(self) -> None:
-        times = output_times(self.times)
-        values = finite_array("tensions", self.values, "finite, >= 0 N")
-        if values.shape != (times.size, 2):
-            raise InvalidValueError("shape of the tensions", values.shape, f"({times.size}, 2): two cables in each row")
-        wrong = values[(values < 0) & (values != LET_GO)]
+        super().__post_init__()
+        if self.n_inputs != len(SIDES):
+            wanted = f"({self.times.size}, {len(SIDES)}): two cables in each row"
+            raise InvalidValueError("shape of the tensions", self.values.shape, wanted)
+        wrong = self.values[(self.values < 0) & (self.values != LET_GO)]
         if wrong.size:
-            raise InvalidValueError("tension", float(wrong[0]), "finite, >= 0 N")
-        object.__setattr__(self, "times", times)
-        object.__setattr__(self, "values", values)
-
-    def at(self, t: float) -> Array:
-        """Tension of each cable at one time, (n_cables,) [N]."""
-        if self.held:
-            return np.asarray(self.values[max(int(np.searchsorted(self.times, t, side="right")) - 1, 0)])
-        return np.array([np.interp(t, self.times, column) for column in self.values.T])
-
-    def over(self, times: Array) -> Array:
-        """Tension of each cable at several times, (n_times, n_cables) [N]."""
-        return np.array([self.at(float(t)) for t in times])
-
-    def later(self, delay: float) -> Tensions:
-        """The same, by ``delay`` [s] later."""
-        return replace(self, times=self.times + delay) if delay else self
-
-    def rows(self) -> tuple[Array, Array]:
-        """Times (rows,) and values (rows, n_cables), linear in between; two rows of one time are a jump."""
-        if not self.held:
-            return self.times, self.values
-        return np.repeat(self.times, 2)[1:], np.repeat(self.values, 2, axis=0)[:-1]
+            raise InvalidValueError("tension", float(wrong[0]), self.allowed)
 
 
 def slack() -> Tensions:
     """No tension at any time, and no motor that holds a cable."""
-    return Tensions(np.zeros(1), np.full((1, 2), LET_GO))
+    return Tensions(np.zeros(1), np.full((1, len(SIDES)), LET_GO))

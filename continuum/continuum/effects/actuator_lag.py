@@ -24,6 +24,7 @@ class ActuatorLag(CableStates):
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "lag": Parameter("t_a", "s", 0.0, 1.0, False, "time constant of the motors", 0.0, 0.03)
     }
+    uses_cables = True
     needs_tension = True
     shifts_time = True
     source = "Franklin, Powell and Emami-Naeini, Feedback Control of Dynamic Systems, ch. 3 (first-order lag)"

@@ -40,6 +40,7 @@ class ElasticCable(CableStates):
         "lag": Parameter("t_e", "s", 0.0, 1.0, False, "time in which the motor evens out a stretch", 0.0, 0.01),
         "stiffness": Parameter("k", "N/m", 10.0, 1e6, False, "stiffness of a cable", 1e3, 1e3),
     }
+    uses_cables = True
     needs_tension = True
     source = "Camarillo et al., IEEE Trans. Robotics 24, 2008, 1262-1273 (tendons); Hogan, ASME JDSMC 107, 1985"
     in_words = "The cables stretch, and the motors even that out only after a while."

@@ -42,6 +42,7 @@ class HeldCable(Effect):
         "slack_1": Parameter("s_1", "m", -0.05, 0.5, False, "slack of cable 1 with the arm straight", 0.02, 0.02),
         "slack_2": Parameter("s_2", "m", -0.05, 0.5, False, "slack of cable 2 with the arm straight", 0.02, 0.02),
     }
+    uses_cables = True
     source = "Hunt and Crossley, ASME J. Applied Mechanics 42, 1975, 440-445"
     in_words = "A cable that should hang loose goes taut when the arm bends far."
     looks_like = "Beyond a certain bend to one side the arm is held back and thrown back, all joints at once."

@@ -42,6 +42,7 @@ class SlackCable(Effect):
         "blur": Parameter("b", "1", 0.04, 1.0, False, "part of u_0 around it in which a motor changes over", 0.1, 0.1),
         "taut": Parameter("w", "m", 5e-5, 1e-2, False, "way from loose to taut", 5e-4, 5e-4),
     }
+    uses_cables = True
     needs_tension = True
     beginnings: ClassVar[Sequence[Mapping[str, float]]] = [
         {"slack": slack, "least": least} for slack in (0.005, 0.015) for least in (0.1, 0.3, 1.0, 3.0)

@@ -31,6 +31,7 @@ class TensionScale(Effect):
             "e_2", "1", -0.5, 2.0, False, "pull of cable 2 as recorded by the true one, less 1", 0.0, 0.1
         ),
     }
+    uses_cables = True
     needs_tension = True
     source = (
         "Beckwith, Marangoni and Lienhard, Mechanical Measurements, 2007, ch. 13 (calibration of force transducers)"

@@ -1,6 +1,6 @@
 """Names of the columns of an arm's motion in CSV files. Joints and cables count from 1, joints from the base.
 
-Cable 1 bends the arm towards positive angles.
+Cable 1 bends the arm towards positive angles, and so do positive torques.
 """
 
 from __future__ import annotations
@@ -40,6 +40,8 @@ class Quantity:
 ANGLE = Quantity("q", {"deg": np.pi / 180, "rad": 1.0})
 RATE = Quantity("dq", {"deg_s": np.pi / 180, "rad_s": 1.0})
 TENSION = Quantity("u", {"N": 1.0})
+TORQUE = Quantity("tau", {"Nm": 1.0})
+QUANTITIES = (ANGLE, RATE, TENSION, TORQUE)
 
 
 def angle_column(joint: int) -> str:
@@ -55,3 +57,8 @@ def rate_column(joint: int) -> str:
 def tension_column(cable: int) -> str:
     """Tension of a cable at the base [N]."""
     return TENSION.column(cable)
+
+
+def torque_column(joint: int) -> str:
+    """Torque of a joint's drive [N m]."""
+    return TORQUE.column(joint)

@@ -1,4 +1,4 @@
-"""A simulated motion as a picture: joint angles, joint rates, cable tensions if any, the arm at a few instants."""
+"""A simulated motion as a picture: joint angles, joint rates, tensions or torques if any, the arm at a few instants."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from continuum.arrays import Array
+from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import Trajectory
 from continuum.errors import FileError
 
@@ -22,14 +23,15 @@ _BESIDE: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "f
 """Legends stand right of their panel."""
 
 
-def write_motion_figure(motion: Trajectory, tensions: Tensions, p: Parameters, path: str | Path) -> None:
+def write_motion_figure(motion: Trajectory, inputs: InputSignal, p: Parameters, path: str | Path) -> None:
     """Draw the picture and write it to ``path`` (PNG or any format that Matplotlib knows by its suffix).
 
     Raises:
         FileError: the file cannot be written, or its format is not known.
     """
-    pull = tensions.over(motion.times)
-    heights = {"angles": 1.5, "rates": 1.2} | ({"tensions": 0.8} if np.any(pull > 0) else {})
+    driven, pulled = inputs.over(motion.times), inputs.kind is InputKind.CABLES
+    drives = np.any(driven > 0) if pulled else np.any(driven)
+    heights = {"angles": 1.5, "rates": 1.2} | ({"inputs": 0.8} if drives else {})
     figure = Figure(figsize=(12.5, 6.6), layout="constrained")
     panels = figure.subplot_mosaic(
         [[name, "arm"] for name in heights], width_ratios=(1.7, 1), height_ratios=list(heights.values())
@@ -40,8 +42,12 @@ def write_motion_figure(motion: Trajectory, tensions: Tensions, p: Parameters, p
             panels[name].plot(motion.times, column, color=colours[joint], linewidth=1.3, label=f"joint {joint + 1}")
     if motion.n_joints <= 12:
         panels["angles"].legend(**_BESIDE, title="from the base", title_fontsize=8)
-    if "tensions" in panels:
-        _draw_tensions(panels["tensions"], motion.times, pull)
+    if drives and pulled:
+        _draw_tensions(panels["inputs"], motion.times, driven)
+    elif drives:
+        for colour, column in zip(colours, driven.T, strict=True):
+            panels["inputs"].plot(motion.times, column, color=colour, linewidth=1.3)
+        panels["inputs"].set(title="Joint torques", ylabel="[N m]")
     panels["angles"].set(title="Joint angles", ylabel="[deg]")
     panels["rates"].set(title="Joint rates", ylabel="[deg/s]")
     panels[list(heights)[-1]].set(xlabel="time [s]")
@@ -80,9 +86,9 @@ def _draw_arm(axes: Axes, motion: Trajectory, p: Parameters) -> None:
 
 
 def backbone(theta: Array, p: Parameters) -> Array:
-    """Base plate, joints and last disc of an arm in its plane, (n_joints + 2, 2) [m], the second axis upwards."""
+    """Base plate, joints and tip of an arm in its plane, (n_joints + 2, 2) [m], the second axis upwards."""
     link_angle = np.cumsum(theta) + p.hang_angle
-    lengths = np.concatenate([p.half_spacing[:1], p.joint_spacing[:-1], p.half_spacing[-1:]])
+    lengths = np.concatenate([p.mount, p.joint_spacing[:-1], p.tip])
     directions = np.concatenate([p.hang_angle, link_angle])
     steps = lengths[:, None] * np.stack([np.sin(directions), -np.cos(directions)], axis=1)
     return np.asarray(np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)]))

@@ -8,22 +8,26 @@ from pathlib import Path
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.tensions import Tensions
+from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.trajectory import Trajectory
 from continuum.errors import FileError
-from continuum.recordings.motion_columns import TIME, angle_column, rate_column, tension_column
+from continuum.recordings.motion_columns import TIME, angle_column, rate_column, tension_column, torque_column
 
 
-def write_motion_table(motion: Trajectory, tensions: Tensions, path: str | Path) -> None:
-    """Write time, joint angles, joint rates and cable tensions, one row for each output time.
+def write_motion_table(motion: Trajectory, inputs: InputSignal, path: str | Path) -> None:
+    """Write time, joint angles, joint rates and cable tensions or joint torques, one row for each output time.
 
     Raises:
         FileError: the file cannot be written.
     """
-    pull = np.maximum(tensions.over(motion.times), 0.0)
-    cables = [tension_column(cable) for cable in range(1, pull.shape[1] + 1)]
+    driven, pulled = inputs.over(motion.times), inputs.kind is InputKind.CABLES
+    if pulled:
+        driven = np.maximum(driven, 0.0)
+    numbers = range(1, inputs.n_inputs + 1)
+    drives = [tension_column(number) if pulled else torque_column(number) for number in numbers]
     names, columns = _of_joints(motion.times, motion.theta, motion.theta_rate)
-    _write(path, [*names, *cables], np.concatenate([columns, pull], axis=1))
+    _write(path, [*names, *drives], np.concatenate([columns, driven], axis=1))
 
 
 def write_measured_motion(times: Array, theta: Array, theta_rate: Array, path: str | Path) -> None:

@@ -72,6 +72,7 @@ class Bench:
     """
 
     def __init__(self, model: Model, settings: BenchSettings) -> None:
+        model.require_cables("the bench")
         n = model.n_joints
         if n > MOST_SENSORS:
             raise InvalidValueError("n_joints", n, f"at most {MOST_SENSORS}, each with a sensor")

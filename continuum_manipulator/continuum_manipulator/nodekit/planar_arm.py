@@ -23,11 +23,12 @@ class PlanarArm:
         joints, cables: their names, in the messages' order.
 
     Raises:
-        InvalidValueError: a name that no section can have.
+        InvalidValueError: a name that no section can have, or a model that joint torques drive.
     """
 
     def __init__(self, section: str, model: Model) -> None:
         joint_names.check_section(section)
+        model.require_cables("a section of nodes")
         self._model = model
         self.joints = [
             joint_names.phi_joint(section),

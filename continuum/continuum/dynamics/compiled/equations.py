@@ -11,7 +11,6 @@ from continuum.arrays import Array
 from continuum.dynamics.compiled.machine_code import compile_function
 from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.values import parameter_vector
 
 _NO_STAGE = np.zeros(1)  # h g
@@ -28,6 +27,7 @@ class CompiledEquations:
         self.n_joints = model.n_joints
         self.n_rates = model.n_joints + model.n_states
         self.n_x = self.n_rates + model.n_joints
+        self.n_inputs = model.n_inputs
         self.values = parameter_vector(model)
         self._symbols = SymbolicBalance(model)
 
@@ -52,7 +52,7 @@ class CompiledEquations:
         return compile_function(self._symbols.slopes)
 
     def balance(self, x: Array, v: Array, u: Array, p: Array | None = None) -> tuple[Array, Array, Array]:
-        """r (n_v,), dr/dv (n_v, n_v), dr/dx (n_v, n_x) at state x, rates v, tensions u, parameter values p."""
+        """r (n_v,), dr/dv (n_v, n_v), dr/dx (n_v, n_x) at state x, rates v, inputs u, parameter values p."""
         m = self.n_rates
         out = self._call(self.newton, m * (1 + m + self.n_x), x, v, u, p)
         return out[:m], out[m : m + m * m].reshape(m, m).T, out[m + m * m :].reshape(self.n_x, m).T
@@ -85,9 +85,9 @@ class CompiledEquations:
     def _call(self, function: Any, size: int, x: Array, v: Array, u: Array, p: Array | None) -> Array:
         packed = np.concatenate([x, v, u, self.values if p is None else p, _NO_STAGE])
         if (
-            packed.size != self.n_x + self.n_rates + len(SIDES) + self.values.size + 1
+            packed.size != self.n_x + self.n_rates + self.n_inputs + self.values.size + 1
         ):  # the machine code reads unchecked
-            raise ValueError(f"{packed.size - 1} numbers of state, rates, tensions and parameters")
+            raise ValueError(f"{packed.size - 1} numbers of state, rates, inputs and parameters")
         out = np.empty(size)
         function(packed.ctypes.data, out.ctypes.data)
         return out

@@ -17,7 +17,6 @@ import numpy as np
 from continuum.dynamics.balance import balance
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.planar.motion import Motion
 
 
@@ -37,7 +36,7 @@ class TracedMotion(Motion):
 
 
 class SymbolicBalance:
-    """Functions of one packed vector: state x, rates v, tensions u, parameters p, and h g [s] of an implicit stage.
+    """Functions of one packed vector: state x, rates v, inputs u, parameters p, and h g [s] of an implicit stage.
 
     Each gives one packed vector, matrices by columns. Parameter values do not matter, their number does. The stage
     matrix is the slope of r by the rates v where the state moves with them, theta' and z by h g, theta by (h g)^2:
@@ -46,7 +45,7 @@ class SymbolicBalance:
 
     def __init__(self, model: Model) -> None:
         n, extra, still = model.n_joints, model.n_states, np.zeros(1)
-        x, v, u = symbols("x", 2 * n + extra), symbols("v", n + extra), symbols("u", len(SIDES))
+        x, v, u = symbols("x", 2 * n + extra), symbols("v", n + extra), symbols("u", model.n_inputs)
         values = {name: symbols(name, len(value)) for name, value in model.values().items()}
         motion = TracedMotion(x[:n], x[n : 2 * n], v[:n], still, still, still)
         self._r = column(balance(model.built_from(values), x, v, u, motion))

@@ -2,7 +2,7 @@
 
 Every stage is solved by Newton's method with the exact Jacobian, so that a stage's own derivative by initial state
 and parameters is one more linear solve with the same matrix: the sensitivities are those of the computed trajectory,
-its steps held, and cost no further iterations. Steps end on every output time and where the tensions bend or jump;
+its steps held, and cost no further iterations. Steps end on every output time and where the inputs bend or jump;
 nothing is interpolated.
 """
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from continuum.dynamics.integration.compiled_loops import compiled, entry_point
 from continuum.dynamics.integration.esdirk_step import first_stage, slopes_of_stages, solve_stages
-from continuum.dynamics.integration.input_tensions import jumps_at
+from continuum.dynamics.integration.inputs_at import jumps_at
 from continuum.dynamics.integration.problem import work_for
 from continuum.dynamics.integration.step_size import FIRST_STEP, error_size, longer, shorter, step_towards
 from continuum.dynamics.trajectory import SimulationStatus
@@ -29,7 +29,7 @@ _ONE_INSTANT = 1e-12  # apart [s], or in parts of the time: rounding, no time to
 
 @compiled
 def _next_bend(input_times, t):  # type: ignore[no-untyped-def]
-    """When the tensions bend next after ``t``; infinite where they do not."""
+    """When the inputs bend next after ``t``; infinite where they do not."""
     k = np.searchsorted(input_times, t, side="right")
     return input_times[k] if k < input_times.size else np.inf
 
@@ -51,7 +51,7 @@ def _build(digest: str) -> Callable[..., Any]:
             while t < times[k]:
                 stop = min(times[k], _next_bend(problem.input_times, t))
                 shortest = _ONE_INSTANT * max(1.0, abs(t))
-                if stop - t < shortest:  # an output and a bend, or two bends; the tensions may jump
+                if stop - t < shortest:  # an output and a bend, or two bends; the inputs may jump
                     t = stop
                     if not first_stage(problem, method, work, t, x, slope):
                         return states, slopes, taken, refused, _NOT_FINITE

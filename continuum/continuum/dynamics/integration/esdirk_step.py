@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from continuum.dynamics.integration.compiled_loops import compiled
-from continuum.dynamics.integration.input_tensions import tensions_at
+from continuum.dynamics.integration.inputs_at import inputs_at
 from continuum.dynamics.integration.stage_newton import solve_stage
 from continuum.dynamics.integration.stage_slopes import stage_slopes
 
@@ -13,7 +13,7 @@ def first_stage(problem, method, work, t, x, slope):  # type: ignore[no-untyped-
     """Rates at ``t`` and their slopes, with which the first step begins; whether there are any."""
     n = problem.n_joints
     v = work.rates[0, n:]
-    tensions_at(t, t, problem.input_times, problem.inputs, work.u)
+    inputs_at(t, t, problem.input_times, problem.inputs, work.u)
     if not solve_stage(problem, method, work, x, v, 0.0, False):
         return False
     work.rates[0, :n] = x[n : 2 * n]
@@ -28,7 +28,7 @@ def solve_stages(problem, method, work, t, x, step):  # type: ignore[no-untyped-
         _stage_base(work.base, x, step, method.a[i, :i], work.rates)
         v = work.rates[i, n:]
         v[:] = work.rates[i - 1, n:]
-        tensions_at(t, t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
+        inputs_at(t, t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
         if not solve_stage(problem, method, work, work.base, v, step * method.a[i, i], i > 1):
             return False
         work.states[i] = work.packed[: x.size]
@@ -44,7 +44,7 @@ def slopes_of_stages(problem, method, work, t, step, slope):  # type: ignore[no-
         _stage_base(work.base_slope, slope, step, method.a[i, :i], work.rate_slopes)
         work.packed[:n_x] = work.states[i]
         work.packed[n_x : n_x + work.pivots.size] = work.rates[i, n:]
-        tensions_at(t, t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
+        inputs_at(t, t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
         if not stage_slopes(problem, work, work.base_slope, step * method.a[i, i], work.rate_slopes[i]):
             return False
     slope[:] = work.base_slope + step * method.a[-1, -1] * work.rate_slopes[-1]  # the last stage is the result

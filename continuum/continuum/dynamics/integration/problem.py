@@ -20,7 +20,7 @@ class Problem(NamedTuple):
         residual, stage, slopes: addresses of a model's machine code; ``slopes`` is 0 where none are asked for.
         n_joints: number of joints.
         p: parameter values, (n_p,).
-        input_times, inputs: tensions of the cables, (rows,) [s] and (rows, n_cables) [N], as `Tensions`.
+        input_times, inputs: what drives the arm, (rows,) [s] and (rows, n_inputs), as `InputSignal.rows`.
         direction_rows, direction_columns, direction_values: directions in the parameters by which to differentiate,
             entries of a matrix (n_p, n_free) that is mostly zero, (n_entries,) each.
     """
@@ -53,8 +53,8 @@ class Work(NamedTuple):
     """Arrays for one integration: n_x states, n_v rates to be solved for, n_free quantities to differentiate by.
 
     Attributes:
-        packed: state, rates, tensions, parameters, h g: what the equations read.
-        u: the tensions in it.
+        packed: state, rates, inputs, parameters, h g: what the equations read.
+        u: the inputs in it.
         out: what the equations answer.
         matrix, pivots: of Newton's method, factorised, (n_v, n_v) and (n_v,).
         change: of the rates in one iteration, (n_v, 1).

@@ -7,11 +7,12 @@ from scipy.integrate import solve_ivp
 
 from continuum.arrays import Array
 from continuum.dynamics.compiled.equations import CompiledEquations
+from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import Model
+from continuum.dynamics.model_inputs import suitable_inputs
 from continuum.dynamics.planar.eq18_state_space import numpy_state_space
 from continuum.dynamics.simulation_input import initial_state, output_times
-from continuum.dynamics.tensions import Tensions, slack
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
 
 
@@ -19,7 +20,7 @@ def simulate_bdf(
     model: Model,
     initial: Array,
     times: Array,
-    tensions: Tensions | None = None,
+    inputs: InputSignal | None = None,
     tolerances: Tolerances | None = None,
     equations: CompiledEquations | None = None,
 ) -> Trajectory:
@@ -29,21 +30,21 @@ def simulate_bdf(
         model: what to simulate.
         initial: whole state, or joint angles alone [rad].
         times: output times, (n_times,) [s].
-        tensions: of the cables; slack without.
+        inputs: what drives the arm; nothing without.
         tolerances: the thesis's without.
         equations: compiled rates and their exact Jacobian; without, the rates in NumPy, differences for the Jacobian.
 
     Raises:
-        InvalidValueError: a state or times that are not allowed.
+        InvalidValueError: a state or times that are not allowed, or inputs that the model does not take.
     """
     x0, times = initial_state(model, initial), output_times(times)
-    pull, limits = tensions or slack(), tolerances or Tolerances()
+    drive, limits = suitable_inputs(model, inputs), tolerances or Tolerances()
     rates = numpy_state_space(model) if equations is None else equations.rates
-    jacobian = None if equations is None else (lambda t, x: equations.jacobian(x, pull.at(t)))
+    jacobian = None if equations is None else (lambda t, x: equations.jacobian(x, drive.at(t)))
     nothing, no_slopes = np.full((times.size, x0.size), np.nan), np.zeros((times.size, x0.size, 0))
     try:
         done = solve_ivp(
-            lambda t, x: rates(x, pull.at(t)),
+            lambda t, x: rates(x, drive.at(t)),
             (times[0], times[-1]),
             x0,
             method="BDF",

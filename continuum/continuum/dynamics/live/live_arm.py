@@ -32,7 +32,8 @@ class LiveArm:
         state: joint angles, joint rates, states of effects, (n_x,) [rad, rad/s, ...].
 
     Raises:
-        InvalidValueError: an unknown integrator, a posture of another size, or one from which no motion is found.
+        InvalidValueError: an unknown integrator, a model that joint torques drive, a posture of another size, or one
+            from which no motion is found.
         CompilerError: the model's equations cannot be compiled.
     """
 
@@ -41,6 +42,7 @@ class LiveArm:
     ) -> None:
         if integrator not in INTEGRATORS:
             raise InvalidValueError("integrator", integrator, "one of " + ", ".join(INTEGRATORS))
+        model.require_cables("an arm that is pulled while it is simulated")
         self._model = model
         self.place(posture)
         self._stepper: Stepper = INTEGRATORS[integrator](model, tolerances or Tolerances())

@@ -1,5 +1,6 @@
-"""Thesis Eq. 12, whole: M theta'' + C theta' + K (theta - theta_0) + G + F - J_s^T W B u, zero when it holds.
+"""Thesis Eq. 12, whole: M theta'' + C theta' + K (theta - theta_0) + G + F - J_s^T W B u - tau, zero when it holds.
 
+tau are torques of drives at the joints, which the thesis's arm has not.
 Integrators, statics, inverse dynamics and fits all call this one sum.
 """
 
@@ -24,6 +25,7 @@ def torque_balance(now: Instant) -> Numbers:
         + spring_torque(move.theta, p)
         + joint_friction(move.theta_rate, p, move.slip_rate)
         - cable_torque(move, now.u, p)
+        - now.drive
     )
 
 

@@ -17,7 +17,7 @@ from continuum.dynamics.model import Model
 from continuum.dynamics.planar.eq12_inertia_matrix import inertia_matrix
 
 StateSpace = Callable[[Array, Array], Array]
-"""Rates of a state (n_x,) under tensions (n_cables,): (theta', theta'', z'), (n_x,) [rad/s, rad/s2, ...]."""
+"""Rates of a state (n_x,) under inputs (n_inputs,): (theta', theta'', z'), (n_x,) [rad/s, rad/s2, ...]."""
 
 
 def numpy_state_space(model: Model) -> StateSpace:

@@ -46,9 +46,13 @@ class RestingArm:
     Args:
         model: the model.
         equations: its compiled equations where they are there already.
+
+    Raises:
+        InvalidValueError: joint torques drive the model.
     """
 
     def __init__(self, model: Model, equations: CompiledEquations | None = None) -> None:
+        model.require_cables("an arm that rests under its cables' pull")
         self.model = model
         self.equations = equations or CompiledEquations(model)
         self._p = parameter_vector(model)

@@ -1,4 +1,4 @@
-"""Tensions of the cables at an instant, for compiled loops."""
+"""Inputs at an instant, for compiled loops."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from continuum.dynamics.integration.compiled_loops import compiled
 
 
 @compiled
-def tensions_at(begin, t, times, values, u):  # type: ignore[no-untyped-def]
-    """Write into ``u`` the tensions at ``t``: linear between the rows, held before the first and after the last.
+def inputs_at(begin, t, times, values, u):  # type: ignore[no-untyped-def]
+    """Write into ``u`` the inputs at ``t``: linear between the rows, held before the first and after the last.
 
     ``begin`` is the start of the step that ``t`` is in: where two rows of one time make a jump, a step that ends there
-    still has the tensions before it.
+    still has the inputs before it.
     """
     last = times.size - 1
     k = min(max(np.searchsorted(times, begin, side="right") - 1, 0), last)
