@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from continuum.errors import FileError
-from continuum.recordings.recording_checks import Samples, repaired
+from continuum.recordings.recording_checks import repaired
+from continuum.recordings.samples import Samples
 
 T = np.arange(120) / 120
 SWING = Samples(

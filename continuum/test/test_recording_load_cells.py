@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from continuum.errors import FileError
-from continuum.recordings.recording_checks import Samples, repaired
+from continuum.recordings.recording_checks import repaired
+from continuum.recordings.samples import Samples
 
 T = np.arange(60) / 120
 

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect
+from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.measuring import lateness, readings
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.reading import Reading
-from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
 from continuum.dynamics.values import parameter_slots
 from continuum.identification.local_slopes import local_slope
@@ -101,9 +101,10 @@ class Sensors:
             slopes[:, column] = (self.meant(row, p + NUDGE * directions[:, column]) - here) / NUDGE
         return slopes
 
-    def pull(self, p: Array) -> Tensions:
-        """Tensions of the cables by the sensors' clock."""
-        return self._recording.pull.later(lateness(self._at(p))) if self._is_late else self._recording.pull
+    def pull(self, p: Array) -> InputSignal:
+        """What drives the arm by the sensors' clock."""
+        drive = self._recording.inputs_for(self._model)
+        return drive.later(lateness(self._at(p))) if self._is_late else drive
 
     def lateness_slopes(self, p: Array, free: Array) -> Array | None:
         """Change of the sensors' lateness by one unit of each unknown, (columns,) [s]; None where none is late."""

@@ -22,7 +22,7 @@ _PULLED, _BENT = 2.0, np.deg2rad(1.0)  # N and rad, by which the means change at
 def side_correlation(run: Recording) -> float | None:
     """r of a run, -1 to 1; None where it is too short or hardly pulled."""
     rows = max(1, round(_LENGTH / float(np.median(np.diff(run.times)))))
-    if not run.is_driven or run.times.size < 3 * rows:
+    if run.tensions is None or not run.is_driven or run.times.size < 3 * rows:
         return None
     u = run.pull.over(run.times)
     evenly = np.full(rows, 1 / rows)

@@ -9,7 +9,7 @@ from continuum.recordings.motion_columns import TIME
 
 _SEPARATORS = {";": "';'", "\t": "tabs"}
 _WHOLE = re.compile(r"[+-]?\d+")
-_NAMES = "t_s, q1_deg .. or q1_rad .., and where there are any dq1_deg_s .., u1_N, u2_N"
+_NAMES = "t_s, q1_deg .. or q1_rad .., and where there are any dq1_deg_s .., u1_N, u2_N or tau1_Nm .."
 
 
 def problem_of_header(header: Sequence[str]) -> str:

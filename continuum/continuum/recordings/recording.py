@@ -8,6 +8,10 @@ from functools import cached_property
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.input_signal import InputSignal
+from continuum.dynamics.joint_torques import JointTorques, no_torques
+from continuum.dynamics.model import Model
 from continuum.dynamics.tensions import LET_GO, Tensions, slack
 from continuum.errors import InvalidValueError
 
@@ -23,6 +27,11 @@ class Recording:
         theta_rate: joint rates, (n_times, n_joints) [rad/s]; None where they were not measured.
         tensions: of the cables, commanded or measured at the base; slack where there are none.
         notes: what was repaired while reading, one sentence each.
+        torques: of the joints' drives, commanded or measured; none where cables drive the arm or nothing does.
+
+    Raises:
+        InvalidValueError: arrays that do not fit each other or are not finite, times that do not rise, or both tensions
+            and torques.
     """
 
     name: str
@@ -31,6 +40,7 @@ class Recording:
     theta_rate: Array | None = None
     tensions: Tensions | None = None
     notes: tuple[str, ...] = ()
+    torques: JointTorques | None = None
 
     def __post_init__(self) -> None:
         shape = (self.times.size, self.theta.shape[-1])
@@ -43,6 +53,13 @@ class Recording:
                 raise InvalidValueError(f"{self.name}: {what}", array, f"finite numbers, {wanted}")
         if np.any(np.diff(self.times) <= 0):
             raise InvalidValueError(f"{self.name}: times", self.times, "rising")
+        if self.torques is None:
+            return
+        if self.tensions is not None:
+            raise InvalidValueError(f"{self.name}: inputs", "tensions and torques", "one or the other")
+        if self.torques.n_inputs != self.n_joints:
+            allowed = f"{self.n_joints}, one for each joint"
+            raise InvalidValueError(f"{self.name}: number of torques", self.torques.n_inputs, allowed)
 
     @property
     def n_joints(self) -> int:
@@ -56,7 +73,7 @@ class Recording:
         Where there are none, no motor holds a cable. Where constant ones fall to nothing from one row to the next and
         stay so to the end, the cables were let go.
         """
-        if self.tensions is None or not self.is_driven:
+        if self.tensions is None or not np.any(self.tensions.values > 0):
             return slack()
         values, pulled = self.tensions.values, np.flatnonzero(np.any(self.tensions.values > 0, axis=1))
         if pulled[-1] + 1 >= len(values) or len(np.unique(values[: pulled[-1] + 1], axis=0)) > 1:
@@ -67,10 +84,27 @@ class Recording:
 
     @property
     def is_driven(self) -> bool:
-        """Whether a cable ever pulls."""
-        return self.tensions is not None and bool(np.any(self.tensions.values > 0))
+        """Whether a cable ever pulls, or a drive ever turns its joint."""
+        pulled = self.tensions is not None and np.any(self.tensions.values > 0)
+        return bool(pulled or (self.torques is not None and np.any(self.torques.values)))
+
+    def inputs_for(self, model: Model) -> InputSignal:
+        """What drove the arm, as the model takes it; slack cables or no torques where nothing did.
+
+        Raises:
+            InvalidValueError: the model takes other inputs than were recorded, or has another number of joints.
+        """
+        if model.n_joints != self.n_joints:
+            raise InvalidValueError(f"{self.name}: joints", self.n_joints, f"{model.n_joints}, as the model has")
+        recorded = self.tensions if self.torques is None else self.torques
+        if recorded is not None and recorded.kind is not model.inputs:
+            allowed = f"{model.inputs.in_words}, which the model takes (inputs: {model.inputs.value})"
+            raise InvalidValueError(f"{self.name}: inputs", recorded.kind.in_words, allowed)
+        if model.inputs is InputKind.CABLES:
+            return self.pull
+        return no_torques(self.n_joints) if self.torques is None else self.torques
 
     def rows(self, chosen: slice) -> Recording:
-        """A part of the run, its tensions kept."""
+        """A part of the run, its inputs kept."""
         rate = None if self.theta_rate is None else self.theta_rate[chosen]
         return replace(self, times=self.times[chosen], theta=self.theta[chosen], theta_rate=rate)

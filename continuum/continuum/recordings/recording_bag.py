@@ -1,7 +1,9 @@
 """Recordings from rosbag2: `joint_states` and `cable_states` of one section that bends in a plane.
 
 What the node `dynamics` publishes, or a real arm in its place: angles and rates of the bending joints, and the cables'
-tensions as `effort`. Damage is told by the number of the `joint_states` message, from 1 in the order of the stamps.
+tensions as `effort`. An arm with drives at its joints has their torques as `effort` of `joint_states`; values that are
+not finite, or zero throughout, say that there are none. Damage is told by the number of the `joint_states` message,
+from 1 in the order of the stamps.
 """
 
 from __future__ import annotations
@@ -13,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.dynamics.joint_torques import JointTorques
 from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
@@ -22,7 +25,8 @@ from continuum.recordings.arm_recording import TOPICS
 from continuum.recordings.bag import Bag, stamp_ns
 from continuum.recordings.named_values import named_values
 from continuum.recordings.recording import Recording
-from continuum.recordings.recording_checks import Samples, repaired
+from continuum.recordings.recording_checks import repaired
+from continuum.recordings.samples import Samples
 
 _JOINTS, _CABLES = "/joint_states", "/cable_states"
 _IN_PLANE = 1e-3  # rad, by which the bending plane may turn
@@ -45,13 +49,19 @@ def read_recording_bag(path: str | Path) -> Recording:
         times = _seconds(joints, start)
         theta = _table(bag, joints, "position", names)
         rate = _table(bag, joints, "velocity", names) if any(len(one.velocity) for one in joints) else None
+        torque = _torque(joints, names)
         pull = _pull(bag, section, start, times)
+        if pull is not None and torque is not None:
+            raise FileError(
+                bag.path, f"has efforts on {_JOINTS} and on {_CABLES}: an arm is driven by one or the other"
+            )
     numbers = np.arange(1, len(joints) + 1)
-    good, notes = repaired(Samples(bag.path, numbers, times, theta, rate, pull, "message"))
+    good, notes = repaired(Samples(bag.path, numbers, times, theta, rate, pull, "message", torque))
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
-    if tensions is None:
+    torques = None if good.torque is None else JointTorques(good.times, good.torque)
+    if tensions is None and torques is None:
         notes = (*notes, f"no efforts on {_CABLES}: cables taken as slack")
-    return Recording(printable(bag.path.name), good.times, good.theta, good.rate, tensions, notes)
+    return Recording(printable(bag.path.name), good.times, good.theta, good.rate, tensions, notes, torques)
 
 
 def _bending_joints(bag: Bag, joints: Sequence[Any]) -> tuple[str, list[str]]:
@@ -66,6 +76,17 @@ def _bending_joints(bag: Bag, joints: Sequence[Any]) -> tuple[str, list[str]]:
     if turn in known and np.max(np.abs(_table(bag, joints, "position", [turn]))) > _IN_PLANE:
         raise FileError(bag.path, f"has an arm that turns its plane by {turn}; one that bends in a plane is needed")
     return sections[0], [name for name in theta_joints(sections[0], len(known)) if name in known]
+
+
+def _torque(joints: Sequence[Any], names: Sequence[str]) -> Array | None:
+    """Efforts of the joints, (n_times, n_joints) [N m], NaN in a message that has none; None where all are nothing."""
+    torque = np.full((len(joints), len(names)), np.nan)
+    for row, one in zip(torque, joints, strict=True):
+        if len(one.effort) == len(one.name):
+            by_name = dict(zip(one.name, one.effort, strict=True))
+            row[:] = [by_name.get(name, np.nan) for name in names]
+    known = np.all(np.isfinite(torque), axis=1)
+    return torque if np.any(torque[known]) else None
 
 
 def _pull(bag: Bag, section: str, start: int, times: Array) -> Array | None:

@@ -1,7 +1,8 @@
-"""Recordings from CSV: `t_s`, `q1_deg` or `q1_rad` .., optional `dq1_deg_s` or `dq1_rad_s` .., `u1_N`, `u2_N`.
+"""Recordings from CSV: `t_s`, `q1_deg` or `q1_rad` .., optional `dq1_deg_s` or `dq1_rad_s` .., and what drives the arm.
 
-Cable 1 bends the arm towards positive angles. What is damaged is repaired where nothing is invented by it, and
-told; else refused, and told which row of the file (the header is row 1) is the matter.
+That is `u1_N`, `u2_N`, the tensions of two cables of which cable 1 bends the arm towards positive angles, or `tau1_Nm`
+.., the torques of drives at the joints, positive towards positive angles. What is damaged is repaired where nothing is
+invented by it, and told; else refused, and told which row of the file (the header is row 1) is the matter.
 """
 
 from __future__ import annotations
@@ -14,13 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from continuum.arrays import Array
+from continuum.dynamics.joint_torques import JointTorques
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
 from continuum.printable import printable
 from continuum.recordings.csv_layout import hint_of_cell, hint_of_row, problem_of_header
-from continuum.recordings.motion_columns import ANGLE, RATE, TENSION, TIME, Quantity
+from continuum.recordings.motion_columns import ANGLE, QUANTITIES, RATE, TENSION, TIME, TORQUE, Quantity
 from continuum.recordings.recording import Recording
-from continuum.recordings.recording_checks import Samples, repaired
+from continuum.recordings.recording_checks import repaired
+from continuum.recordings.samples import Samples
 
 
 def read_recording_csv(path: str | Path) -> Recording:
@@ -37,21 +40,26 @@ def read_recording_csv(path: str | Path) -> Recording:
     theta, others = _block(path, columns, ANGLE), _of_nothing(header)
     if theta is None:
         raise FileError(path, f"has no joint angles q1_deg .. or q1_rad ..; it has {', '.join(header)}")
-    rate, pull = _block(path, columns, RATE), _block(path, columns, TENSION)
+    rate, pull, torque = (_block(path, columns, quantity) for quantity in (RATE, TENSION, TORQUE))
     if rate is not None and rate.shape != theta.shape:
         raise FileError(path, f"has {theta.shape[1]} joint angles but {rate.shape[1]} joint rates")
     if pull is not None and pull.shape[1] != 2:
         raise FileError(path, f"has tensions of {pull.shape[1]} cables; a planar section has u1_N and u2_N")
-    good, notes = repaired(Samples(path, numbers, columns[TIME], theta, rate, pull))
+    if torque is not None and torque.shape != theta.shape:
+        raise FileError(path, f"has {theta.shape[1]} joint angles but {torque.shape[1]} joint torques")
+    if torque is not None and pull is not None:
+        raise FileError(path, "has tensions, u1_N .., and torques, tau1_Nm ..: one or the other drives an arm")
+    good, notes = repaired(Samples(path, numbers, columns[TIME], theta, rate, pull, torque=torque))
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
+    torques = None if good.torque is None else JointTorques(good.times, good.torque)
     if others:
         notes = (*notes, f"columns that are not understood, and not used: {', '.join(others)}")
-    return Recording(printable(path.stem), good.times, good.theta, good.rate, tensions, notes)
+    return Recording(printable(path.stem), good.times, good.theta, good.rate, tensions, notes, torques)
 
 
 def _of_nothing(header: Sequence[str]) -> list[str]:
     """Columns that are neither the time nor of a quantity."""
-    return [name for name in header if name != TIME and not any(q.names(name) for q in (ANGLE, RATE, TENSION))]
+    return [name for name in header if name != TIME and not any(q.names(name) for q in QUANTITIES)]
 
 
 def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:

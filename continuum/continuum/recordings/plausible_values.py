@@ -1,0 +1,95 @@
+"""Whether samples can be of an arm and in the units that their columns name."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from continuum.arrays import Array
+from continuum.errors import FileError
+from continuum.recordings.motion_columns import ANGLE, RATE, TENSION, TORQUE
+from continuum.recordings.samples import Samples
+
+MOST_BAD = 0.1
+"""Part of all rows that may be bad."""
+
+_LARGEST_ANGLE, _LARGEST_TURN = np.pi, 4 * np.pi  # rad, of joints between discs, and of joints with drives
+_LEAST_ANGLE = np.deg2rad(1.0)  # that a run must reach; sensors err by tenths of a degree
+_LEAST_MOTION = np.deg2rad(1.5)  # of the joint that moves most
+_QUIETED = 8  # rows of which the mean is taken then, against noise
+_LARGEST_RATE, _LARGEST_TENSION, _LARGEST_TORQUE = 200.0, 2e3, 2e3  # rad/s, N, N m; no arm of this kind has more
+_ALIKE = 0.5  # correlation of a joint's rate with the slope of its angle from which on their sizes are compared
+
+
+def _limited(samples: Samples) -> list[tuple[Array, float, str, str]]:
+    """What was measured, the most that an arm of this kind has, what is told of more, and the letter of its columns."""
+    turn = _LARGEST_ANGLE if samples.torque is None else _LARGEST_TURN
+    angle = f"joint angle of {{:.3g}} rad; no joint turns by more than {turn:.3g}: degrees taken for radians?"
+    tension = "tension of {:.3g} N; no cable of this kind pulls with more than 2 kN: another unit?"
+    torque = "torque of {:.3g} N m; no drive of this kind has more than 2 kN m: another unit?"
+    blocks = (
+        (samples.theta, turn, angle, ANGLE.letter),
+        (samples.rate, _LARGEST_RATE, "joint rate of {:.3g} rad/s: degrees taken for radians?", RATE.letter),
+        (samples.pull, _LARGEST_TENSION, tension, TENSION.letter),
+        (samples.torque, _LARGEST_TORQUE, torque, TORQUE.letter),
+    )
+    return [(block, limit, what, letter) for block, limit, what, letter in blocks if block is not None]
+
+
+def outliers(samples: Samples) -> NDArray[np.bool_]:
+    """Few rows with a value too large for its unit, where all others are far from that: an error code, no unit."""
+    size = np.max([np.max(np.abs(block), axis=1) / limit for block, limit, *_ in _limited(samples)], axis=0)
+    large = size > 1
+    few = 0 < np.count_nonzero(large) <= MOST_BAD * large.size
+    return large if few and np.max(size[~large]) < 1 / 2 else np.zeros_like(large)
+
+
+def refuse_units(samples: Samples) -> None:
+    """Refuse what is too large or small for its unit.
+
+    Raises:
+        FileError: so is a value, or an arm that hardly moves, or a rate that is not of its angle.
+    """
+    for block, limit, what, letter in _limited(samples):
+        large = np.abs(block) > limit
+        if np.any(large):
+            row, column = (int(at[0]) for at in np.nonzero(large))
+            where = f"{samples.row} {samples.numbers[row]}, {letter}{column + 1}"
+            raise FileError(samples.path, f"{where}: a " + what.format(abs(block[row, column])))
+    largest = float(np.max(np.abs(samples.theta)))
+    if largest < _LEAST_ANGLE:
+        raise FileError(
+            samples.path,
+            f"has no joint angle above {np.degrees(largest):.2g} degrees: radians taken for degrees, or arm at rest?",
+        )
+    motion = _largest_motion(samples.theta)
+    if motion < _LEAST_MOTION:
+        told = f"{np.degrees(motion):.2g} degrees, hardly more than sensors err: at least {np.degrees(_LEAST_MOTION):g}"
+        raise FileError(samples.path, f"is of an arm whose joints move by at most {told} are needed")
+    if samples.rate is not None:
+        slopes = np.gradient(samples.theta, samples.times, axis=0)
+        for joint, (slope, rate) in enumerate(zip(slopes.T, samples.rate.T, strict=True), start=1):
+            _refuse_mixed(samples.path, joint, slope, rate)
+
+
+def _largest_motion(theta: Array) -> float:
+    """From the least to the most of the joint that moves most [rad]."""
+    means = [np.mean(piece, axis=0) for piece in np.array_split(theta, max(1, len(theta) // _QUIETED))]
+    return float(np.max(np.ptp(means, axis=0)))
+
+
+def _refuse_mixed(path: Path, joint: int, slope: Array, rate: Array) -> None:
+    """Refuse a joint whose rate is not of the sign and size of its angle's slope."""
+    alike = 0.0 if np.std(slope) == 0 or np.std(rate) == 0 else np.corrcoef(slope, rate)[0, 1]
+    if alike < -_ALIKE:
+        raise FileError(path, f"joint {joint}: its rate is negative where its angle grows: one has the other sign")
+    if alike < _ALIKE:
+        return  # too noisy to judge by
+    ratio = np.sum(slope * rate) / np.sum(slope**2)
+    if not 1 / 15 < ratio < 15:
+        raise FileError(
+            path,
+            f"joint {joint}: rates {ratio:.3g} times as large as its angle changes: degrees and radians mixed?",
+        )

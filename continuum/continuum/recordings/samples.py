@@ -1,0 +1,62 @@
+"""What one run's table holds, before it is checked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from continuum.arrays import Array
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Rows of a table, NaN where a cell is empty.
+
+    Attributes:
+        path: of the file or folder.
+        numbers: of the rows in it, as a person counts them, (rows,).
+        times: (rows,) [s].
+        theta: (rows, n_joints) [rad].
+        rate: (rows, n_joints) [rad/s], or None.
+        pull: (rows, n_cables) [N], or None.
+        row: what a row is called.
+        torque: (rows, n_joints) [N m], or None.
+    """
+
+    path: Path
+    numbers: NDArray[np.int64]
+    times: Array
+    theta: Array
+    rate: Array | None
+    pull: Array | None
+    row: str = "row"
+    torque: Array | None = None
+
+    @property
+    def measured(self) -> list[Array]:
+        """The blocks that there are, (rows, columns) each."""
+        blocks = (self.theta, self.rate, self.pull, self.torque)
+        return [block for block in blocks if block is not None]
+
+    def chosen(self, rows: NDArray[np.bool_]) -> Samples:
+        """Some of the rows."""
+        some = (None if block is None else block[rows] for block in (self.rate, self.pull, self.torque))
+        rate, pull, torque = some
+        return replace(
+            self,
+            numbers=self.numbers[rows],
+            times=self.times[rows],
+            theta=self.theta[rows],
+            rate=rate,
+            pull=pull,
+            torque=torque,
+        )
+
+    def told(self, rows: NDArray[np.bool_]) -> str:
+        """`row 7`, or `rows 7, 8, 9, ..`."""
+        numbers = [str(number) for number in self.numbers[rows]]
+        shown = ", ".join(numbers[:8]) + (", .." if len(numbers) > 8 else "")
+        return f"{self.row}{'' if len(numbers) == 1 else 's'} {shown}"
