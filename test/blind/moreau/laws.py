@@ -7,14 +7,14 @@ import numpy as np
 from blind.moreau.boxes import solve_boxed
 from blind.moreau.cables import belt_limits
 from blind.moreau.chain import Chain
-from blind.moreau.cholesky import back, factorise, forward
 from blind.moreau.compiled import compiled
 from blind.moreau.joints import push
+from blind.moreau.linear import back, dot, factorise, forward
 from blind.moreau.mechanism import Mechanism
 from blind.moreau.state import CABLES, ROWS, STOPS, State
 from blind.plant.parameters import JOINTS
 
-TOLERANCE = 1e-12  # of velocities, over the largest one without impulses or 1
+TOLERANCE = 1e-9  # of velocities, over the largest one without impulses or 1
 
 
 class Laws(NamedTuple):
@@ -57,7 +57,7 @@ def rub_joints(laws: Laws, chain: Chain, dry: np.ndarray, dt: float) -> None:
 def rub_cables(
     laws: Laws, m: Mechanism, chain: Chain, state: State, angle: np.ndarray, chords: np.ndarray, dt: float
 ) -> np.ndarray:
-    """Friction of the cables at the discs: on the chords beyond; the tensions across the joints a step ago (2, 5) [N].
+    """Friction of the cables at the discs, each on the chords beyond.
 
     Args:
         laws: rows to fill in.
@@ -67,15 +67,21 @@ def rub_cables(
         angle: of the joints (5,) [rad].
         chords: length of each chord by its joint's angle (2, 5) [m/rad].
         dt: time step [s].
+
+    Returns:
+        Both tensions together across each joint, a step ago (5,) [N].
     """
-    friction = state.impulse[CABLES:STOPS].reshape(2, JOINTS) / dt
+    friction = np.empty((2, JOINTS))
+    for c in range(2):
+        for k in range(JOINTS):
+            friction[c, k] = state.impulse[CABLES + c * JOINTS + k] / dt
     limit = belt_limits(angle, state.pulling, friction, m.cable_friction)
-    tension = np.empty((2, JOINTS))
+    tension = np.zeros(JOINTS)
     for c in range(2):
         left = state.pulling[c]
         for k in range(JOINTS):
             left -= friction[c, k]
-            tension[c, k] = left
+            tension[k] += left
             row = CABLES + c * JOINTS + k
             rub(laws, row, dt * limit[c, k])
             for i in range(k, JOINTS):
@@ -97,41 +103,50 @@ def stop_plays(laws: Laws, chain: Chain, q: np.ndarray, dt: float) -> None:
 
 
 @compiled
-def move(laws: Laws, state: State, mass: np.ndarray, impulse: np.ndarray) -> np.ndarray:
+def move(laws: Laws, chain: Chain, state: State, mass: np.ndarray, impulse: np.ndarray) -> np.ndarray:
     """Rates of the hinges (n,) after a step [rad/s]; impulses and heat go to the state.
 
     Args:
         laws: rows of the step.
+        chain: which hinges rub.
         state: with rates before the step, and the last step's impulses to begin from.
         mass: matrix of the step (n, n) [kg m^2]; overwritten.
         impulse: of everything but the laws (n,) [N m s].
     """
-    n = impulse.size
-    rows = np.flatnonzero(laws.high > laws.low)
+    rows = np.empty(ROWS, np.int64)
+    count = 0
+    for row in range(ROWS):
+        if laws.high[row] > laws.low[row]:
+            rows[count] = row
+            count += 1
     factorise(mass)
     forward(mass, impulse)
-    inner = np.empty((rows.size, n))  # L^-1 J', with M = L L'
-    for r in range(rows.size):
-        inner[r] = laws.direction[rows[r]]
+    inner = np.empty((count, impulse.size))  # L^-1 J', with M = L L'
+    free, low, high, p = np.empty(count), np.empty(count), np.empty(count), np.empty(count)
+    W = np.empty((count, count))
+    tolerance = 1.0
+    for r in range(count):
+        row = rows[r]
+        inner[r] = laws.direction[row]
         forward(mass, inner[r])
-    free = np.empty(rows.size)
-    for r in range(rows.size):
-        free[r] = laws.direction[rows[r]] @ state.v + inner[r] @ impulse - laws.wanted[rows[r]]
-    low, high = laws.low[rows], laws.high[rows]
-    p = np.minimum(np.maximum(state.impulse[rows], low), high)
-    if rows.size > 0:
-        tolerance = TOLERANCE * max(1.0, np.abs(free).max())
-        state.unsolved[0] += not solve_boxed(inner @ inner.T, free, low, high, p, tolerance)
-    for r in range(rows.size):
-        impulse += p[r] * inner[r]
+        free[r] = dot(laws.direction[row], state.v) + dot(inner[r], impulse) - laws.wanted[row]
+        low[r], high[r] = laws.low[row], laws.high[row]
+        p[r] = min(max(state.impulse[row], low[r]), high[r])
+        tolerance = max(tolerance, abs(free[r]))
+        for s in range(r + 1):
+            W[r, s] = W[s, r] = dot(inner[r], inner[s])
+    if count > 0:
+        state.unsolved[0] += not solve_boxed(W, free, low, high, p, TOLERANCE * tolerance)
+    for r in range(count):
+        for k in range(impulse.size):
+            impulse[k] += p[r] * inner[r, k]
     back(mass, impulse)
     rate = state.v + impulse
     state.impulse[:] = 0.0
-    for r in range(rows.size):
-        row = rows[r]
-        if row < JOINTS and low[r] < p[r] < high[r]:  # holds: zero but for rounding
-            rate[np.argmax(laws.direction[row])] = 0.0
-        state.impulse[row] = p[r]
-    for row in rows:
-        state.rubbed[0] -= state.impulse[row] * (laws.direction[row] @ rate)
+    for r in range(count):
+        state.impulse[rows[r]] = p[r]
+        if rows[r] < JOINTS and low[r] < p[r] < high[r]:  # holds: zero but for rounding
+            rate[chain.hinge[rows[r]]] = 0.0
+    for r in range(count):
+        state.rubbed[0] -= p[r] * dot(laws.direction[rows[r]], rate)
     return rate

@@ -33,19 +33,24 @@ def carried(
     """
     n = turned.size
     needed = np.empty((n, 2))
-    hinge = -pull
+    across, along = -pull[0], -pull[1]  # what the hinge is held at and accelerates by
     for k in range(n):
+        mass = chain.mass[k] + (load if k == n - 1 else 0.0)
         cos, sin = np.cos(turned[k]), np.sin(turned[k])
-        turning = np.array([cos, sin]) * acceleration[k] - np.array([sin, -cos]) * rate[k] ** 2
-        needed[k] = (chain.mass[k] + (load if k == n - 1 else 0.0)) * (hinge + chain.centre[k] * turning)
-        hinge = hinge + chain.length[k] * turning
-    for k in range(n - 2, -1, -1):
-        needed[k] += needed[k + 1]
+        sideways, upwards = cos * acceleration[k] - sin * rate[k] ** 2, sin * acceleration[k] + cos * rate[k] ** 2
+        needed[k, 0] = mass * (across + chain.centre[k] * sideways)
+        needed[k, 1] = mass * (along + chain.centre[k] * upwards)
+        across += chain.length[k] * sideways
+        along += chain.length[k] * upwards
     force = np.empty(JOINTS)
-    for i in range(JOINTS):
-        before = chain.hinge[i] - 1
-        chord = 0.5 * (turned[chain.link[i]] + (turned[before] if before >= 0 else 0.0))
-        across = needed[chain.link[i], 0] + tension[i] * np.sin(chord)
-        along = needed[chain.link[i], 1] - tension[i] * np.cos(chord)
-        force[i] = np.hypot(across, along)
+    across = along = 0.0
+    i = JOINTS - 1
+    for k in range(n - 1, -1, -1):
+        across += needed[k, 0]
+        along += needed[k, 1]
+        if i >= 0 and k == chain.link[i]:
+            before = chain.hinge[i] - 1
+            chord = 0.5 * (turned[k] + (turned[before] if before >= 0 else 0.0))
+            force[i] = np.hypot(across + tension[i] * np.sin(chord), along - tension[i] * np.cos(chord))
+            i -= 1
     return force

@@ -19,6 +19,7 @@ from blind.moreau.chain import Chain, equations, gravity, to_hinges
 from blind.moreau.compiled import compiled, digest_of_sources, kept
 from blind.moreau.joints import add_magnets_and_rubbing, add_presliding, add_springs, angles, dry_friction, push
 from blind.moreau.laws import Laws, move, no_laws, rub, rub_cables, rub_joints, stop_plays
+from blind.moreau.linear import dot
 from blind.moreau.loads import carried
 from blind.moreau.mechanism import Mechanism
 from blind.moreau.outside import STRAP_DAMPING, STRAP_FRICTION, add_drag, strap
@@ -31,7 +32,10 @@ from blind.plant.parameters import JOINTS
 def step(m: Mechanism, chain: Chain, state: State, command: np.ndarray, let_go: bool, dt: float) -> None:
     """Advance by ``dt`` [s] under commanded tensions (2,) [N], with both cables free at the base if ``let_go``."""
     v, n = state.v, state.q.size
-    middle = np.where(chain.stop < np.inf, state.q, state.q + 0.5 * dt * v)
+    middle = state.q.copy()
+    for k in range(n):
+        if chain.stop[k] == np.inf:
+            middle[k] += 0.5 * dt * v[k]
     turned, rate = np.cumsum(middle), np.cumsum(v)
     angle = angles(chain, turned)
     time = state.time[0] + 0.5 * dt
@@ -48,7 +52,7 @@ def step(m: Mechanism, chain: Chain, state: State, command: np.ndarray, let_go: 
         torque += dragged
     torque -= chain.viscous * v
     add_springs(m, chain, state, middle, torque, slope)
-    tension = np.zeros((2, JOINTS))
+    tension = np.zeros(JOINTS)
     if let_go:
         state.pulling[:] = 0.0
     else:
@@ -57,11 +61,11 @@ def step(m: Mechanism, chain: Chain, state: State, command: np.ndarray, let_go: 
             chords = slopes(angle, m.hole_radius, m.half_spacing)
             tension = rub_cables(laws, m, chain, state, angle, chords, dt)
             for i in range(JOINTS):
-                push(chain, i, -(state.pulling @ chords[:, i]), torque)
+                push(chain, i, -state.pulling[0] * chords[0, i] - state.pulling[1] * chords[1, i], torque)
     loads = np.zeros(JOINTS)
     if m.load_friction > 0.0:
-        loads = carried(chain, load, turned, rate, speeding, pull, tension.sum(axis=0))
-    dry = dry_friction(m, chain, v, loads)
+        loads = carried(chain, load, turned, rate, speeding, pull, tension)
+    dry = dry_friction(m, chain, v + 0.5 * dt * state.acceleration, loads)
     add_magnets_and_rubbing(m, chain, angle, dry, torque)
     if m.presliding > 0.0:
         add_presliding(m, chain, state, middle, dry, torque, slope)
@@ -72,7 +76,7 @@ def step(m: Mechanism, chain: Chain, state: State, command: np.ndarray, let_go: 
     for k in range(n):
         mass[k, k] += 0.5 * dt * chain.viscous[k] + 0.25 * dt**2 * slope[k]
 
-    after = move(laws, state, mass, dt * torque)
+    after = move(laws, chain, state, mass, dt * torque)
     for k in range(n):
         state.q[k] = middle[k] + (dt if chain.stop[k] < np.inf else 0.5 * dt) * after[k]
         state.acceleration[k] = (after[k] - v[k]) / dt
@@ -94,8 +98,11 @@ def add_strap(
     """Add the strap at absolute angles (n,) [rad] and rates of the hinges (n,) [rad/s] to a step's terms."""
     stretch, direction = strap(m, chain, turned)
     damping = STRAP_DAMPING * m.strap
-    torque -= (m.strap * stretch + damping * (direction @ rate)) * direction
-    mass += (0.5 * dt * damping + 0.25 * dt**2 * m.strap) * np.outer(direction, direction)
+    force = m.strap * stretch + damping * dot(direction, rate)
+    for k in range(rate.size):
+        torque[k] -= force * direction[k]
+        for j in range(rate.size):
+            mass[k, j] += (0.5 * dt * damping + 0.25 * dt**2 * m.strap) * direction[k] * direction[j]
     laws.direction[STRAP] = direction
     rub(laws, STRAP, dt * STRAP_FRICTION * m.strap)
 

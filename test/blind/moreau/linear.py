@@ -1,8 +1,17 @@
-"""Small symmetric systems."""
+"""Small vectors and symmetric systems."""
 
 import numpy as np
 
 from blind.moreau.compiled import compiled
+
+
+@compiled
+def dot(a: np.ndarray, b: np.ndarray) -> float:
+    """Of two vectors (n,)."""
+    total = 0.0
+    for k in range(a.size):
+        total += a[k] * b[k]
+    return total
 
 
 @compiled
