@@ -2,7 +2,7 @@
 
 import re
 import sys
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -246,7 +246,7 @@ def test_hooks_change_nothing_that_they_are_given(name: str) -> None:
     model = random_with(name, 6)
     x, v = moving_state(6, model.n_states)
     reading = a_reading(3)
-    parameters = [getattr(model.parameters, field.name) for field in fields(model.parameters)]
+    parameters = model.parameters.named().values()
     given = [x, v, *parameters, *model.effects[0].values.values(), reading.theta, reading.theta_rate, reading.times]
     for array in given:
         array.setflags(write=False)

@@ -119,15 +119,15 @@ def test_effects_on_cables_are_refused_and_all_others_taken() -> None:
 def test_what_pulls_cables_refuses_a_model_with_torques() -> None:
     model = with_torques(random_model(63, 2))
     for use in (RestingArm, lambda given: LiveArm(given, STILL), lambda given: pulled_posture(given, 0.3)):
-        with pytest.raises(InvalidValueError, match="the model's inputs is 'joint_torques'; allowed: cables, which"):
+        with pytest.raises(InvalidValueError, match="what drives the model is 'joint_torques'; allowed: cables, which"):
             use(model)  # type: ignore[operator]
 
 
 def test_inputs_of_another_kind_or_number_are_refused() -> None:
     cables, pulls = random_model(64, 2), Tensions([0.0], [[1.0, 0.0]])
-    with pytest.raises(InvalidValueError, match="inputs is 'tensions of cables'; allowed: joint torques"):
+    with pytest.raises(InvalidValueError, match="kind of inputs is 'tensions of cables'; allowed: joint torques"):
         Simulator(PENDULUM).run(STILL, SHORT, pulls)
-    with pytest.raises(InvalidValueError, match="inputs is 'joint torques'; allowed: tensions of cables"):
+    with pytest.raises(InvalidValueError, match="kind of inputs is 'joint torques'; allowed: tensions of cables"):
         Simulator(cables).run(STILL, SHORT, no_torques(2))
     with pytest.raises(InvalidValueError, match="number of joint torques is 3; allowed: 2"):
         Simulator(PENDULUM).run(STILL, SHORT, no_torques(3))

@@ -95,11 +95,11 @@ def test_a_model_takes_the_inputs_that_suit_it() -> None:
     assert turned.inputs_for(chain_2) is turned.torques
     assert free.inputs_for(cables).kind is InputKind.CABLES
     np.testing.assert_array_equal(free.inputs_for(chain_2).values, [[0.0, 0.0]])
-    with pytest.raises(InvalidValueError, match=r"^run: inputs is 'tensions of cables'; allowed: joint torques"):
+    with pytest.raises(InvalidValueError, match=r"^run: kind of inputs is 'tensions of cables'; allowed: joint tor"):
         pulled.inputs_for(chain_2)
-    with pytest.raises(InvalidValueError, match=r"^run: inputs is 'joint torques'; allowed: tensions of cables"):
+    with pytest.raises(InvalidValueError, match=r"^run: kind of inputs is 'joint torques'; allowed: tensions"):
         turned.inputs_for(cables)
-    with pytest.raises(InvalidValueError, match=r"^run: joints is 2; allowed: 3, as the model has"):
+    with pytest.raises(InvalidValueError, match=r"^run: number of joints is 2; allowed: 3, as the model"):
         free.inputs_for(chain(3))
 
 

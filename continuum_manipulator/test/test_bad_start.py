@@ -42,6 +42,12 @@ BAD_PARAMETERS = {
     "no arm": ("markers", (), {}, "arm is None; allowed: a block"),
     "no model": ("dynamics", (), {"model": "nowhere.yaml"}, "nowhere.yaml: "),
     "an arm in the place of a model": ("dynamics", (), {"model": ARM_FILE}, "three_sections.yaml: is an arm file"),
+    "a model without cables": (
+        "dynamics",
+        (),
+        {"model": "double_pendulum.yaml"},
+        "what drives the model is 'joint_torques'; allowed: cables",
+    ),
     "unknown integrator": ("dynamics", (), {"integrator": "euler"}, "allowed: one of bdf, esdirk"),
     "two postures": (
         "dynamics",

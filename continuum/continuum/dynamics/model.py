@@ -62,7 +62,7 @@ class Model:
             InvalidValueError: joint torques drive it.
         """
         if self.inputs is not InputKind.CABLES:
-            raise InvalidValueError("the model's inputs", self.inputs.value, f"cables, which {user} needs")
+            raise InvalidValueError("what drives the model", self.inputs.value, f"cables, which {user} needs")
 
     @property
     def n_joints(self) -> int:

@@ -19,7 +19,7 @@ def suitable_inputs(model: Model, given: InputSignal | None) -> InputSignal:
     if given is None:
         return undriven(model)
     if given.kind is not model.inputs:
-        raise InvalidValueError("inputs", given.kind.in_words, f"{model.inputs.in_words}: the model takes no others")
+        raise InvalidValueError("kind of inputs", given.kind.in_words, f"{model.inputs.in_words}, as the model")
     if given.n_inputs != model.n_inputs:
         raise InvalidValueError(f"number of {given.kind.in_words}", given.n_inputs, f"{model.n_inputs}, as the model")
     return given

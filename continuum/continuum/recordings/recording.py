@@ -95,11 +95,11 @@ class Recording:
             InvalidValueError: the model takes other inputs than were recorded, or has another number of joints.
         """
         if model.n_joints != self.n_joints:
-            raise InvalidValueError(f"{self.name}: joints", self.n_joints, f"{model.n_joints}, as the model has")
+            raise InvalidValueError(f"{self.name}: number of joints", self.n_joints, f"{model.n_joints}, as the model")
         recorded = self.tensions if self.torques is None else self.torques
         if recorded is not None and recorded.kind is not model.inputs:
             allowed = f"{model.inputs.in_words}, which the model takes (inputs: {model.inputs.value})"
-            raise InvalidValueError(f"{self.name}: inputs", recorded.kind.in_words, allowed)
+            raise InvalidValueError(f"{self.name}: kind of inputs", recorded.kind.in_words, allowed)
         if model.inputs is InputKind.CABLES:
             return self.pull
         return no_torques(self.n_joints) if self.torques is None else self.torques
