@@ -20,6 +20,7 @@ class Capstan(Effect):
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "friction": Parameter("mu_e", "1", 0.0, 2.0, False, "added to the friction of cables on discs", 0.0, 0.1)
     }
+    uses_cables = True
     needs_tension = True
     source = "thesis Eqs. 14 and 15; Kaneko, Yamashita and Tanie, ICAR 1991 (transmission of tendon drives)"
     in_words = "The cables rub in the holes of the discs, so that less of the pull reaches the tip."
