@@ -11,7 +11,7 @@ from blind.moreau.compiled import compiled
 from blind.moreau.joints import push
 from blind.moreau.linear import back, dot, factorise, forward
 from blind.moreau.mechanism import Mechanism
-from blind.moreau.state import CABLES, ROWS, STOPS, State
+from blind.moreau.state import CABLES, DISCS, ROWS, STOPS, State
 from blind.plant.parameters import JOINTS
 
 TOLERANCE = 1e-9  # of velocities, over the largest one without impulses or 1
@@ -100,6 +100,16 @@ def stop_plays(laws: Laws, chain: Chain, q: np.ndarray, dt: float) -> None:
                 laws.direction[row, k] = sign
                 laws.high[row] = np.inf
                 laws.wanted[row] = -(chain.stop[k] + sign * q[k]) / dt
+
+
+@compiled
+def stop_discs(laws: Laws, m: Mechanism, chain: Chain, angle: np.ndarray) -> None:
+    """Joints at angles (5,) [rad] bend no farther than where their discs' holes meet."""
+    most = 2 * np.arctan2(m.half_spacing, m.hole_radius)
+    for i in range(JOINTS):
+        if abs(angle[i]) > most:
+            laws.high[DISCS + i] = np.inf
+            push(chain, i, -np.sign(angle[i]), laws.direction[DISCS + i])
 
 
 @compiled

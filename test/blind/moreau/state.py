@@ -10,11 +10,12 @@ from blind.moreau.mechanism import Mechanism
 from blind.plant.parameters import JOINTS
 
 ELEMENTS = 16  # of a joint's friction that gives before it slips
-# rows of a step's impulses: the joints' friction, the strap's, the cables' at the discs, stops on either side
+# rows of a step's impulses: friction of joints, strap and cables at the discs, stops of plays, discs that meet
 STRAP = JOINTS
 CABLES = STRAP + 1
 STOPS = CABLES + 2 * JOINTS
-ROWS = STOPS + 2 * JOINTS
+DISCS = STOPS + 2 * JOINTS
+ROWS = DISCS + JOINTS
 
 
 class State(NamedTuple):

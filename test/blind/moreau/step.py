@@ -18,7 +18,7 @@ from blind.moreau.cables import lengths, slopes
 from blind.moreau.chain import Chain, equations, gravity, to_hinges
 from blind.moreau.compiled import compiled, digest_of_sources, kept
 from blind.moreau.joints import add_magnets_and_rubbing, add_presliding, add_springs, angles, dry_friction, push
-from blind.moreau.laws import Laws, move, no_laws, rub, rub_cables, rub_joints, stop_plays
+from blind.moreau.laws import Laws, move, no_laws, rub, rub_cables, rub_joints, stop_discs, stop_plays
 from blind.moreau.linear import dot
 from blind.moreau.loads import carried
 from blind.moreau.mechanism import Mechanism
@@ -73,6 +73,7 @@ def step(m: Mechanism, chain: Chain, state: State, command: np.ndarray, let_go: 
     if m.strap > 0.0:
         add_strap(m, chain, turned, v, torque, mass, laws, dt)
     stop_plays(laws, chain, state.q, dt)
+    stop_discs(laws, m, chain, angle)
     for k in range(n):
         mass[k, k] += 0.5 * dt * chain.viscous[k] + 0.25 * dt**2 * slope[k]
 
@@ -128,7 +129,7 @@ def compiled_advance() -> Callable[..., Any]:
         """Advance while tensions go from ``first`` to ``last`` (2,) [N], by ``steps`` of ``dt`` [s].
 
         Absolute angles [rad] and rates [rad/s] of the links at so many instants, evenly from the beginning on, go to
-        ``angle`` and ``rate`` (k, 5).
+        ``angle`` and ``rate`` (k, 5). What it returns, the sources' digest, is there to be a part of the cache's key.
         """
         every = steps // len(angle)
         for part in range(steps):

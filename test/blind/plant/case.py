@@ -145,8 +145,8 @@ def make_case(
     files, clean, of_file = {}, {}, {}
     for number, (regime, side, rng) in enumerate(zip(regimes, sides, recordings, strict=True), start=1):
         moving, drawn, sensing, noisy = rng.spawn(4)
-        arm = machine(p, chosen, drawn, steps, duration(regime, seconds))
-        run = release(arm, moving, side, hold) if regime == RELEASE else driven(arm, moving, regime, seconds, hold)
+        built = machine(p, chosen, drawn, steps, duration(regime, seconds))
+        run = release(built, moving, side, hold) if regime == RELEASE else driven(built, moving, regime, seconds, hold)
         reading = Reading(JOINTS, chosen, sensing)
         name = f"run_{number}.csv"
         clean[name] = reading.take(run.motion, Noise(), np.random.default_rng(0))[0]
