@@ -98,6 +98,21 @@ class Effect:
         """
         return np.zeros(self.n_states(theta.size))
 
+    def torque_along(self, motion: Array, slip: Array, length: Array, own: Own, p: Parameters) -> Array | None:
+        """Torque along a measured motion, as `torque`, (rows, n) [N m], of an effect whose states are too stiff for that.
+
+        A measured motion errs by more than the width of a stop. Such an effect gives here what its equations tend to
+        as its stops harden; others give None, and their states are integrated.
+
+        Args:
+            motion: angles, rates and accelerations, (rows, 3, n) [rad, rad/s, rad/s2].
+            slip: rates that dry friction sees, (rows, n) [rad/s].
+            length: of each row in time, (rows,) [s].
+            own: the effect's own parameters, numbers.
+            p: parameters of Eq. 12 as all effects make them, numbers.
+        """
+        return None
+
     def measure(self, seen: Reading, own: Own) -> Reading:
         """What the sensors make of what they see, of every sample by itself; affine in the motion."""
         return seen

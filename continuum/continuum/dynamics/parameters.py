@@ -26,6 +26,8 @@ class Parameter:
         default: used where a model file leaves it out; None makes it required.
         typical: size that it has where it matters, the scale of fits; without, the model's own value is.
         per_recording: differs from recording to recording, as a sensor's offset after each start.
+        ordinary: standard deviation by which parts of one batch differ; a diagnosis allows for it and names nothing.
+        shape: says what an effect looks like, not how large it is, though its default is 0.
         optional: without a default and not required: an arm may have no such thing, its model then no such value.
     """
 
@@ -39,6 +41,8 @@ class Parameter:
     typical: float | None = None
     per_recording: bool = False
     optional: bool = False
+    ordinary: float = 0.0
+    shape: bool = False
 
     @property
     def allowed(self) -> str:

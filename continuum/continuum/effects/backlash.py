@@ -25,7 +25,7 @@ from continuum.dynamics.effect import Effect, Own
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.eq12_spring_torque import spring_torque
-from continuum.dynamics.planar.eq13_joint_friction import joint_friction
+from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, joint_friction
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.rounded import rounded_size
 
@@ -34,6 +34,7 @@ _STOP_DAMPING = 10.0  # N m s/rad
 _CORNER = 1e-4  # rad
 _BALL = 1e-6  # kg m2
 _NEWTON_STEPS = 12
+_LEAST_VISCOUS = 1e-6  # N m s/rad, and N m/rad
 
 
 class Backlash(Effect):
@@ -65,6 +66,26 @@ class Backlash(Effect):
         held = _spring(move.theta - y, p) + joint_friction(move.theta_rate - moving, p)
         ball = _BALL * (move.theta_acceleration - speeding) + held - _stops(y, moving, own, p)
         return np.concatenate([y_rate - moving, ball])
+
+    def torque_along(self, motion: Array, slip: Array, length: Array, own: Own, p: Parameters) -> Array:
+        """With hard stops and a ball without inertia: T is that of spring and friction while a stop takes the ball along.
+
+        Between the stops the ball rests by its dry friction, or yields to its spring against the viscous one.
+        """
+        theta, rate, gap = motion[:, 0], motion[:, 1], own["gap"]
+        taken = spring_torque(theta, p) + joint_friction(rate, p, slip)
+        friction, held = joint_friction(rate, p, slip), break_away_torque(p)
+        yielding = -np.expm1(-np.outer(length, p.stiffness / np.maximum(p.viscous_friction, _LEAST_VISCOUS)))
+        ball, T = theta[0] - gap * np.sign(theta[0] - p.rest_angle), np.empty_like(theta)
+        for k in range(len(theta)):
+            pulled = spring_torque(ball, p)
+            beyond = np.maximum(np.abs(pulled) - held, 0.0)
+            ball = ball - np.sign(pulled) * beyond * yielding[k] / np.maximum(p.stiffness, _LEAST_VISCOUS)
+            passed = theta[k] - ball
+            touching = np.abs(passed) > gap
+            ball = np.where(touching, theta[k] - gap * np.sign(passed), ball)
+            T[k] = np.where(touching, spring_torque(ball, p) + friction[k], 0.0)
+        return np.asarray(T - taken)
 
     def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
         """The ball pulled against its stop by its spring, friction aside; by Newton's method from beyond that stop."""

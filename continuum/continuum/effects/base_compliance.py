@@ -16,7 +16,7 @@ and 100 mm, 0.003 kg m^2, swings on it at 90 rad/s.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import ClassVar
 
@@ -49,6 +49,11 @@ class BaseCompliance(Effect):
     looks_like = "A second, faster swing rides on the first; all joints take part, and rest angles change little."
     experiment = "Put a sensor on the base plate, or brace the plate, and release again."
     state_spread = 0.01
+    beginnings: ClassVar[Sequence[Mapping[str, float]]] = [
+        {"compliance": compliance, "frequency": frequency}
+        for compliance in (0.012, 0.04, 0.12)
+        for frequency in (40.0, 100.0)
+    ]
 
     def n_states(self, n_joints: int) -> int:
         """psi [rad] and its rate [rad/s]."""

@@ -18,7 +18,9 @@ class Capstan(Effect):
 
     name = "capstan"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "friction": Parameter("mu_e", "1", 0.0, 2.0, False, "added to the friction of cables on discs", 0.0, 0.1)
+        "friction": Parameter(
+            "mu_e", "1", 0.0, 2.0, False, "added to the friction of cables on discs", 0.0, 0.1, ordinary=0.02
+        )
     }
     uses_cables = True
     needs_tension = True

@@ -17,7 +17,7 @@ take 5 to 50 ms. The arm's cables move at 0.1 m/s, so 1 kN/m and 10 ms change th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 import numpy as np
@@ -42,6 +42,11 @@ class ElasticCable(CableStates):
     }
     uses_cables = True
     needs_tension = True
+    beginnings: ClassVar[Sequence[Mapping[str, float]]] = [
+        {"lag": 0.01, "stiffness": 1500.0},
+        {"lag": 0.03, "stiffness": 500.0},
+        {"lag": 0.08, "stiffness": 170.0},
+    ]
     source = "Camarillo et al., IEEE Trans. Robotics 24, 2008, 1262-1273 (tendons); Hogan, ASME JDSMC 107, 1985"
     in_words = "The cables stretch, and the motors even that out only after a while."
     looks_like = "While the arm moves fast the pull is above or below the command, as the cable is drawn out or let in."

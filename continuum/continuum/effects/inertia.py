@@ -19,8 +19,12 @@ class Inertia(Effect):
 
     name = "inertia"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "mass": Parameter("e_m", "1", -0.9, 10.0, True, "mass of a link by its model's, less 1", 0.0, 0.1),
-        "inertia": Parameter("e_I", "1", -0.95, 50.0, True, "own inertia of a link by its model's, less 1", 0.0, 0.5),
+        "mass": Parameter(
+            "e_m", "1", -0.9, 10.0, True, "mass of a link by its model's, less 1", 0.0, 0.1, ordinary=0.01
+        ),
+        "inertia": Parameter(
+            "e_I", "1", -0.95, 50.0, True, "own inertia of a link by its model's, less 1", 0.0, 0.5, ordinary=0.03
+        ),
     }
     source = "thesis, discussion of Fig. 9; Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119"
     in_words = "A link is heavier or lighter, or its mass lies further out, than in the drawings."

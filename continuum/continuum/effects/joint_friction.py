@@ -19,8 +19,12 @@ class JointFriction(Effect):
 
     name = "joint_friction"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "viscous": Parameter("e_mu", "1", -1.0, 20.0, True, "viscous friction by its model's, less 1", 0.0, 0.5),
-        "coulomb": Parameter("e_c", "1", -1.0, 20.0, True, "Coulomb friction by its model's, less 1", 0.0, 0.5),
+        "viscous": Parameter(
+            "e_mu", "1", -1.0, 20.0, True, "viscous friction by its model's, less 1", 0.0, 0.5, ordinary=0.05
+        ),
+        "coulomb": Parameter(
+            "e_c", "1", -1.0, 20.0, True, "Coulomb friction by its model's, less 1", 0.0, 0.5, ordinary=0.03
+        ),
     }
     source = "thesis Eq. 13; Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, 1083-1138"
     in_words = "A joint is tighter or looser than the others: it wants grease, or has lost its preload."

@@ -34,7 +34,9 @@ class LoadFriction(Effect):
     name = "load_friction"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "radius": Parameter("rho", "m", 0.0, 0.1, False, "radius of a joint's pin times its friction", 0.0, 1e-3),
-        "stribeck": Parameter("S_N", "1", 0.0, 20.0, False, "Stribeck gain of what the load adds", 0.0, 0.7),
+        "stribeck": Parameter(
+            "S_N", "1", 0.0, 20.0, False, "Stribeck gain of what the load adds", 0.0, 0.7, shape=True
+        ),
     }
     source = (
         "Hamon, Gautier and Garrec, IEEE/RSJ IROS 2010 (dry friction depending on load and velocity); "

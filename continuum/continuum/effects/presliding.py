@@ -54,7 +54,9 @@ class Presliding(Effect):
 
     name = "presliding"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "angle": Parameter("sigma", "rad", 0.0, 0.5, False, "by which a stuck joint gives way at tau_c", 0.0, 0.02),
+        "angle": Parameter(
+            "sigma", "rad", 0.0, 0.5, False, "by which a stuck joint gives way at tau_c", 0.0, 0.02, ordinary=0.002
+        ),
         "spread": Parameter("r", "1", 0.4, 1.0, False, "how unlike each other asperities slip", 0.7, 0.1),
     }
     source = "Al-Bender, Lampaert and Swevers, IEEE Trans. Automatic Control 50, 2005, 1883-1887"

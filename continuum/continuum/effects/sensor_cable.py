@@ -34,7 +34,9 @@ class SensorCable(Effect):
         "stiffness": Parameter("k", "N m/rad", 0.0, 100.0, False, "stiffness of the cable at joint 1", 0.0, 0.1),
         "viscous": Parameter("c", "N m s/rad", 0.0, 10.0, False, "viscous drag of the cable", 0.0, 0.01),
         "dry": Parameter("tau", "N m", 0.0, 10.0, False, "dry friction in the cable", 0.0, 0.02),
-        "lever": Parameter("e", "1/rad", -20.0, 20.0, False, "by how much its lever grows with the angle", 0.0, 2.0),
+        "lever": Parameter(
+            "e", "1/rad", -20.0, 20.0, False, "by how much its lever grows with the angle", 0.0, 2.0, shape=True
+        ),
     }
     source = "Papailiou, IEEE Trans. Power Delivery 12, 1997 (bending stiffness and friction of cables)"
     in_words = "The charging cable of the sensors holds back the first joint."

@@ -1,0 +1,163 @@
+"""Coordinates of the baseline: springs and friction common to all joints, of any size that the data ask for.
+
+The sizes from which friction is estimated come from the motion, not from the model file: a file whose friction is far
+off, or zero, must not change an answer. Where the file's values are plausible, their pattern over the joints is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.planar.eq13_joint_friction import dry_friction
+from continuum.dynamics.values import with_vector
+from continuum.estimation.columns import Change, Column, Slope
+from continuum.estimation.motion_equations import packed, torques
+from continuum.estimation.run import Run
+from continuum.estimation.structure import Structure
+
+FRICTION = 0.08
+"""Dry and viscous friction that is expected, as a part of the torque that moves the arm; prior standard deviations are
+of its size."""
+_SHAPES = (0.5, 2.45)  # factors of Stribeck's rate: other shapes of its curve are mixtures of such
+_PRIOR = {"stiffness": 0.5, "viscous": 1.0, "coulomb": 0.6, "stribeck": 1.0, "speed": 0.5}
+_SHAPE_PRIOR = 0.33
+_FAR = 10.0  # times more or less than expected: such a value of a model file is not believed
+_LEAST = 0.02  # part of its reference below which no mass, inertia or spring is a body's
+_RATES = (0.0, 0.5, 1.0, 2.0, 9.0)  # multiples of Stribeck's rate at which dry friction must not be negative
+
+
+@dataclass(frozen=True)
+class Coordinates:
+    """Reference values and the torque of the arm.
+
+    Attributes:
+        structure: of the model.
+        reference: parameter values about which the coordinates count, (n_p,).
+        torque: of the arm, root mean square [N m].
+        steps: change of each coordinate's parameter by one unit, (n,) each.
+    """
+
+    structure: Structure
+    reference: Array
+    torque: float
+    steps: Mapping[str, Array]
+
+    @property
+    def names(self) -> list[str]:
+        """Of the coordinates that this arm has."""
+        return [name for name in _PRIOR if np.any(self.steps[name] != 0)]
+
+    def prior_sd(self, shapes: bool = True) -> Array:
+        """Of the coordinates, and of the shapes of Stribeck's curve."""
+        return np.array([_PRIOR[name] for name in self.names] + [_SHAPE_PRIOR] * len(_SHAPES) * shapes)
+
+    def values(self, theta: Mapping[str, float]) -> Array:
+        """Parameter values at given coordinates, (n_p,)."""
+        p, slots = self.reference.copy(), self.structure.slots
+        p[slots["stiffness"]] += theta.get("stiffness", 0.0) * self.steps["stiffness"]
+        p[slots["viscous_friction"]] += theta.get("viscous", 0.0) * self.steps["viscous"]
+        coulomb, gain = self.reference[slots["coulomb_friction"]], self.reference[slots["stribeck_gain"]]
+        least = 0.02 * self.steps["coulomb"]
+        changed = np.maximum(coulomb + theta.get("coulomb", 0.0) * self.steps["coulomb"], least)
+        rise = np.maximum(coulomb * gain + theta.get("stribeck", 0.0) * self.steps["stribeck"], 0.0)
+        p[slots["coulomb_friction"]], p[slots["stribeck_gain"]] = changed, rise / changed
+        p[slots["viscous_friction"]] = np.maximum(p[slots["viscous_friction"]], 0.0)
+        speed = self.reference[slots["stribeck_speed"]]
+        p[slots["stribeck_speed"]] = np.clip(speed * (1 + theta.get("speed", 0.0)), 0.2 * speed, 5 * speed)
+        return p
+
+    def columns(self, p: Array) -> list[tuple[str, Column]]:
+        """Torque per unit of each coordinate at parameter values p."""
+        found: list[tuple[str, Column]] = [(name, Slope(self._direction(name, p)[:, None])) for name in self.names]
+        return found + [(f"shape_{k}", Change({"stribeck_speed": factor})) for k, factor in enumerate(_SHAPES)]
+
+    def _direction(self, name: str, p: Array) -> Array:
+        slots, out = self.structure.slots, np.zeros(p.size)
+        coulomb, gain = p[slots["coulomb_friction"]], p[slots["stribeck_gain"]]
+        if name == "stiffness":
+            out[slots["stiffness"]] = self.steps[name]
+        elif name == "viscous":
+            out[slots["viscous_friction"]] = self.steps[name]
+        elif name == "coulomb":  # what Stribeck's curve adds stays
+            out[slots["coulomb_friction"]] = self.steps[name]
+            out[slots["stribeck_gain"]] = -gain / coulomb * self.steps[name]
+        elif name == "stribeck":
+            out[slots["stribeck_gain"]] = self.steps[name] / coulomb
+        else:
+            out[slots["stribeck_speed"]] = self.reference[slots["stribeck_speed"]]
+        return out
+
+    def constraints(self, p: Array, columns: Sequence[Column], width: int) -> tuple[Array, Array]:
+        """Rows G and values g, g + G dtheta >= 0 about p: masses, inertias, springs and friction stay positive."""
+        here = self._physical(p)
+        G, at = np.zeros((here.size, width)), 0
+        for column in columns:
+            if isinstance(column, Slope) and not column.changed:
+                for k in range(column.width):
+                    step = 1e-6 * column.directions[:, k]
+                    G[:, at + k] = (self._physical(p + step) - here) / 1e-6
+            elif isinstance(column, Change):
+                there = p.copy()
+                for name, factor in column.factors.items():
+                    there[self.structure.slots[name]] *= factor
+                G[:, at] = self._physical(there, p) - here
+            at += column.width
+        return G, here
+
+    def _physical(self, p: Array, rates_of: Array | None = None) -> Array:
+        """Quantities that must not be negative, over their references."""
+        changed = with_vector(self.structure.model, p).changed_parameters
+        given = with_vector(self.structure.model, self.reference).changed_parameters
+        parts = [
+            np.where(one > 0, two / np.where(one > 0, one, 1.0) - _LEAST, 1.0)
+            for one, two in (
+                (given.stiffness, changed.stiffness), (given.mass, changed.mass), (given.inertia, changed.inertia),
+            )
+        ]  # fmt: skip
+        parts.append(changed.viscous_friction / self.steps["viscous"])
+        speed = (p if rates_of is None else rates_of)[self.structure.slots["stribeck_speed"]]
+        parts += [dry_friction(factor * speed, changed) / self.steps["coulomb"] for factor in _RATES]
+        return np.concatenate([np.broadcast_to(part, (self.structure.n,)) for part in parts]).astype(float)
+
+
+def coordinates(structure: Structure, runs: Sequence[Run]) -> Coordinates:
+    """Coordinates for an arm, their sizes from its recordings."""
+    slots, n = structure.slots, structure.n
+    frictionless = structure.values.copy()
+    for name in ("viscous_friction", "coulomb_friction"):
+        frictionless[slots[name]] = 0.0
+    squares, rates = [], []
+    for run in runs:
+        way = run.first_guess()
+        q, w = run.between(way)
+        rows = packed(np.stack([q, w, np.zeros_like(q)], axis=1), run.inputs, w, frictionless)
+        squares.append(np.mean(torques(structure.equations, rows, n) ** 2, axis=0))
+        rates.append(np.mean(way.w**2, axis=0))
+    torque = float(np.sqrt(np.median(np.mean(squares, axis=0))))
+    rate = float(np.sqrt(np.median(np.mean(rates, axis=0))))
+    p = structure.values.copy()
+    expected = FRICTION * torque
+    steps = {
+        "stiffness": p[slots["stiffness"]].copy(),
+        "viscous": _reference(p, slots["viscous_friction"], expected / rate),
+        "coulomb": _reference(p, slots["coulomb_friction"], expected),
+        "speed": np.ones(n),
+    }
+    p[slots["stribeck_gain"]] = np.where(
+        (p[slots["stribeck_gain"]] > 0.1) & (p[slots["stribeck_gain"]] < _FAR), p[slots["stribeck_gain"]], 0.7
+    )
+    steps["stribeck"] = np.full(n, max(float(np.mean(steps["coulomb"])), expected))
+    return Coordinates(structure, p, torque, steps)
+
+
+def _reference(p: Array, slot: slice, expected: float) -> Array:
+    """Put plausible values into p; the change by one unit, in the same pattern over the joints."""
+    mean = float(np.mean(p[slot]))
+    if not expected / _FAR < mean < expected * _FAR or np.any(p[slot] <= 0):
+        p[slot] = expected
+    pattern = p[slot] / np.mean(p[slot])
+    return np.asarray(pattern * max(float(np.mean(p[slot])), expected))

@@ -1,0 +1,243 @@
+"""Search for the set of effects with the highest posterior: screen, refine, screen again.
+
+A set is brought to its own optimum before a second effect is looked for beside it: an unconverged trajectory makes
+effects look present that only repair the linearisation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.diagnosis.evidence import Evidence, Set
+from continuum.diagnosis.hypotheses import UNKNOWN, Hypothesis
+from continuum.diagnosis.problem import Linearised, Problem, State, innovations, linearise, moved
+
+PRICE = 6.0
+"""Prior log-odds against one more effect, e^6 = 400 to 1 against any given one of some 60: about one in seven that there
+is one at all. It is also the change of log-evidence below which an iteration has converged."""
+MOST = 2
+"""Effects that are named together at most: three would need more runs than a laboratory makes."""
+RATIO = (1.6, 1.25, 1.1)
+"""By which values of effects that are not linear are changed for differences, iteration by iteration."""
+ITERATIONS = 6
+"""Gauss-Newton steps of one set, at most."""
+RUNNER_UP = 0.6
+"""Part of the best single effect's gain from which another is refined too: screening ranks to within a third."""
+_NEAR = 40.0  # log-evidence below the best single effect: hypotheses beyond are not followed (e^-40 is no chance)
+_FOLLOWED = 8  # single effects from which pairs are made
+_WRONG, _MANY = 5.0, 0.02  # deviations that no interval misses by chance, and part of them that may be freed
+
+type Progress = Callable[[str, float], None]
+
+
+@dataclass
+class Found:
+    """Where a search ended.
+
+    Attributes:
+        lin: the state about the best set, linearised.
+        chosen: the best set, empty where none is better than the baseline.
+        log: what was best at each step, for developers.
+        stages: every set that was refined, for confirmation.
+        before: the search's beginning, without any effect.
+    """
+
+    lin: Linearised
+    chosen: Set
+    log: list[str]
+    stages: list[Found] = field(default_factory=list)
+    before: Linearised | None = None
+
+    @property
+    def baseline(self) -> Found:
+        """The model without any effect."""
+        return Found(self.before or self.lin, (), [])
+
+
+def price(chosen: Set) -> float:
+    """What a set costs before any data."""
+    return PRICE * len(chosen)
+
+
+def label(chosen: Set) -> str:
+    """For tables."""
+    return " + ".join(h.label for h in chosen) or "none"
+
+
+def find(problem: Problem, start: State, progress: Progress) -> Found:
+    """Follow the best single effects to their optimum, add a second where it is better, and keep the best of all."""
+    first = linearise(problem, start)
+    base = first.evidence.total((), with_constraints=True)
+    ranked = ranked_singles(first.evidence, first.library.hypotheses)
+    log = ["singles: " + ", ".join(f"{h.label} {e - base:.0f}" for e, h in ranked[:6])]
+    best = Found(first, (), log)
+    best_score = base
+    live = {h.effect for e, h in ranked if e > ranked[0][0] - max(_NEAR, 0.5 * (ranked[0][0] - base))}
+    tried: list[Found] = []
+    stages: list[Found] = []
+    for number, (e, h) in enumerate(_by_family(ranked)[:3]):
+        if e - base < PRICE or (number and e < base + RUNNER_UP * (ranked[0][0] - base)):
+            break
+        progress(f"refining {h.label}", 0.2 + 0.15 * number)
+        found = refined(problem, first, (h,), live)
+        if found is None:
+            log.append(f"{h.label}: diverged")
+            continue
+        log.append(f"refined {label(found.chosen)}: {found.lin.evidence.total(found.chosen) - base:.0f}")
+        tried.append(found)
+        stages.append(found)
+    for found in sorted(tried, key=_score, reverse=True)[:2]:
+        grown = _with_second(problem, found, live, log, base, stages)
+        if _score(grown) > best_score:
+            best, best_score = grown, _score(grown)
+    return Found(best.lin, best.chosen, log, stages, first)
+
+
+def _score(found: Found) -> float:
+    return found.lin.evidence.total(found.chosen, with_constraints=True) - price(found.chosen)
+
+
+def _explains(found: Found) -> bool:
+    """Whether missing torque is at its lowest levels."""
+    return bool(np.sum(posterior_of_levels(found.lin.evidence, found.chosen)[:2]) > 0.95)
+
+
+def posterior_of_levels(evidence: Evidence, chosen: Set) -> Array:
+    """Posterior of the levels of missing torque, (levels,)."""
+    by_level = evidence.by_level(chosen)
+    p = np.exp(by_level - by_level.max())
+    return np.asarray(p / p.sum())
+
+
+def ranked_singles(evidence: Evidence, hypotheses: Sequence[Hypothesis]) -> list[tuple[float, Hypothesis]]:
+    """All single hypotheses but the free form, the best first."""
+    sets: list[Set] = [(h,) for h in hypotheses if h.effect != UNKNOWN]
+    return [(e, chosen[0]) for e, chosen in evidence.ranked(sets, 0.0, 12)]
+
+
+def _by_family(ranked: Sequence[tuple[float, Hypothesis]]) -> list[tuple[float, Hypothesis]]:
+    """The best hypothesis of each effect."""
+    seen: set[str] = set()
+    out = []
+    for e, h in ranked:
+        if h.effect not in seen:
+            seen.add(h.effect)
+            out.append((e, h))
+    return out
+
+
+def refined(problem: Problem, lin: Linearised, chosen: Set, live: set[str] | None) -> Found | None:
+    """Gauss-Newton steps to a set's own optimum; None where they diverge."""
+    keys = [h.key for h in chosen]
+    effects = {h.effect for h in chosen}
+    before = lin.evidence.total(chosen, with_constraints=True)
+    for iteration in range(ITERATIONS):
+        level = lin.evidence.best_level(chosen)
+        where = lin.levels[level]
+        try:
+            state = moved(lin, chosen, level, where)
+            state = replace(state, ratio=RATIO[min(iteration, len(RATIO) - 1)])
+            near = [k for k in (where - 1, where, where + 1) if 0 <= k < len(problem.levels)]
+            lin = linearise(problem, state, near, effects)
+        except np.linalg.LinAlgError:
+            return None
+        chosen = matching(lin, keys)
+        after = lin.evidence.total(chosen, with_constraints=True)
+        fastest = max(float(np.max(np.abs(way.w))) for way in state.ways)
+        if not np.isfinite(after) or not fastest < 200:
+            return None
+        settled = iteration + 1 >= len(RATIO) or not state.active
+        if settled and abs(after - before) < PRICE / 3:
+            break
+        before = after
+    try:
+        lin = linearise(problem, lin.state, None, live if live is None else live | effects)
+    except np.linalg.LinAlgError:
+        return None
+    return Found(lin, matching(lin, keys), [])
+
+
+def matching(lin: Linearised, keys: Sequence[tuple[str, tuple[int, ...] | None]]) -> Set:
+    """The hypotheses of a new linearisation with these effects and places, the best of each."""
+    out = []
+    for key in keys:
+        same = [h for h in lin.library.hypotheses if h.key == key]
+        out.append(max(same, key=lambda h: (h.start is not None or bool(h.local), lin.evidence.total((h,)))))
+    return tuple(out)
+
+
+def _with_second(
+    problem: Problem, found: Found, live: set[str], log: list[str], base: float, stages: list[Found]
+) -> Found:
+    """The set with a second effect, or another in the place of one, as long as that is better."""
+    best, failed = found, set[str]()
+    for _ in range(4):
+        lin = best.lin
+        alone = lin.evidence.total(best.chosen, with_constraints=True) - price(best.chosen)
+        ranked = ranked_singles(lin.evidence, lin.library.hypotheses)
+        sets: list[Set] = [(h,) for _, h in ranked[:4]]
+        if best.chosen:
+            pool = lin.library.hypotheses
+            sets += [(*best.chosen[:1], h) for h in pool]
+            if len(best.chosen) > 1:
+                sets += [(best.chosen[1], h) for h in pool]
+        possible = [s for s in sets if len(s) <= MOST and compatible(s) and label(s) not in failed]
+        candidates = lin.evidence.ranked(possible, PRICE, 1)
+        if not candidates or candidates[0][0] < alone + PRICE / 3:
+            break
+        chosen = candidates[0][1]
+        if {h.key for h in chosen} == {h.key for h in best.chosen}:
+            break
+        grown = refined(problem, lin, chosen, live)
+        if grown is None or _score(grown) < _score(best) + PRICE / 3:
+            failed.add(label(chosen))
+            log.append(f"{label(chosen)}: no better when refined")
+            continue
+        log.append(f"refined {label(grown.chosen)}: {grown.lin.evidence.total(grown.chosen) - base:.0f}")
+        best = grown
+        stages.append(grown)
+    return best
+
+
+def compatible(chosen: Set) -> bool:
+    """Not the free form, and not one effect twice at one place."""
+    for i, one in enumerate(chosen):
+        if one.effect == UNKNOWN:
+            return False
+        for other in chosen[:i]:
+            if one is other:
+                return False
+            if one.effect == other.effect and (one.joints is None or other.joints is None or set(one.joints) & set(other.joints)):
+                return False
+            if set(one.local) & set(other.local):
+                return False
+    return True
+
+
+def freed(problem: Problem, found: Found) -> State | None:
+    """The state with friction unknown where nothing explains what was measured; None where that is nowhere.
+
+    A joint's friction was taken for known there. No more than a small part of the intervals is freed: what is freed is
+    not explained.
+    """
+    level = found.lin.evidence.best_level(found.chosen)
+    misses = innovations(found.lin, found.chosen, level, found.lin.levels[level])
+    marks, count, total = [], 0, 0
+    for z in misses:
+        wrong = np.flatnonzero(np.max(np.abs(z), axis=1) > _WRONG)
+        wrong = wrong[wrong > 2]
+        marks.append(wrong)
+        count, total = count + wrong.size, total + len(z)
+    if not count or count > _MANY * total:
+        return None
+    modes = []
+    for mode, wrong in zip(found.lin.state.modes, marks, strict=True):
+        free = np.zeros(len(mode.sign), dtype=bool)
+        for row in wrong:
+            free[max(row - 2, 0) : row] = True
+        modes.append(mode.released(free))
+    return replace(found.lin.state, modes=tuple(modes))

@@ -1,0 +1,11 @@
+"""The grey-box state-space model of one recording: physics from Eq. 12 and its effects, the rest as stochastic torque.
+
+State x = (theta, theta', b, d) of n joints: angles [rad], rates [rad/s], slow sensor error [rad], missing torque [N m].
+
+    M(theta) theta'' = tau(theta, theta', u; p) + d,    d' = -d / T_d + noise,    b' = -b / T_b + noise,    y = h(theta) + b + e
+
+Friction is not integrated: from the smoothed trajectory each joint is known to slip, to stick, or to reverse
+(`friction_modes`). The model is linearised along that trajectory (`transition`), its derivatives by all parameters
+(`columns`) pass through one augmented Kalman filter (`augmented_filter`), and what comes out is, for each run, a
+quadratic function of all parameters: the log-likelihood of every hypothesis.
+"""

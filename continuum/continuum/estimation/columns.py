@@ -1,0 +1,304 @@
+"""Columns: torque, or change of a reading, per unit of each coefficient that a hypothesis may use.
+
+All torques come from Eq. 12 with the library's effects along the smoothed motion: derivatives where an effect is linear
+in its size, and the effect's whole torque at a given size where it has states or is not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numba
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.estimation.effect_states import SubstepMotion
+from continuum.estimation.motion_equations import evaluate, packed, torques
+from continuum.estimation.run import Run, Trajectory
+from continuum.estimation.structure import Point, Structure
+
+_DIFFERENCE = 1e-5  # of a sensor's parameter: readings are linear in most of them
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What columns are evaluated along: one run, its trajectory, and the point of linearisation.
+
+    Attributes:
+        structure: of the model.
+        point: of linearisation.
+        number: of the run.
+        run, way, along: rows, trajectory at the rows, and motion between them.
+        sign: of the slip in each interval, (n_times - 1, n).
+        cache: of torques that several columns need.
+    """
+
+    structure: Structure
+    point: Point
+    number: int
+    run: Run
+    way: Trajectory
+    along: SubstepMotion
+    sign: Array
+    cache: dict[object, Array] = field(default_factory=dict)
+
+    def values(self) -> Array:
+        """Values of the compiled model in this run, (n_p,)."""
+        return self.point.values_in(self.structure, self.number)
+
+    def by_parameters(self, changed: Mapping[str, Array] | None = None) -> Array:
+        """Torque at the joints per unit of every parameter, (rows, n_p, n), some values changed beforehand."""
+        key = ("by_parameters", *((name, value.tobytes()) for name, value in (changed or {}).items()))
+        if key not in self.cache:
+            values, s = self.values(), self.structure
+            for name, value in (changed or {}).items():
+                values[s.slots[name]] = value
+            rows = packed(self.along.motion, self.along.u, self.along.slip, values)
+            out = evaluate(s.equations.by_parameters, rows, s.n * (1 + s.equations.n_p))
+            self.cache[key] = -out[:, s.n :].reshape(len(rows), s.equations.n_p, s.n)
+        return self.cache[key]
+
+    def nominal(self) -> Array:
+        """What Eq. 12 misses at the point's values, (rows, n) [N m]."""
+        if "nominal" not in self.cache:
+            self.cache["nominal"] = self.torque(self.values())
+        return self.cache["nominal"]
+
+    def torque(self, values: Array, u: Array | None = None) -> Array:
+        """What Eq. 12 misses at other values, or under other inputs, (rows, n) [N m]."""
+        rows = packed(self.along.motion, self.along.u if u is None else u, self.along.slip, values)
+        return torques(self.structure.equations, rows, self.structure.n)
+
+
+class Column(Protocol):
+    """One or several columns of torque, or of readings."""
+
+    width: int
+
+    def torque(self, scene: Scene) -> Array | None:
+        """(rows, n, width) [N m per unit], None where it only changes readings."""
+
+    def reading(self, scene: Scene) -> Array | None:
+        """(n_times, n_readings, width), None where it only changes torque."""
+
+
+@dataclass(frozen=True)
+class Slope:
+    """Derivative of Eq. 12 along directions in its parameters.
+
+    Attributes:
+        directions: (n_p, width).
+        changed: parameter values at which it is taken, where they are not those of the point.
+    """
+
+    directions: Array
+    changed: Mapping[str, Array] = field(default_factory=dict)
+
+    @property
+    def width(self) -> int:
+        return self.directions.shape[1]
+
+    def torque(self, scene: Scene) -> Array | None:
+        by_p = scene.by_parameters(self.changed)
+        used = np.flatnonzero(np.any(self.directions != 0, axis=1))
+        return np.einsum("rpn,pk->rnk", by_p[:, used], self.directions[used], optimize=True)
+
+    def reading(self, scene: Scene) -> Array | None:
+        return None
+
+
+@dataclass(frozen=True)
+class Change:
+    """Torque at other values of some parameters less that at the point's, one column.
+
+    Attributes:
+        factors: by which values are multiplied, by parameter.
+    """
+
+    factors: Mapping[str, float]
+    width: int = 1
+
+    def torque(self, scene: Scene) -> Array | None:
+        there = scene.values()
+        for name, factor in self.factors.items():
+            there[scene.structure.slots[name]] *= factor
+        return (scene.torque(there) - scene.nominal())[:, :, None]
+
+    def reading(self, scene: Scene) -> Array | None:
+        return None
+
+
+@dataclass(frozen=True)
+class StatefulTorque:
+    """Whole torque of an effect with states at given values; split by joints where it acts at each joint by itself.
+
+    Attributes:
+        effect: by name.
+        own: its values, (n,) or (1,) each.
+        joints: whose rows make a column each; all rows one column without.
+    """
+
+    effect: str
+    own: Mapping[str, Array]
+    joints: tuple[int, ...] = ()
+
+    @property
+    def width(self) -> int:
+        return max(len(self.joints), 1)
+
+    def torque(self, scene: Scene) -> Array | None:
+        added = stateful_torque(scene, self.effect, self.own)
+        if not self.joints:
+            return added[:, :, None]
+        out = np.zeros((*added.shape, len(self.joints)))
+        for k, j in enumerate(self.joints):
+            out[:, j, k] = added[:, j]
+        return out
+
+    def reading(self, scene: Scene) -> Array | None:
+        return None
+
+
+def stateful_torque(scene: Scene, effect: str, own: Mapping[str, Array]) -> Array:
+    """What an effect with states adds along the scene's motion, (rows, n) [N m]."""
+    key = (effect, *((name, value.tobytes()) for name, value in own.items()))
+    if key not in scene.cache:
+        scene.cache[key] = scene.structure.stateful[effect].torque(scene.along, scene.values(), own, scene.nominal())
+    return scene.cache[key]
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Half the difference of two columns: a Gauss-Newton column of what a parameter changes."""
+
+    above: Column
+    below: Column
+
+    @property
+    def width(self) -> int:
+        return self.above.width
+
+    def torque(self, scene: Scene) -> Array | None:
+        above, below = self.above.torque(scene), self.below.torque(scene)
+        return None if above is None or below is None else (above - below) / 2
+
+    def reading(self, scene: Scene) -> Array | None:
+        return None
+
+
+@dataclass(frozen=True)
+class LateInputs:
+    """Torque of inputs that come later by a time, less that of inputs in time, one column."""
+
+    delay: float
+    width: int = 1
+
+    def torque(self, scene: Scene) -> Array | None:
+        return late_torque(scene, self.delay)[:, :, None]
+
+    def reading(self, scene: Scene) -> Array | None:
+        return None
+
+
+def late_torque(scene: Scene, delay: float) -> Array:
+    """The same, (rows, n) [N m]."""
+    key = ("late", delay)
+    if key not in scene.cache:
+        late = scene.run.inputs_later(delay)
+        scene.cache[key] = scene.torque(scene.values(), late) - scene.nominal()
+    return scene.cache[key]
+
+
+@dataclass(frozen=True)
+class SensorSlope:
+    """Derivative of the readings by one parameter of an effect on sensors, a column for each of its joints."""
+
+    effect: str
+    parameter: str
+    size: int
+
+    @property
+    def width(self) -> int:
+        return self.size
+
+    def torque(self, scene: Scene) -> Array | None:
+        return None
+
+    def reading(self, scene: Scene) -> Array | None:
+        own, s = scene.point.by_run[scene.number], scene.structure
+        here = s.readings(scene.run, scene.way.q, scene.way.w, own)
+        out = np.empty((*here.shape, self.size))
+        for j in range(self.size):
+            moved = {name: dict(values) for name, values in own.items()}
+            moved[self.effect][self.parameter] = moved[self.effect][self.parameter].copy()
+            moved[self.effect][self.parameter][j] += _DIFFERENCE
+            out[:, :, j] = (s.readings(scene.run, scene.way.q, scene.way.w, moved) - here) / _DIFFERENCE
+        return out
+
+
+@dataclass(frozen=True)
+class FreeForm:
+    """A torque of any form at each joint: bumps over its angle, dry friction over its angle, dry friction over its rate.
+
+    Attributes:
+        centers: of the bumps over the angle and of those of friction, (n, bumps) each [rad].
+        widths: (n,) each [rad].
+        rates: of the friction over the rate [rad/s].
+    """
+
+    centers: tuple[Array, Array]
+    widths: tuple[Array, Array]
+    rates: tuple[float, ...]
+
+    @property
+    def per_joint(self) -> int:
+        """Columns of a joint."""
+        return self.centers[0].shape[1] + self.centers[1].shape[1] + len(self.rates)
+
+    @property
+    def width(self) -> int:
+        return len(self.centers[0]) * self.per_joint
+
+    def torque(self, scene: Scene) -> Array | None:
+        q, w = scene.along.motion[:, 0], scene.along.motion[:, 1]
+        sign = np.repeat(scene.sign, np.diff(scene.run.first), axis=0)
+        n = q.shape[1]
+        out = np.zeros((len(q), n, n, self.per_joint))
+        for j in range(n):
+            bumps = np.exp(-0.5 * ((q[:, j, None] - self.centers[0][j]) / self.widths[0][j]) ** 2)
+            rubbing = np.exp(-0.5 * ((q[:, j, None] - self.centers[1][j]) / self.widths[1][j]) ** 2)
+            slow = np.stack([np.exp(-((w[:, j] / rate) ** 2)) for rate in self.rates], axis=1)
+            parts = [bumps * (sign[:, j, None] != 0), -sign[:, j, None] * rubbing, -sign[:, j, None] * slow]
+            out[:, j, j] = np.hstack(parts)
+        return out.reshape(len(q), n, -1)
+
+    def reading(self, scene: Scene) -> Array | None:
+        return None
+
+
+def assembled(columns: Sequence[Column], scene: Scene) -> tuple[Array, Array]:
+    """All columns side by side: torque in the substeps, (rows, n, P), and readings, (n_times, n_readings, P)."""
+    P = sum(column.width for column in columns)
+    torque = np.zeros((len(scene.along.length), scene.structure.n, P))
+    reading = np.zeros((*scene.run.readings.shape, P))
+    at = 0
+    for column in columns:
+        part = slice(at, at + column.width)
+        if (added := column.torque(scene)) is not None:
+            torque[:, :, part] = added
+        if (read := column.reading(scene)) is not None:
+            reading[:, :, part] = read
+        at += column.width
+    return torque, reading
+
+
+@numba.njit(cache=True)
+def to_states(W: Array, torque: Array, first: Array) -> Array:
+    """From torque in the substeps to the state at the interval's end, (n_times - 1, 2 n, P)."""
+    out = np.zeros((first.size - 1, W.shape[1], torque.shape[2]))
+    for k in range(first.size - 1):
+        for r in range(first[k], first[k + 1]):
+            out[k] += W[r] @ torque[r]
+    return out

@@ -1,0 +1,120 @@
+"""What each joint's friction does in each interval, read off the smoothed trajectory: it slips, sticks, or reverses.
+
+A slipping joint's dry friction has a known sign. One that sticks or reverses has whatever friction it takes: its
+acceleration is given, none or that of its rates, with small or large process noise, and its friction is not asked. So no
+step of a sign is integrated, and stiction needs no torque to be explained. Modes stay as they are while hypotheses are
+compared: they are part of the likelihood.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.estimation.run import Run, Trajectory
+
+SLIPPING = 0.3
+"""Rate [rad/s] above which the direction of motion is known: five times what a smoothed rate errs by, and Stribeck's
+rate of greased joints, below which friction is least alike."""
+_STUCK, _REVERSING = 0.05, 3.0  # rad/s by which a rate may change within a sample of 1/120 s, one standard deviation
+_SAMPLE = 1 / 120  # s
+_WHITE = 2e-4  # N m sqrt(s): white torque of a slipping joint, 2 mN m over a sample
+_SLOW = 0.4  # rad/s: below, friction is uncertain by part of the Stribeck torque
+_MOVED = 0.5  # part of SLIPPING by which the readings have to move too: smoothing rings where a joint stops
+
+
+@dataclass(frozen=True)
+class FrictionModes:
+    """Modes of every interval, (n_times - 1, n) each.
+
+    Attributes:
+        sign: of the slip, 0 where it is not known.
+        rate_noise: standard deviation of the change of a given rate over the interval; 0 where it slips [rad/s].
+        torque_noise: intensity of white torque of a slipping joint [N m sqrt(s)].
+        acceleration: that a joint has whose friction is not known, by the rates of the trajectory [rad/s2].
+    """
+
+    sign: Array
+    rate_noise: Array
+    torque_noise: Array
+    acceleration: Array
+
+    def released(self, free: Array) -> FrictionModes:
+        """The same, with friction unknown in some intervals of all joints, (n_times - 1,) of bool."""
+        free = free[:, None] & np.ones_like(self.sign, dtype=bool)
+        slipping = free & (self.sign != 0)
+        return replace(
+            self,
+            sign=np.where(free, 0.0, self.sign),
+            rate_noise=np.where(slipping, _REVERSING, self.rate_noise),
+            torque_noise=np.where(free, 0.0, self.torque_noise),
+        )
+
+
+def friction_modes(run: Run, way: Trajectory, stribeck_torque: Array, base_rate: Array | None = None) -> FrictionModes:
+    """Modes along a trajectory.
+
+    Args:
+        run: its readings.
+        way: the smoothed trajectory.
+        stribeck_torque: by which friction at rest exceeds that of fast motion, (n,) [N m].
+        base_rate: of the plate under joint 1, which that joint's friction does not see, (n_times,) [rad/s].
+    """
+    w, h = way.w.copy(), run.intervals[:, None]
+    if base_rate is not None:
+        w[:, 0] -= base_rate
+    moving = np.where(np.abs(w) < SLIPPING, 0.0, np.sign(w))
+    one_sided = _without_creep(moving)
+    sign = np.where(one_sided[:-1] == one_sided[1:], one_sided[:-1], 0.0)
+    sign = np.where(sign * _measured_rate(run, base_rate) >= _MOVED * SLIPPING, sign, 0.0)
+    stuck = (moving[:-1] == 0) & (moving[1:] == 0)
+    noise = np.where(stuck, _STUCK, _REVERSING) * np.sqrt(h / _SAMPLE)
+    if base_rate is not None:  # stuck to a plate that moves
+        noise[:, 0] = _REVERSING * np.sqrt(h[:, 0] / _SAMPLE)
+    slowest = _slowest_nearby(np.abs(w))
+    creep = stribeck_torque * np.exp(-((slowest / _SLOW) ** 2)) * np.sqrt(_SAMPLE)
+    slips = sign != 0
+    acceleration = np.where(stuck, 0.0, np.diff(way.w, axis=0) / h)
+    return FrictionModes(
+        np.ascontiguousarray(sign), np.where(slips, 0.0, noise), np.where(slips, _WHITE + creep, 0.0), acceleration
+    )
+
+
+def _without_creep(moving: Array) -> Array:
+    """A joint that is slow for one row within a motion of one sign keeps that sign."""
+    last, following = moving.copy(), moving.copy()
+    last[1:] = np.where(moving[1:] != 0, moving[1:], moving[:-1])
+    following[:-1] = np.where(moving[:-1] != 0, moving[:-1], moving[1:])
+    return np.where(last == following, last, 0.0)
+
+
+def _measured_rate(run: Run, base_rate: Array | None) -> Array:
+    """Rate of each interval by the readings alone, (n_times - 1, n) [rad/s]; 0 where a row was not measured."""
+    n = run.n
+    if run.has_rates:
+        rates, live = run.readings[:, n:], run.live[:, n:]
+        rate = 0.5 * (rates[:-1] + rates[1:])
+    else:
+        live = run.live
+        rate = np.diff(run.readings, axis=0) / run.intervals[:, None]
+    rate = np.where((live[:-1] > 0) & (live[1:] > 0), rate, 0.0)
+    if base_rate is not None:
+        rate[:, 0] -= 0.5 * (base_rate[:-1] + base_rate[1:])
+    return np.asarray(rate)
+
+
+def _slowest_nearby(speed: Array) -> Array:
+    """Least speed at the interval's ends and one row beyond them, (n_times - 1, n)."""
+    least = np.minimum(speed[:-1], speed[1:])
+    least[1:] = np.minimum(least[1:], speed[:-2])
+    least[:-1] = np.minimum(least[:-1], speed[2:])
+    return least
+
+
+def slip_rates(run: Run, way: Trajectory, modes: FrictionModes) -> Array:
+    """Rates that dry friction sees amid the substeps, (rows, n) [rad/s]: of the known sign where a joint slips."""
+    _, w = run.between(way)
+    sign = np.repeat(modes.sign, np.diff(run.first), axis=0)
+    return np.where(sign != 0, sign * np.maximum(sign * w, SLIPPING / 4), w)

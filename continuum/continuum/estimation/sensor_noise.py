@@ -1,0 +1,85 @@
+"""How the sensors err: white noise of a row, and an error that stays alike for a while; and how torque may be missing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.estimation.run import Run
+
+_QUIET = 0.06  # rad/s: what moves less rests, and its third differences are noise
+_ENOUGH = 50  # rows at rest that tell the noise
+_ENOUGH_PAIRS = 200  # rows that tell how neighbours' noise is correlated
+_LEAST_CORRELATION = -0.2  # nearer to zero it is taken for none; two joints that share a sensor have -0.5
+_GAUSS = 1.4826  # standard deviation by median absolute deviation
+_FLOOR = 1e-5  # rad or rad/s, below any sensor's noise
+
+
+@dataclass(frozen=True)
+class NoiseModel:
+    """All that is stochastic.
+
+    Attributes:
+        white: covariance of a row's readings, (n_readings, n_readings) [rad^2, (rad/s)^2].
+        slow: standard deviation of the slow error of each angle, (n,) [rad].
+        slow_time: its correlation time [s].
+        sigma: standard deviation of the missing torque at each joint, (n,) [N m].
+        torque_time: its correlation time [s].
+        start_angle, start_rate: standard deviations of the first state about the trajectory [rad, rad/s].
+    """
+
+    white: Array
+    slow: Array
+    sigma: Array
+    slow_time: float = 1.0
+    torque_time: float = 0.05
+    start_angle: float = 0.1
+    start_rate: float = 5.0
+
+    def at(self, sigma: Array) -> NoiseModel:
+        """The same with another missing torque, (n,) [N m]."""
+        return replace(self, sigma=sigma)
+
+
+def white_noise(runs: Sequence[Run]) -> Array:
+    """Covariance of a row by third differences where joints rest, (n_readings, n_readings).
+
+    Where none rests long enough, the quietest quarter of all differences counts. Joints that are differences of the
+    same links' sensors have correlated noise; that is estimated from neighbours.
+    """
+    n, size = runs[0].n, runs[0].readings.shape[1]
+    covariance = np.zeros((size, size))
+    rates = [_smooth_rates(run) for run in runs]
+    for begin in range(0, size, n):
+        part = slice(begin, begin + n)
+        thirds = np.concatenate([np.diff(run.readings[:, part], 3, axis=0) / np.sqrt(20) for run in runs])
+        live = np.concatenate([_all_four(run.live[:, part] > 0) for run in runs])
+        rests = live & np.concatenate([_all_four(np.abs(rate) < _QUIET) for rate in rates])
+        sd = np.empty(n)
+        for j in range(n):
+            quiet = np.abs(thirds[rests[:, j], j])
+            moving = np.abs(thirds[live[:, j], j])
+            sd[j] = np.median(quiet) if quiet.size > _ENOUGH else np.quantile(moving, 0.25) / 0.47
+        sd = np.maximum(np.full(n, _GAUSS * np.median(sd)), _FLOOR)
+        x = np.clip(thirds / sd, -3, 3)
+        both = rests[:, 1:] & rests[:, :-1]
+        rho = float(np.mean((x[:, 1:] * x[:, :-1])[both])) if both.sum() > _ENOUGH_PAIRS else 0.0
+        rho = max(rho, -0.49) if rho < _LEAST_CORRELATION else 0.0
+        neighbours = np.eye(n, k=1) + np.eye(n, k=-1)
+        covariance[part, part] = np.outer(sd, sd) * (np.eye(n) + rho * neighbours)
+    return covariance
+
+
+def _smooth_rates(run: Run) -> Array:
+    """Means over nine rows of the first guess's rates, (n_times, n) [rad/s]."""
+    w = run.first_guess().w
+    window = np.ones(min(9, len(w))) / min(9, len(w))
+    return np.stack([np.convolve(column, window, "same") for column in w.T], axis=1)
+
+
+def _all_four(rows: Array) -> Array:
+    """Whether something holds in four rows that follow each other, (n_times - 3, n)."""
+    return np.asarray(rows[:-3] & rows[1:-2] & rows[2:-1] & rows[3:])

@@ -1,0 +1,134 @@
+"""What an estimation knows of physics: one compiled model with all effects that have no states, and those that have.
+
+Effects without states are all in the compiled model, absent at first, so that one function gives every derivative.
+Effects with states are run along the motion one by one. Those that act on sensors act on readings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.effect import Effect
+from continuum.dynamics.effect_lookup import effect_named, effect_names
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.reading import Reading
+from continuum.dynamics.values import parameter_slots, parameter_vector
+from continuum.estimation.augmented_filter import Measurement
+from continuum.estimation.effect_states import EffectAlongMotion
+from continuum.estimation.motion_equations import MotionEquations
+from continuum.estimation.run import Run, Trajectory
+
+_MECHANICAL = ("change_parameters", "move_base", "pull", "torque")
+
+
+def overrides(effect: Effect, *hooks: str) -> bool:
+    """Whether an effect defines any of these hooks."""
+    return any(getattr(type(effect), hook) is not getattr(Effect, hook) for hook in hooks)
+
+
+def absent_values(effect: Effect, n: int) -> dict[str, Array]:
+    """The effect's parameters where it is absent, (n,) or (1,) each."""
+    return {
+        name: np.asarray(spec.array(spec.default, n, name), dtype=float) for name, spec in effect.parameters.items()
+    }
+
+
+class Structure:
+    """The compiled model of one kind of arm and all effects that may be added to it.
+
+    Args:
+        model: of the arm; effects that it has already stay as they are.
+        effects: names of those that may be added; all that are installed without.
+        with_tension: whether a cable ever pulls; else effects that need it are left out.
+    """
+
+    def __init__(self, model: Model, effects: Sequence[str] | None = None, with_tension: bool = True) -> None:
+        n, present = model.n_joints, {active.effect.name for active in model.effects}
+        names = effect_names() if effects is None else effects
+        offered = [effect_named(name) for name in names if name not in present]
+        self.offered = [effect for effect in offered if with_tension or not effect.needs_tension]
+        known = [*(active.effect for active in model.effects), *self.offered]
+        values = {active.effect.name: dict(active.values) for active in model.effects}
+        plain = [e for e in known if e.n_states(n) == 0 and overrides(e, *_MECHANICAL)]
+        active = tuple(ActiveEffect(e, values.get(e.name) or absent_values(e, n)) for e in plain)
+        self.given, self.model = model, replace(model, effects=active)
+        self.n = n
+        self.equations = MotionEquations(self.model)
+        self.slots = parameter_slots(self.model)
+        self.stateful = {e.name: EffectAlongMotion(self.model, e) for e in known if e.n_states(n) > 0}
+        self.sensors = [e for e in known if overrides(e, "measure")]
+        self.late = [e for e in known if overrides(e, "late")]
+        self.plain = plain
+
+    def compile(self) -> None:
+        """Make all machine code, or find it in its cache."""
+        _ = self.equations.linear, self.equations.inertia, self.equations.by_parameters, self.equations.torque
+        for along in self.stateful.values():
+            if not overrides(along.effect, "torque_along"):
+                along.compile()
+
+    @cached_property
+    def values(self) -> Array:
+        """Parameter values of the compiled model as given, (n_p,)."""
+        return parameter_vector(self.model)
+
+    def measurement(self, run: Run, way: Trajectory, own: Mapping[str, Mapping[str, Array]]) -> Measurement:
+        """Readings of a trajectory, and their derivative by it.
+
+        Args:
+            run, way: rows and trajectory.
+            own: values of the effects on sensors, by effect and parameter.
+        """
+        expected = self.readings(run, way.q, way.w, own)
+        n, unit = self.n, np.eye(self.n)
+        still = np.zeros((n + 1, n))
+        at = run.times[: n + 1]
+        moved = np.concatenate([unit, np.zeros((1, n))])
+        by_angle = self._read(at, moved, still, own, run.times[0])
+        by_rate = self._read(at, still, moved, own, run.times[0])
+        nothing = self._read(at, still, still, own, run.times[0])
+        H = np.hstack([(by_angle - nothing)[:n].T, (by_rate - nothing)[:n].T])
+        return Measurement(expected, np.ascontiguousarray(H if run.has_rates else H[:n]))
+
+    def readings(self, run: Run, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]]) -> Array:
+        """What the sensors read of a motion, (n_times, n_readings)."""
+        both = self._read(run.times, q, w, own, run.times[0])
+        return both if run.has_rates else both[:, : self.n]
+
+    def _read(self, times: Array, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]], begun: float) -> Array:
+        seen = Reading(times, q, w, float(begun))
+        for effect in self.sensors:
+            if effect.name in own:
+                seen = effect.measure(seen, own[effect.name])
+        return np.hstack([seen.theta, seen.theta_rate])
+
+
+@dataclass(frozen=True)
+class Point:
+    """Values about which a model is linearised.
+
+    Attributes:
+        values: of the compiled model, (n_p,).
+        stateful: of the effects with states that are in the model, by effect and parameter.
+        delay: by which readings are later than inputs [s].
+        by_run: of what each recording has for itself, and of the sensors, by effect and parameter.
+    """
+
+    values: Array
+    stateful: Mapping[str, Mapping[str, Array]]
+    delay: float
+    by_run: tuple[Mapping[str, Mapping[str, Array]], ...]
+
+    def values_in(self, structure: Structure, run: int) -> Array:
+        """Values of the compiled model in one recording, (n_p,)."""
+        values = self.values.copy()
+        for effect, own in self.by_run[run].items():
+            for name, value in own.items():
+                if (slot := structure.slots.get(f"{effect}.{name}")) is not None:
+                    values[slot] = value
+        return values
