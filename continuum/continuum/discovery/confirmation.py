@@ -1,100 +1,115 @@
-"""Free runs of held-out recordings bear a verdict out, or do not (step 8 of docs/discovery.md)."""
+"""Confirmation by the exact equations: open-loop simulation from the smoothed states, without a refit.
+
+What smoothing explains between the samples, a simulation that is left to itself may not confirm. A set of effects is
+worth what it closes of the distance between the refitted baseline's open-loop error and the noise.
+"""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
-from continuum.discovery.evidence import is_adequate
-from continuum.discovery.measured_gain import RunScore, closed_gap, is_far, is_open, is_vague
-from continuum.discovery.verdict import Kind, Verdict
+import numpy as np
 
-MOST_CLOSED, ALL_CLOSED = 0.8, 0.95
-"""Parts of the distance to the noise that name a cause whose model leaves windows unexplained: the first where most of
-them are explained, the second where it is the free runs alone that are."""
-_LEAST_CLOSED = 1 / 3  # of the distance to the noise floor, by a cause; those that are right close half or more
-_AWAY, _LEAST_OF_A_RUN = 4.0, 0.25  # noise floors, and what a run so far away comes nearer by; mostly by half or more
-_WORSE = 1.05  # times the error without the extension
-_NOTICED = 0.05  # of it: less is no help
-_TELLING, _FEWEST = 2.0, 3  # noise floors, from which on a run is away; runs that tell a cause by themselves
+from continuum.arrays import Array
+from continuum.discovery.problem import Problem, State, point_of
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.trajectory import SimulationStatus
+from continuum.dynamics.values import with_vector
+from continuum.recordings.recording import Recording
+
+_TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
+
+SEGMENT = 2.0
+"""Longest stretch that is simulated at once [s]: an arm forgets its beginning by friction within about that."""
 
 
-def confirmed(
-    verdict: Verdict, before: Sequence[RunScore], after: Sequence[RunScore], beside: Sequence[RunScore] = ()
-) -> Verdict:
-    """The verdict, unless its model does not predict runs that were held out: then its cause is not the one.
+@dataclass(frozen=True)
+class OpenLoop:
+    """Simulations of all recordings from a state's estimates.
 
-    Windows as short as these are explained by what only looks like the cause, a free run is not: it comes nearer to the
-    noise, where it was away from it, in every run that was far away, ends far off in none, and is worse in half of them
-    at most. Where the model without it is adequate, nothing has to be explained, and that model it is; but no model is
-    whose free runs end far from what was measured. What leaves windows unexplained is the cause nevertheless where free
-    runs come to the noise, nearly where it explains most windows: where joints stick and slip a right model leaves some
-    windows unexplained, begun a little wrong, but a wrong one hardly follows whole runs that it was not fitted to. The
-    best other effect must not come there as well, and confidence is no more than the part that is closed.
+    Attributes:
+        angles: as the sensors would read them, by run, (n_times, n) each [rad]; NaN where a simulation failed.
+        errors: root mean square over rows and joints, (runs,) [rad].
+        floor: of the sensors' noise [rad].
+    """
+
+    angles: tuple[Array, ...]
+    errors: Array
+    floor: float
+
+    @property
+    def completed(self) -> bool:
+        """Whether every simulation ended well."""
+        return bool(np.all(np.isfinite(self.errors)))
+
+
+class Confirmation:
+    """Open-loop simulations of the states of one problem.
 
     Args:
-        verdict: of windows.
-        before, after: free runs of the model without and with what is named.
-        beside: of the model with the best other effect instead; none where there is none.
+        problem: whose runs are simulated.
+        recordings: with the inputs of the runs.
     """
-    if verdict.to_close is not None and _comes_to_the_noise(before, after, verdict.to_close):
-        if beside and closed_gap(before, beside) >= MOST_CLOSED:
-            return replace(verdict, to_close=None)
-        closed = min(1.0, closed_gap(before, after))
-        causes = tuple(replace(cause, confidence=closed * cause.confidence) for cause in verdict.causes)
-        return replace(verdict, kind=Kind.CAUSE, causes=causes)
-    if verdict.kind is Kind.ADEQUATE:
-        if is_far(before):
-            return replace(verdict, kind=Kind.UNKNOWN, predicts=False)
-        return replace(verdict, vague=True) if is_vague(before) else verdict
-    named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
-    if not named:  # what helps in windows alone has not helped
-        helps_nowhere = bool(verdict.causes) and is_open(before) and closed_gap(before, after) < _NOTICED
-        return replace(verdict, predicts=False) if helps_nowhere else verdict
-    if _bear_out(before, after):
-        return verdict
-    if is_adequate(verdict.baseline) and not is_far(before):
-        share = verdict.unexplained[0], verdict.unexplained[0]
-        best = verdict.baseline
-        return Verdict(Kind.ADEQUATE, (), (), best, best, share, vague=is_vague(before))
-    return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", predicts=False)
+
+    def __init__(self, problem: Problem, recordings: tuple[Recording, ...]) -> None:
+        self._problem, self._recordings = problem, recordings
+        self._simulators: dict[tuple[str, ...], Simulator] = {}
+
+    @cached_property
+    def floor(self) -> float:
+        """Root mean square of the white noise of an angle [rad]."""
+        n = self._problem.structure.n
+        return float(np.sqrt(np.mean(np.diag(self._problem.noise.white)[:n])))
+
+    def simulate(self, state: State) -> OpenLoop:
+        """Every run from the state's smoothed beginning."""
+        point, s = point_of(self._problem, state), self._problem.structure
+        angles, errors = [], []
+        for r, (run, way, recording) in enumerate(zip(self._problem.runs, state.ways, self._recordings, strict=True)):
+            model = extended_model(self._problem, state, r)
+            stateful = tuple(active.effect.name for active in model.effects if active.effect.name in s.stateful)
+            if stateful not in self._simulators:
+                self._simulators[stateful] = Simulator(model, _TOLERANCES)
+            simulator = self._simulators[stateful].around(model)
+            delay = sum(float(own[name][0]) for e in s.late if (own := state.active.get(e.name)) for name in e.parameters)
+            inputs = replace(recording.inputs_for(s.given), held=run.held)
+            q, w = np.full_like(way.q, np.nan), np.full_like(way.q, np.nan)
+            for begin, end in _segments(run.times):
+                x = _beginning(model, way.q[begin], way.w[begin], run.inputs[run.first[begin]])
+                found = simulator.run(x, run.times[begin:end], inputs.later(delay))
+                if found.status is SimulationStatus.COMPLETE:
+                    q[begin:end], w[begin:end] = found.theta, found.theta_rate
+            read = s.readings(run, q, w, point.by_run[r])[:, : s.n]
+            angles.append(read)
+            off = np.where(run.live[:, : s.n] > 0, read - run.readings[:, : s.n], 0.0)
+            errors.append(float(np.sqrt(np.mean(off**2))))
+        return OpenLoop(tuple(angles), np.array(errors), self.floor)
 
 
-def contradicted(verdict: Verdict) -> Verdict:
-    """The verdict where recordings contradict themselves: what an arm does of which they are not is unknown."""
-    return replace(verdict, kind=Kind.UNKNOWN, alternatives=(), experiment="", vague=False, at_odds=True)
+def extended_model(problem: Problem, state: State, run: int) -> Model:
+    """The model with a state's values, in one recording; effects on sensors are left out."""
+    s, point = problem.structure, point_of(problem, state)
+    base = with_vector(s.model, point.values_in(s, run))
+    added = [ActiveEffect(s.stateful[name].effect, own) for name, own in point.stateful.items()]
+    given = [a for a in s.given.effects if a.effect.name in s.stateful and a.effect.name not in point.stateful]
+    return replace(base, effects=(*base.effects, *given, *added))
 
 
-def _bear_out(before: Sequence[RunScore], after: Sequence[RunScore]) -> bool:
-    """Whether free runs come nearer to the noise where there is a way to go, none ends far off, and few are worse."""
-    worse = [a.position > _WORSE * max(b.position, b.floor) for b, a in zip(before, after, strict=True)]
-    nearer = not is_open(before) or closed_gap(before, after) >= _LEAST_CLOSED
-    nearer &= all(
-        closed_gap([b], [a]) >= _LEAST_OF_A_RUN
-        for b, a in zip(before, after, strict=True)
-        if b.position > _AWAY * b.floor
-    )
-    return nearer and not is_far(after) and sum(worse) <= len(worse) / 2
+def _segments(times: Array) -> list[tuple[int, int]]:
+    """First row and row after the last of each segment."""
+    count = max(1, int(np.ceil((times[-1] - times[0]) / SEGMENT - 0.25)))
+    edges = np.searchsorted(times, np.linspace(times[0], times[-1], count + 1))
+    return [(int(a), int(b) + (b == len(times) - 1)) for a, b in zip(edges[:-1], edges[1:], strict=True) if b - a > 1]
 
 
-def _comes_to_the_noise(before: Sequence[RunScore], after: Sequence[RunScore], least: float) -> bool:
-    """Whether free runs come so near to the noise, also without any single run, and bear the cause out.
+def _beginning(model: Model, q: Array, w: Array, u: Array) -> Array:
+    parts = [q, w]
+    p = model.changed_parameters
+    for active in model.effects:
+        if active.effect.n_states(model.n_joints):
+            parts.append(np.asarray(active.effect.initial_state(q, u, active.values, p), dtype=float))
+    return np.concatenate(parts)
 
-    One that comes below the noise does not pay for another. Where they have to come all the way it has to be one: of
-    three runs or more most were away before, each of these comes most of it, and none ends away.
-    """
-    if not (_bear_out(before, after) and all(math.isfinite(score.position) for score in before)):
-        return False
-    after = [a if a.position > a.floor else replace(a, position=a.floor) for a in after]
-    away = [(b, a) for b, a in zip(before, after, strict=True) if b.position > _TELLING * b.floor]
-    if least >= ALL_CLOSED and (
-        len(before) < _FEWEST
-        or len(away) <= len(before) / 2
-        or any(closed_gap([b], [a]) < MOST_CLOSED for b, a in away)
-        or any(a.position > _TELLING * a.floor for a in after)
-    ):
-        return False
-    pairs = list(zip(before, after, strict=True))
-    parts = [pairs, *(pairs[:i] + pairs[i + 1 :] for i in range(len(pairs)) if len(pairs) > 1)]
-    return all(closed_gap(*zip(*part, strict=True)) >= least for part in parts)

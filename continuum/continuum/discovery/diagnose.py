@@ -1,101 +1,128 @@
-"""Given data, what does the simulation get wrong: noise, baseline, search, verdict."""
+"""`diagnose`: recordings and a model in, an answer out."""
 
 from __future__ import annotations
 
-import os
+import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
-from continuum.discovery.judgement import judge
-from continuum.discovery.question import Question
-from continuum.discovery.round import Round
-from continuum.discovery.rows_asked_again import with_better_rows
-from continuum.discovery.search import Earlier, Tell, search, tell_nobody, until_the_end
-from continuum.discovery.special_cases import worth_trying
-from continuum.discovery.trial import TOLERANCES, Trial
-from continuum.discovery.verdict import Verdict
-from continuum.discovery.workers import workers
-from continuum.dynamics.effect_lookup import effect_named, effect_names
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.candidate import Candidate
+from continuum.discovery.candidates import Examination, Examined, Progress, examine, free_form_gain
+from continuum.discovery.decision import Kind, Verdict, closed, decide
+from continuum.discovery.estimates import baseline_estimates, estimates_of
+from continuum.discovery.extended import model_of
+from continuum.discovery.missing_torque import missing_torque
+from continuum.discovery.problem import Problem
+from continuum.discovery.result import Cause, Diagnosis, Share, is_named
 from continuum.dynamics.model import Model
-from continuum.dynamics.simulator import Simulator
 from continuum.errors import InvalidValueError
-from continuum.identification.arrow_least_squares import FitStatus
-from continuum.identification.baseline import baseline_unknowns, with_dry_friction
-from continuum.identification.dataset import Dataset
-from continuum.identification.noise import SensorKnowledge, estimate_noise
-from continuum.identification.tension_rows import with_likelier_rows
+from continuum.recordings.cable_sides import refuse_swapped_cables
+from continuum.recordings.rate_ratio import odd_rates
+from continuum.recordings.recording import Recording
 
-
-@dataclass(frozen=True)
-class Diagnosis:
-    """The verdict and how it was reached."""
-
-    question: Question
-    rounds: tuple[Round, ...]
-    verdict: Verdict
+TOLERANCE = np.radians(0.5)
+"""Open-loop error [rad] up to which a model is adequate, where no other is asked for: what a protractor tells."""
+_FREE_FORM = 4
+"""Candidates for which a torque of free form is tried, the most probable first."""
 
 
 def diagnose(
-    dataset: Dataset,
+    recordings: Sequence[Recording],
     model: Model,
-    known: SensorKnowledge | None = None,
-    processes: int | None = None,
-    tell: Tell = tell_nobody,
     effects: Sequence[str] | None = None,
+    tolerance: float = TOLERANCE,
+    seed: int = 0,
+    progress: Progress = lambda what, share: None,
 ) -> Diagnosis:
-    """Diagnose a model by data.
+    """Diagnose a model by measured data.
 
     Args:
-        dataset: runs of the arm.
+        recordings: runs of the arm.
         model: with nominal values.
-        known: of the sensors.
-        processes: how many work at once; as many as there are cores without.
-        tell: told of progress.
         effects: names of those to try; all that are installed without.
+        tolerance: open-loop error up to which a model is adequate [rad].
+        seed: of the resampling of runs for intervals.
+        progress: told what is done, and the part of all that is over.
 
     Raises:
-        InvalidValueError: the recordings have another number of joints than the model, an effect is not installed, or
-            no model can be simulated from what was measured.
+        InvalidValueError: no recording, another number of joints or kind of inputs than the model's, a recording twice.
     """
-    if processes is not None and processes < 1:
-        raise InvalidValueError("processes", processes, "1 or more")
-    if dataset.n_joints != model.n_joints:
-        name = dataset.recordings[0].name
-        raise InvalidValueError(f"joints of {name}", dataset.n_joints, f"{model.n_joints}, as the model has")
-    ready = with_dry_friction(model)
-    noise = estimate_noise(dataset.recordings, known)
-    unknowns = tuple(baseline_unknowns(ready))
-    driven = any(recording.is_driven for recording in dataset.recordings)
-    if driven:
-        tell("how tensions go on between rows", 0.0)
-    recordings = with_likelier_rows(Simulator(ready, TOLERANCES), dataset.recordings, noise, unknowns)
-    question = Question(ready, unknowns, recordings, noise)
-    present = {active.effect.name for active in model.effects}
-    asked = [name for name in (effect_names() if effects is None else effects) if name not in present]
-    asked = worth_trying(asked, len(recordings))
-    tried = [name for name in asked if driven or not effect_named(name).needs_tension]
-
-    question, rounds, verdict = _answered(question, tried, processes or os.cpu_count() or 1, tell, driven)
-    if verdict.best.status is FitStatus.NO_SIMULATION:
-        raise InvalidValueError("model", verdict.best.status.value, "one that moves from the angles that were measured")
-    return Diagnosis(question, tuple(rounds), verdict)
+    began = time.process_time()
+    _check(recordings, model, tolerance, seed)
+    found = examine(recordings, model, effects, progress)
+    progress("deciding", 0.9)
+    return _answer(found, recordings, model, tolerance, np.random.default_rng(seed), began)
 
 
-def _answered(
-    question: Question, tried: Sequence[str], processes: int, tell: Tell, asks: bool, earlier: Earlier | None = None
-) -> tuple[Question, list[Round], Verdict]:
-    """The question, with its tensions between rows the other way where a search's best is better so, and the answer."""
-    others: list[tuple[Question, Trial]] = []
+def _answer(
+    found: Examination, recordings: Sequence[Recording], model: Model, tolerance: float, rng: np.random.Generator,
+    began: float,
+) -> Diagnosis:  # fmt: skip
+    problem, base = found.problem, found.baseline
+    tested = [base, *found.others[:_FREE_FORM]]
+    gains = {id(one): free_form_gain(problem, one.found) for one in tested}
+    candidates = {id(one): replace(one.candidate, free_form=gains.get(id(one), np.inf)) for one in (base, *found.others)}
+    baseline = candidates[id(base)]
+    others = [candidates[id(one)] for one in found.others]
+    floor = base.open_loop.floor
+    verdict = decide(baseline, others, problem.coordinates.torque, floor, tolerance, rng)
+    odd = odd_rates(recordings)
+    if odd:  # nothing that is fitted to readings which contradict each other can be trusted
+        verdict = Verdict(Kind.UNKNOWN, (), (), False)
+    by_key = {frozenset(one.candidate.effects): one for one in (base, *found.others)}
+    keys = verdict.sets if is_named(verdict.kind) else ((verdict.helps,) if verdict.helps else ())
+    sets = tuple(_causes(found, by_key[frozenset(key)], baseline, rng) for key in keys)
+    best = by_key[frozenset(keys[0])] if keys else base
+    share = Share(*closed(baseline, best.candidate, floor, rng))
+    before, after = missing_torque(problem, base.found), missing_torque(problem, best.found)
+    return Diagnosis(
+        verdict, sets, share, (before[0], after[0]), (before[1], after[1]), baseline_estimates(problem, best),
+        base.open_loop, best.open_loop, model_of(problem, base.simulable, (), model),
+        model_of(problem, best.simulable, best.candidate.effects, model), tuple(recordings),
+        (*odd, *_notes(recordings, problem, best)), tolerance, time.process_time() - began,
+    )  # fmt: skip
 
-    def is_other(best: Trial) -> bool:
-        tell("how tensions go on between rows, asked again", 1.0)
-        other = with_better_rows(question, best)
-        others.extend([] if other is None else [other])
-        return other is not None
 
-    with workers(question, processes) as make:
-        baseline, rounds = search(make, tried, tell, is_other if asks else until_the_end, earlier)
-    if others:
-        other, best = others[0]
-        return _answered(other, tried, processes, tell, asks=False, earlier=Earlier(baseline, best))
-    return question, rounds, judge(baseline, rounds)
+def _causes(found: Examination, one: Examined, baseline: Candidate, rng: np.random.Generator) -> tuple[Cause, ...]:
+    """Effects of a set; its closed share is divided in proportion to the evidence that each adds."""
+    evidence, chosen = one.found.lin.evidence, one.found.chosen
+    whole = evidence.total(chosen, with_constraints=True)
+    gains = [whole - evidence.total(tuple(h for h in chosen if h is not left), with_constraints=True) for left in chosen]
+    value, low, high = closed(baseline, one.candidate, one.open_loop.floor, rng)
+    parts: Array = np.maximum(gains, 1e-9) / np.sum(np.maximum(gains, 1e-9))
+    return tuple(
+        Cause(h.effect, h.joints, Share(value * part, low * part, high * part), float(gain), estimates_of(found.problem, one, h))
+        for h, part, gain in zip(chosen, parts, gains, strict=True)
+    )
+
+
+def _notes(recordings: Sequence[Recording], problem: Problem, best: Examined) -> tuple[str, ...]:
+    notes = [f"{recording.name}: {note}" for recording in recordings for note in recording.notes]
+    if any(run.is_driven for run in recordings):
+        held = all(run.held for run in problem.runs)
+        notes.append("inputs are taken " + ("to hold until their next row" if held else "to change linearly from row to row"))
+    if len(recordings) < 3:
+        notes.append("few recordings: nothing shows that the answer holds for another run")
+    local = sorted({h.effect for h in best.found.chosen if h.local})
+    if local:
+        notes.append(f"{', '.join(local)}: each recording has its own value, which a model file leaves at zero")
+    return tuple(notes)
+
+
+def _check(recordings: Sequence[Recording], model: Model, tolerance: float, seed: int) -> None:
+    if not recordings:
+        raise InvalidValueError("recordings", 0, "one or more")
+    if not 0 < tolerance < np.inf:
+        raise InvalidValueError("tolerance", tolerance, "an angle > 0")
+    if seed < 0:
+        raise InvalidValueError("seed", seed, "0 or more")
+    for number, one in enumerate(recordings):
+        one.inputs_for(model)
+        refuse_swapped_cables(one)
+        for other in recordings[:number]:
+            if np.array_equal(one.theta, other.theta):
+                raise InvalidValueError("recordings", f"{other.name} and {one.name}", "different runs: these are one")
+

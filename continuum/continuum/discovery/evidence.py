@@ -1,129 +1,360 @@
-"""What trials say against each other: how many windows stay unexplained, and by how much one trial beats another."""
+"""Evidence of hypotheses by linear algebra: coefficients with Gaussian priors and bounds are integrated out.
+
+For run r and a level of the missing torque, -2 log p(y_r | theta) = energy_r - 2 theta' e_r + theta' L_r theta + log_det_r.
+A hypothesis is a linear map H from its coefficients a to theta. Baseline parameters and ordinary differences of parts,
+the nuisances, are integrated out once; what each run has for itself by the Schur complement of its own block.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import erfc, log, sqrt
 
+import numba
 import numpy as np
-from scipy.stats import binom, chi2
 
 from continuum.arrays import Array
-from continuum.discovery.information import information_gain
-from continuum.discovery.trial import Trial
+from continuum.discovery.hypotheses import Hypothesis
+from continuum.estimation.augmented_filter import RunLikelihood
 
-_UNEXPLAINED = 2.0  # misfit of a window beside that of noise, ...
-_RARE = 0.005  # ... or what noise seldom is, where a window holds few errors
-_BY_CHANCE = 0.02  # share of windows that stay so of a right model: sticking joints now and then hold one
-_LOUD = 1.4  # misfit of half of the windows beside that of noise; right models have 0.7 to 1.0
-_CHANCE = 0.01  # probability of as many by chance, below which something is missing
-_CHANCE_OF_CAUSE = 0.1  # the same where a cause is to be named: the wrong one is worse than none
-_SIGNIFICANT = 15.0  # log-likelihood
-_SPREAD, _SURE = 1.5, 2.0  # deviations
-_LOST, _FEWEST = 3.0, 3  # times what a run loses, it gains more; runs of which each tells it
-_STRETCH = 4  # windows, over which errors may hang together
-
-DISTINCT = 8.0
-"""Log-likelihood by which one of two hypotheses must lead to be told from the other."""
+type Set = tuple[Hypothesis, ...]
 
 
 @dataclass(frozen=True)
-class Gain:
-    """What one trial gains over another on windows that neither was fitted to.
+class Nuisance:
+    """Coefficients that every hypothesis has besides its own.
 
     Attributes:
-        log_likelihood: sum over all windows.
-        deviation: standard deviation of that sum, from stretches of windows.
-        rest: the same sum without the run that gains most; of a single run, without its best quarter.
-        least: the sum of the run that tells least, less three times what its stretches lose that lose; of a single
-            run, of its worst quarter. Less than three runs tell nothing by it.
-        information: what the fit gains on all windows, less the price of its unknowns.
+        columns: indices, (k,).
+        sd: prior standard deviations about zero, (k,).
+        constraints, least: rows G theta >= least that keep the baseline physical, (m, P) and (m,).
+        most: largest size of each coefficient, infinite where there is none, (k,).
     """
 
-    log_likelihood: float
-    deviation: float
-    rest: float
-    least: float
-    information: float
+    columns: Array
+    sd: Array
+    constraints: Array
+    least: Array
+    most: Array
 
     @property
-    def is_significant(self) -> bool:
-        """Whether it is more than chance gives with some forty hypotheses tried, worth it, and not one run's doing.
+    def bounds(self) -> tuple[Array, Array]:
+        """Rows and values of -most <= coefficient <= most, (m, k) and (m,)."""
+        used = np.flatnonzero(np.isfinite(self.most))
+        rows = np.zeros((used.size, self.sd.size))
+        rows[np.arange(used.size), used] = 1.0
+        return np.concatenate([rows, -rows]), -np.concatenate([self.most[used]] * 2)
 
-        What acts in one short phase of every run has few stretches to show in: enough where each run tells it alone.
+
+@dataclass(frozen=True)
+class Optimum:
+    """Most probable coefficients of a set within all bounds.
+
+    Attributes:
+        theta: on all columns, (P,).
+        values, sd: of the set's coefficients and their standard deviations.
+        local_columns: what each run has for itself.
+        local: its values, (runs, k).
+        rise: by which the bounds raise minus the log-posterior.
+        covariance: of the set's coefficients.
+    """
+
+    theta: Array
+    values: Array
+    sd: Array
+    local_columns: Array
+    local: Array
+    rise: float
+    covariance: Array
+
+
+class Evidence:
+    """Log-evidence of any set of hypotheses at several levels of the missing torque.
+
+    Args:
+        runs: likelihoods, by level and run, about theta = 0.
+        nuisance: common to all.
+        hypotheses: all that may be asked for.
+        width: number of columns.
+    """
+
+    def __init__(
+        self, runs: Sequence[Sequence[RunLikelihood]], nuisance: Nuisance, hypotheses: Sequence[Hypothesis], width: int
+    ) -> None:
+        self.runs, self.nuisance, self.width = runs, nuisance, width
+        self._at: dict[int, slice] = {}
+        maps, end = [], 0
+        for hypothesis in hypotheses:
+            k = len(hypothesis.columns)
+            self._at[id(hypothesis)] = slice(end, end + k)
+            maps.append(hypothesis.map(width))
+            end += k
+        self._H = np.hstack(maps) if maps else np.zeros((width, 0))
+        self._reduced: dict[tuple[int, ...], tuple[Array, ...]] = {}
+        self._memo: dict[frozenset[int], tuple[Array, Array]] = {}
+        self._constrained: dict[frozenset[int], Array] = {}
+
+    @property
+    def n_levels(self) -> int:
+        """Number of levels."""
+        return len(self.runs)
+
+    def by_level(self, chosen: Set, with_constraints: bool = False) -> Array:
+        """Log-evidence at each level, (n_levels,)."""
+        key = frozenset(id(h) for h in chosen)
+        if key not in self._memo:
+            local, local_sd = local_of(chosen)
+            parts = self._without_nuisances(local, local_sd)
+            index = np.concatenate([np.arange(self._at[id(h)].start, self._at[id(h)].stop) for h in chosen] or [[]])
+            sd = np.concatenate([h.sd for h in chosen] or [[]])
+            least = np.concatenate([h.least for h in chosen] or [[]])
+            found, worst = np.empty(self.n_levels), np.empty(self.n_levels)
+            _evidences(*parts, index.astype(np.int64), sd, least, found, worst)
+            self._memo[key] = found, worst
+        found, worst = self._memo[key]
+        if not with_constraints or not np.any(worst < -1e-9):
+            return found
+        if key not in self._constrained:
+            bounded = found.copy()
+            for k in np.argsort(-found):
+                if found[k] < bounded.max() - 10 and k != int(np.argmax(found)):
+                    continue
+                if worst[k] < -1e-9:
+                    bounded[k] -= self.optimum(chosen, int(k), own_bounds=False).rise
+            self._constrained[key] = bounded
+        return self._constrained[key]
+
+    def total(self, chosen: Set, with_constraints: bool = False) -> float:
+        """Log-evidence with all levels alike beforehand."""
+        return logsum(self.by_level(chosen, with_constraints)) - log(self.n_levels)
+
+    def best_level(self, chosen: Set) -> int:
+        """The most probable level."""
+        return int(np.argmax(self.by_level(chosen, with_constraints=True)))
+
+    def ranked(self, sets: Sequence[Set], price: float, enough: int) -> list[tuple[float, Set]]:
+        """The best sets by log-evidence less a price for each effect, constraints included; at least ``enough``.
+
+        Constraints only lower an evidence, so that they are worked out from the top until no other set can be better.
         """
-        is_no_chance = self._is_beyond(_SPREAD) or self.least > DISTINCT
-        return self.rest > _SIGNIFICANT and is_no_chance and self.information > 0
+        free = sorted(((self.total(s) - price * len(s), i) for i, s in enumerate(sets)), key=lambda pair: -pair[0])
+        found: list[tuple[float, Set]] = []
+        for at, (bound, i) in enumerate(free):
+            best = sorted((value for value, _ in found), reverse=True)
+            if len(best) >= enough and best[enough - 1] >= bound or at > 4 * enough:
+                break
+            if np.isfinite(bound):
+                found.append((self.total(sets[i], with_constraints=True) - price * len(sets[i]), sets[i]))
+        return sorted(found, key=lambda pair: -pair[0])
 
-    @property
-    def is_distinct(self) -> bool:
-        """Whether one of two hypotheses is told from the other by it."""
-        return self.rest > DISTINCT and self._is_beyond(_SPREAD)
+    def _without_nuisances(self, local: tuple[int, ...], local_sd: tuple[float, ...]) -> tuple[Array, ...]:
+        """Information on all hypotheses' coefficients, by level: L, e, constant, constraints and their values."""
+        if local not in self._reduced:
+            parts = [self._reduced_at(level, local, local_sd) for level in range(self.n_levels)]
+            self._reduced[local] = tuple(np.array(part) for part in zip(*parts, strict=True))
+        return self._reduced[local]
 
-    @property
-    def is_sure(self) -> bool:
-        """Whether one of two hypotheses is told from the other by it where either would do by itself."""
-        return self.rest > DISTINCT and self._is_beyond(_SURE)
+    def _reduced_at(self, level: int, local: tuple[int, ...], local_sd: tuple[float, ...]) -> tuple[Array, ...]:
+        L, e, constant = np.zeros((self.width, self.width)), np.zeros(self.width), 0.0
+        for run in self.runs[level]:
+            Lr, er, c = without_local(run, np.array(local, dtype=int), np.array(local_sd))
+            L, e, constant = L + Lr, e + er, constant + c
+        nu, sd = self.nuisance.columns, self.nuisance.sd
+        chol = np.linalg.cholesky(L[np.ix_(nu, nu)] + np.diag(sd**-2.0))
+        Z = np.linalg.solve(chol, np.column_stack([L[nu], e[nu]]))
+        constant += 0.5 * Z[:, -1] @ Z[:, -1] - np.log(np.diag(chol)).sum() - np.log(sd).sum()
+        Y = np.linalg.solve(chol.T, Z)
+        H, G = self._H, self.nuisance.constraints
+        LH = (L - Z[:, :-1].T @ Z[:, :-1]) @ H
+        bounds, low = self.nuisance.bounds
+        of_nuisances, direct = np.concatenate([G[:, nu], bounds]), np.zeros((len(bounds), H.shape[1]))
+        return (
+            H.T @ LH,
+            H.T @ (e - Z[:, :-1].T @ Z[:, -1]),
+            constant,
+            np.concatenate([G @ H, direct]) - of_nuisances @ (Y[:, :-1] @ H),
+            of_nuisances @ Y[:, -1] - np.concatenate([self.nuisance.least, low]),
+        )
 
-    def _is_beyond(self, deviations: float) -> bool:
-        """Whether more than a few stretches make it."""
-        return self.log_likelihood > deviations * self.deviation
+    def system(self, chosen: Set, level: int) -> tuple[Array, Array, list[tuple[Array, Array, float]], list[Array]]:
+        """Nuisances and the set's coefficients: map to theta, prior sd, and each run's (L, e, constant).
+
+        And what gives each run's own coefficients from theta: columns (k, P + 1), value less effect of theta.
+        """
+        unit = np.eye(self.width)[:, self.nuisance.columns.astype(int)]
+        H = np.hstack([unit, *(h.map(self.width) for h in chosen)])
+        sd = np.concatenate([self.nuisance.sd, *(h.sd for h in chosen)])
+        local, local_sd = (np.array(x) for x in local_of(chosen))
+        local = local.astype(int)
+        runs, own = [], []
+        for run in self.runs[level]:
+            Lr, er, c = without_local(run, local, local_sd)
+            runs.append((H.T @ Lr @ H, H.T @ er, c))
+            if local.size:
+                A = run.L[np.ix_(local, local)] + np.diag(local_sd**-2.0)
+                own.append(np.linalg.solve(A, np.column_stack([run.L[local], run.e[local]])))
+            else:
+                own.append(np.zeros((0, self.width + 1)))
+        return H, sd, runs, own
+
+    def optimum(self, chosen: Set, level: int, own_bounds: bool = True) -> Optimum:
+        """Most probable coefficients within the constraints, and within the set's own bounds."""
+        H, sd, runs, own = self.system(chosen, level)
+        A = sum(L for L, _, _ in runs) + np.diag(sd**-2.0)
+        b = sum(e for _, e, _ in runs)
+        bounds, low = self.nuisance.bounds
+        at = self.nuisance.sd.size
+        bounds = np.hstack([bounds, np.zeros((len(bounds), sd.size - at))])
+        G, least = [self.nuisance.constraints @ H, bounds], [self.nuisance.least, low]
+        if own_bounds:
+            lower = np.concatenate([h.least for h in chosen] or [[]])
+            rows = np.flatnonzero(np.isfinite(lower))
+            bound = np.zeros((rows.size, sd.size))
+            bound[np.arange(rows.size), at + rows] = 1.0
+            G.append(bound)
+            least.append(lower[rows])
+        a, rise = bounded_minimum(A, b, np.concatenate(G), np.concatenate(least))
+        covariance = np.linalg.inv(A)[at:, at:]
+        theta = H @ a
+        local = np.array([solve[:, -1] - solve[:, :-1] @ theta for solve in own])
+        columns = np.array(local_of(chosen)[0], dtype=int)
+        return Optimum(theta, a[at:], np.sqrt(np.diag(covariance)), columns, local, rise, covariance)
+
+    def by_run(self, chosen: Set, level: int) -> Array:
+        """Log predictive density of each run given the others, (runs,): leave-one-run-out."""
+        _, sd, runs, _ = self.system(chosen, level)
+        A = sum(L for L, _, _ in runs) + np.diag(sd**-2.0)
+        b = sum(e for _, e, _ in runs)
+        whole = _half_form(A, b)
+        return np.array([c + whole - _half_form(A - L, b - e) for L, e, c in runs])
 
 
-def unexplained(trial: Trial) -> float:
-    """Share of windows that noise does not explain, 0 to 1."""
-    return float(np.mean(np.concatenate(_unexplained_windows(trial))))
+def local_of(chosen: Set) -> tuple[tuple[int, ...], tuple[float, ...]]:
+    """Columns that each run has a coefficient of its own for, and their prior standard deviations."""
+    columns = tuple(c for h in chosen for c in h.local)
+    return columns, tuple(float(s) for h in chosen for s in h.local_sd)
 
 
-def beyond_noise(trial: Trial) -> float:
-    """Log-likelihood that is left to explain."""
-    return max(trial.misfit - float(sum(run.sum() for run in trial.sizes)), 0.0) / 2
+def without_local(run: RunLikelihood, local: Array, sd: Array) -> tuple[Array, Array, float]:
+    """A run's information with its own coefficients integrated out: L, e, and the log-likelihood's constant."""
+    constant = -0.5 * (run.energy + run.log_det)
+    if not local.size:
+        return run.L, run.e, constant
+    A = run.L[np.ix_(local, local)] + np.diag(sd**-2.0)
+    chol = np.linalg.cholesky(A)
+    Z = np.linalg.solve(chol, np.column_stack([run.L[local], run.e[local]]))
+    constant += 0.5 * Z[:, -1] @ Z[:, -1] - np.log(np.diag(chol)).sum() - np.log(sd).sum()
+    return run.L - Z[:, :-1].T @ Z[:, :-1], run.e - Z[:, :-1].T @ Z[:, -1], float(constant)
 
 
-def is_adequate(trial: Trial) -> bool:
-    """Whether what is left is noise: not loud, and by chance as many windows unexplained, in all runs and in each.
+def _half_form(A: Array, b: Array) -> float:
+    chol = np.linalg.cholesky(A)
+    z = np.linalg.solve(chol, b)
+    return float(0.5 * z @ z - np.log(np.diag(chol)).sum())
 
-    A motion that none of the other runs has may be the only one to show what is missing.
+
+def logsum(values: Array) -> float:
+    """log sum exp."""
+    top = float(np.max(values))
+    return top + float(np.log(np.sum(np.exp(values - top)))) if np.isfinite(top) else -np.inf
+
+
+def bounded_minimum(A: Array, b: Array, G: Array, least: Array) -> tuple[Array, float]:
+    """argmin of x'Ax / 2 - b'x with G x >= least by an active set, and by how much the bounds raise the minimum."""
+    free = np.linalg.solve(A, b)
+    Y = np.linalg.solve(A, G.T)
+    active: list[int] = []
+    x = free
+    for _ in range(3 * len(G)):
+        slack = G @ x - least
+        slack[active] = 0.0
+        worst = int(np.argmin(slack)) if slack.size else -1
+        if worst < 0 or slack[worst] > -1e-9:
+            break
+        active.append(worst)
+        while active:
+            inner = G[active] @ Y[:, active]
+            forces = np.linalg.lstsq(inner, least[active] - G[active] @ free, rcond=1e-10)[0]
+            if forces.min() >= 0:
+                break
+            active.pop(int(np.argmin(forces)))
+        x = free + Y[:, active] @ forces if active else free
+    away = x - free
+    return x, float(0.5 * away @ A @ away)
+
+
+@numba.njit(cache=True)
+def _log_normal(z: float) -> float:
+    """Log of the standard normal distribution function."""
+    if z < -8.0:
+        return -0.5 * z * z - math.log(-z * math.sqrt(2 * math.pi))
+    return math.log(0.5 * math.erfc(-z / math.sqrt(2.0)))
+
+
+@numba.njit(cache=True)
+def _evidences(L, e, c, G, g, index, sd, least, found, worst):
+    """Log-evidence of the coefficients ``index`` at every level, their bounds by their marginals.
+
+    worst: least value of the constraints g + G a >= 0 at the optimum, by level.
     """
-    if _is_loud(trial):
-        return False
-    runs = _unexplained_windows(trial)
-    return _chance(np.concatenate(runs)) > _CHANCE and min(map(_chance, runs)) > _CHANCE / len(runs)
+    n = index.size
+    A, z, x = np.empty((n, n)), np.empty(n), np.empty(n)
+    for level in range(c.size):
+        value, good = c[level], True
+        for i in range(n):
+            for j in range(i + 1):
+                A[i, j] = L[level, index[i], index[j]]
+            A[i, i] += 1.0 / (sd[i] * sd[i])
+        for j in range(n):
+            t = A[j, j]
+            for k in range(j):
+                t -= A[j, k] * A[j, k]
+            if not t > 0.0:
+                good = False
+                break
+            A[j, j] = math.sqrt(t)
+            value -= math.log(A[j, j] * sd[j])
+            for i in range(j + 1, n):
+                t = A[i, j]
+                for k in range(j):
+                    t -= A[i, k] * A[j, k]
+                A[i, j] = t / A[j, j]
+        if not good:
+            found[level], worst[level] = -np.inf, 0.0
+            continue
+        for i in range(n):
+            t = e[level, index[i]]
+            for k in range(i):
+                t -= A[i, k] * z[k]
+            z[i] = t / A[i, i]
+            value += 0.5 * z[i] * z[i]
+        for i in range(n - 1, -1, -1):
+            t = z[i]
+            for k in range(i + 1, n):
+                t -= A[k, i] * z[k]
+            z[i] = t / A[i, i]
+        for p in range(n):
+            if least[p] > -1e300:
+                variance = 0.0
+                for i in range(p, n):
+                    t = 1.0 if i == p else 0.0
+                    for k in range(p, i):
+                        t -= A[i, k] * x[k]
+                    x[i] = t / A[i, i]
+                    variance += x[i] * x[i]
+                value += _log_normal((z[p] - least[p]) / math.sqrt(variance)) - _log_normal(-least[p] / sd[p])
+        found[level] = value
+        low = np.inf
+        for m in range(G.shape[1]):
+            t = g[level, m]
+            for i in range(n):
+                t += G[level, m, index[i]] * z[i]
+            low = min(low, t)
+        worst[level] = low
 
 
-def explains_all(trial: Trial) -> bool:
-    """Whether its effects explain so much that they may be named."""
-    return not _is_loud(trial) and _chance(np.concatenate(_unexplained_windows(trial))) > _CHANCE_OF_CAUSE
-
-
-def _is_loud(trial: Trial) -> bool:
-    """Whether most windows hold a little more than noise, each too little to be unexplained by itself."""
-    return bool(np.median(trial.relative) > _LOUD)
-
-
-def _unexplained_windows(trial: Trial) -> list[Array]:
-    """Whether noise does not explain it, of every window of each run."""
-    return [
-        misfit / size > np.maximum(_UNEXPLAINED, chi2.isf(_RARE, size) / size)
-        for misfit, size in zip(trial.held_out, trial.sizes, strict=True)
-    ]
-
-
-def _chance(windows: Array) -> float:
-    """Probability that a right model leaves as many of these windows unexplained."""
-    return float(binom.sf(np.sum(windows) - 1, windows.size, _BY_CHANCE))
-
-
-def gain(trial: Trial, over: Trial) -> Gain:
-    """Of one trial over another, both of the same data."""
-    each = [_stretched((b - a) / 2) for a, b in zip(trial.held_out, over.held_out, strict=True)]
-    stretches = np.concatenate(each)
-    total = float(stretches.sum())
-    runs = [float(run.sum()) for run in each]
-    told = [float(run.sum() + _LOST * np.minimum(run, 0.0).sum()) for run in each]
-    least = min(told) if len(told) >= _FEWEST else -np.inf
-    deviation = float(np.std(stretches) * np.sqrt(stretches.size))
-    return Gain(total, deviation, total - max(runs), least, information_gain(trial, over))
-
-
-def _stretched(run: Array) -> Array:
-    return np.array([run[i : i + _STRETCH].sum() for i in range(0, run.size, _STRETCH)])
+def log_normal(z: float) -> float:
+    """Log of the standard normal distribution function."""
+    return -0.5 * z * z - log(-z * sqrt(2 * math.pi)) if z < -8 else log(0.5 * erfc(-z / sqrt(2)))

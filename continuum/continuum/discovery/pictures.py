@@ -1,89 +1,99 @@
-"""Pictures of a diagnosis as PNG: measured against simulated, missing torque, evidence."""
+"""Pictures of a diagnosis: joint angles measured and simulated open loop, and the missing torque."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
-from textwrap import fill
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from continuum.discovery.evidence import gain
-from continuum.discovery.measured_gain import RunScore
-from continuum.discovery.residual_torque import ResidualTorque
-from continuum.discovery.round import Round
+from continuum.discovery.result import Diagnosis
 
-_BEFORE, _AFTER, _MEASURED = "#d1802b", "#1f6fb4", "#222222"
-_LABEL = 22  # characters that a row is high
+MEASURED, REFITTED, EXTENDED = "#222222", "#d1802b", "#1f6fb4"
 
 
-def runs_picture(before: Sequence[RunScore], after: Sequence[RunScore], extended: bool) -> bytes:
-    """Joint angles of every run: measured, and predicted by models that were fitted to other runs."""
-    n = before[0].recording.n_joints
-    figure = Figure(figsize=(2.3 * n, 1.7 * len(before)), layout="constrained")
-    axes = np.atleast_2d(figure.subplots(len(before), n, sharex="row", squeeze=False))
-    for row, (old, new) in enumerate(zip(before, after, strict=True)):
-        for joint in range(n):
-            ax, t = axes[row, joint], old.recording.times
-            ax.plot(t, np.rad2deg(old.recording.theta[:, joint]), color=_MEASURED, lw=1.6, label="measured")
-            if old.seen is not None:
-                ax.plot(t, np.rad2deg(old.seen.theta[:, joint]), color=_BEFORE, lw=0.9, label="refitted")
-            if extended and new.seen is not None:
-                ax.plot(t, np.rad2deg(new.seen.theta[:, joint]), color=_AFTER, lw=0.9, label="extended")
+def angles(result: Diagnosis) -> Figure:
+    """Joint angles of every recording: measured, and simulated open loop by the refitted and the extended model."""
+    n, runs = result.recordings[0].n_joints, result.recordings
+    figure = Figure(figsize=(2.3 * n, 1.7 * len(runs) + 0.3), layout="constrained")
+    axes = figure.subplots(len(runs), n, sharex="row", squeeze=False)
+    for r, (row, run) in enumerate(zip(axes, runs, strict=True)):
+        for joint, ax in enumerate(row):
+            ax.plot(run.times, np.rad2deg(run.theta[:, joint]), color=MEASURED, lw=1.6, label="measured")
+            ax.plot(run.times, np.rad2deg(result.before.angles[r][:, joint]), color=REFITTED, lw=0.9, label="refitted")
+            if result.is_extended:
+                after = np.rad2deg(result.after.angles[r][:, joint])
+                ax.plot(run.times, after, color=EXTENDED, lw=0.9, label="extended")
             ax.tick_params(labelsize=6)
-            if row == 0:
+            if r == 0:
                 ax.set_title(f"joint {joint + 1}", fontsize=8)
-        axes[row, 0].set_ylabel(f"{fill(old.name, _LABEL)}\n[deg]", fontsize=7)
-    lines = axes[0, 0].get_legend_handles_labels()
-    figure.legend(*lines, loc="outside upper right", ncols=3, fontsize=7, frameon=False)
+        row[0].set_ylabel(f"{run.name}\n[deg]", fontsize=7)
+    _legend(figure, axes[0, 0])
     for ax in axes[-1]:
         ax.set_xlabel("time [s]", fontsize=7)
-    return _png(figure)
+    return figure
 
 
-def torque_picture(before: Sequence[ResidualTorque], after: Sequence[ResidualTorque] | None) -> bytes:
-    """Missing torque of every joint against its angle and its rate."""
-    n = before[0].torque.shape[1]
+def torques(result: Diagnosis) -> Figure:
+    """Missing torque at every joint over its angle and over time, before and after."""
+    n = result.recordings[0].n_joints
     figure = Figure(figsize=(2.3 * n, 4.0), layout="constrained")
     axes = figure.subplots(2, n, sharey="row", squeeze=False)
-    for residuals, color, label in ((before, _BEFORE, "refitted"), (after, _AFTER, "extended")):
-        for joint in range(n if residuals else 0):
-            told = np.concatenate([r.is_told[:, joint] for r in residuals or ()])
-            torque = 1e3 * np.concatenate([r.torque[:, joint] for r in residuals or ()])[told]
-            for row, what in enumerate(("theta", "theta_rate")):
-                x = np.rad2deg(np.concatenate([getattr(r, what)[:, joint] for r in residuals or ()]))[told]
-                axes[row, joint].plot(x, torque, ".", ms=3, color=color, alpha=0.6, label=label)
-    shown = np.concatenate([np.abs(r.torque[r.is_told]) for r in before])
-    limit = 1.3e3 * max(1e-3, float(np.quantile(shown, 0.97)) if shown.size else 0.0)
+    shown = [(result.missing[0], REFITTED, "refitted")]
+    if result.is_extended:
+        shown.append((result.missing[1], EXTENDED, "extended"))
+    for courses, color, label in shown:
+        for joint in range(n):
+            for run, course in zip(result.recordings, courses, strict=True):
+                missing = 1e3 * course[:, joint]
+                axes[0, joint].plot(np.rad2deg(run.theta[:, joint]), missing, ".", ms=2, color=color, alpha=0.4)
+                axes[1, joint].plot(run.times, missing, color=color, lw=0.7, alpha=0.7, label=label)
     for joint in range(n):
         axes[0, joint].set_title(f"joint {joint + 1}", fontsize=8)
-        for row, what in enumerate(("angle [deg]", "rate [deg/s]")):
-            axes[row, joint].set_xlabel(what, fontsize=7)
-            axes[row, joint].set_ylim(-limit, limit)
-            axes[row, joint].axhline(0, color="#999999", lw=0.5)
-            axes[row, joint].tick_params(labelsize=6)
-    for row in (0, 1):
-        axes[row, 0].set_ylabel("missing torque [mN m]", fontsize=7)
-    axes[0, 0].legend(fontsize=6, frameon=False)
-    return _png(figure)
+        axes[0, joint].set_xlabel("angle [deg]", fontsize=7)
+        axes[1, joint].set_xlabel("time [s]", fontsize=7)
+        for ax in axes[:, joint]:
+            ax.axhline(0, color="#999999", lw=0.5)
+            ax.tick_params(labelsize=6)
+    for ax in axes[:, 0]:
+        ax.set_ylabel("missing torque [mN m]", fontsize=7)
+    _legend(figure, axes[1, 0])
+    return figure
 
 
-def evidence_picture(one: Round) -> bytes:
-    """What each leading effect gains on runs that were held out, with its standard deviation."""
-    gains = [gain(trial, one.before) for trial in one.leaders]
-    figure = Figure(figsize=(6.0, 0.6 + 0.35 * len(gains)), layout="constrained")
-    ax = figure.subplots()
-    names = [str(trial.extension[-1]) for trial in one.leaders]
-    ax.barh(names, [g.log_likelihood for g in gains], xerr=[g.deviation for g in gains], color=_AFTER, height=0.6)
-    ax.invert_yaxis()
-    ax.axvline(0, color=_MEASURED, lw=0.6)
-    ax.set_xlabel("gain in log-likelihood on held-out runs", fontsize=8)
-    ax.tick_params(labelsize=7)
-    return _png(figure)
+def overview(result: Diagnosis) -> Figure:
+    """Angles of the recording that the refitted model simulates worst, above the missing torque there."""
+    worst = int(np.nanargmax(result.before.errors))
+    run, n = result.recordings[worst], result.recordings[0].n_joints
+    figure = Figure(figsize=(2.3 * n, 4.0), layout="constrained")
+    axes = figure.subplots(2, n, sharex=True, sharey="row", squeeze=False)
+    for joint in range(n):
+        axes[0, joint].plot(run.times, np.rad2deg(run.theta[:, joint]), color=MEASURED, lw=1.6, label="measured")
+        for simulated, missing, color, label in (
+            (result.before, result.missing[0], REFITTED, "refitted"),
+            (result.after, result.missing[1], EXTENDED, "extended"),
+        ):
+            if label == "extended" and not result.is_extended:
+                continue
+            axes[0, joint].plot(run.times, np.rad2deg(simulated.angles[worst][:, joint]), color=color, lw=0.9, label=label)
+            axes[1, joint].plot(run.times, 1e3 * missing[worst][:, joint], color=color, lw=0.9)
+        axes[0, joint].set_title(f"joint {joint + 1}", fontsize=8)
+        axes[1, joint].set_xlabel("time [s]", fontsize=7)
+    axes[0, 0].set_ylabel(f"{run.name}, angle [deg]", fontsize=7)
+    axes[1, 0].set_ylabel("missing torque [mN m]", fontsize=7)
+    _legend(figure, axes[0, 0])
+    return figure
 
 
-def _png(figure: Figure) -> bytes:
+def png(figure: Figure) -> bytes:
+    """The figure as a file."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=110)
     return buffer.getvalue()
+
+
+def _legend(figure: Figure, ax: Any) -> None:
+    handles, labels = ax.get_legend_handles_labels()
+    by_label = dict(zip(labels, handles, strict=True))
+    figure.legend(by_label.values(), by_label.keys(), loc="outside upper right", ncols=3, fontsize=7, frameon=False)

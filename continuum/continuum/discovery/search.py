@@ -1,143 +1,250 @@
-"""Round after round: try every effect on top of what was found, keep the best, until what is left is noise."""
+"""Search for the set of effects with the highest posterior: screen, refine, screen again.
+
+A set is brought to its own optimum before a second effect is looked for beside it: an unconverged trajectory makes
+effects look present that only repair the linearisation.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass, field, replace
 
-from continuum.discovery.evidence import DISTINCT, beyond_noise, explains_all, gain
-from continuum.discovery.round import CONTENDING, ITERATIONS, Round, one_round
-from continuum.discovery.trial import Trial
-from continuum.discovery.workers import Make, Task
+import numpy as np
 
-_BASELINE_ITERATIONS = 10
-_MISLEADING = 0.1  # of the first effect's gain: a smaller second one has misled nobody
-_ROUNDS = 3
-_MUCH = 0.5  # of what the baseline does not explain
-_MORE_THAN_THE_LAST = 5.0  # times what the last effect explained: hardly any later one explains so much
+from continuum.arrays import Array
+from continuum.discovery.evidence import Evidence, Set
+from continuum.discovery.hypotheses import UNKNOWN, Hypothesis
+from continuum.discovery.problem import Linearised, Problem, State, innovations, linearise, moved
+
+PRICE = 6.0
+"""Prior log-odds against one more effect, e^6 = 400 to 1 against any given one of some 60: about one in seven that there
+is one at all. It is also the change of log-evidence below which an iteration has converged."""
+MOST = 2
+"""Effects that are named together at most: three would need more runs than a laboratory makes."""
+RATIO = (1.6, 1.25, 1.1)
+"""By which values of effects that are not linear are changed for differences, iteration by iteration."""
+ITERATIONS = 6
+"""Gauss-Newton steps of one set, at most."""
+EXPLAINED = 2
+"""Levels of missing torque that are no more than any model's: up to a hundredth of the arm's torque."""
+FAMILIES = 6
+"""Effects that are refined at most."""
+LONG_SHOT = 0.2
+"""Part of the best single effect's gain from which others are refined while none explains the data."""
+RUNNER_UP = 0.6
+"""Part of the best single effect's gain from which another is refined too: screening ranks to within a third."""
+_NEAR = 40.0  # log-evidence below the best single effect: hypotheses beyond are not followed (e^-40 is no chance)
+_FOLLOWED = 8  # single effects from which pairs are made
+_WRONG, _MANY = 5.0, 0.02  # deviations that no interval misses by chance, and part of them that may be freed
+
+type Progress = Callable[[str, float], None]
 
 
-@dataclass(frozen=True)
-class Earlier:
-    """What a search found that took tensions for another way between rows: where this one may begin.
+@dataclass
+class Found:
+    """Where a search ended.
 
     Attributes:
-        baseline: its fit without any effect.
-        best: what it found, fitted to tensions as they are taken now.
+        lin: the state about the best set, linearised.
+        chosen: the best set, empty where none is better than the baseline.
+        log: what was best at each step, for developers.
+        stages: every set that was refined, for confirmation.
+        before: the search's beginning, without any effect.
     """
 
-    baseline: Trial
-    best: Trial
+    lin: Linearised
+    chosen: Set
+    log: list[str]
+    stages: list[Found] = field(default_factory=list)
+    before: Linearised | None = None
+
+    @property
+    def baseline(self) -> Found:
+        """The model without any effect."""
+        return Found(self.before or self.lin, (), [])
 
 
-type Tell = Callable[[str, float], None]
-"""Told what is going on and the part that is done, 0 to 1."""
+def price(chosen: Set) -> float:
+    """What a set costs before any data."""
+    return PRICE * len(chosen)
 
 
-def tell_nobody(_what: str, _part: float) -> None:
-    """Keep it to oneself."""
+def label(chosen: Set) -> str:
+    """For tables."""
+    return " + ".join(h.label for h in chosen) or "none"
 
 
-type Until = Callable[[Trial], bool]
-"""Asked after a round, of the best trial so far, whether there is no use in going on."""
-
-
-def until_the_end(_best: Trial) -> bool:
-    """Go on."""
-    return False
-
-
-def search(
-    make: Make, effects: Sequence[str], tell: Tell, until: Until = until_the_end, earlier: Earlier | None = None
-) -> tuple[Trial, list[Round]]:
-    """The baseline and the rounds, one for each effect that was found; a last one may have found nothing.
-
-    Args:
-        make: makes trials.
-        effects: names to try.
-        tell: told of progress.
-        until: asked after the first round, and after others that found something.
-        earlier: of a search before this one.
-    """
-    tell("refitting the model as it is", 0.0)
-    begun = None if earlier is None else earlier.baseline if earlier.best.extension else earlier.best
-    (baseline,) = make([Task((), begun, _BASELINE_ITERATIONS)])
-    rounds: list[Round] = []
-    before, asked, may_stand_alone = baseline, None, True
-    while True:
-        known = earlier.best if earlier and not rounds else None
-        rounds.append(one_round(make, before, effects, partial(tell, f"effects, round {len(rounds) + 1}"), known))
-        if len(rounds) == 2 and _may_have_misled(rounds[1], rounds[0]):
-            tell_of = partial(tell, "the first effect anew")
-            rounds = _first_anew(make, rounds[0], rounds[1], effects, tell_of, may_stand_alone)
-            may_stand_alone &= len(rounds) > 1
-        if len(rounds) == 1:
-            baseline = rounds[0].before
-        best = rounds[-1].best
-        if best.extension != asked and until(best):
+def find(problem: Problem, start: State, progress: Progress) -> Found:
+    """Follow the best single effects to their optimum, add a second where it is better, and keep the best of all."""
+    first = linearise(problem, start)
+    base = first.evidence.total((), with_constraints=True)
+    ranked = ranked_singles(first.evidence, first.library.hypotheses)
+    log = ["singles: " + ", ".join(f"{h.label} {e - base:.0f}" for e, h in ranked[:6])]
+    best = Found(first, (), log)
+    best_score = base
+    live = {h.effect for e, h in ranked if e > ranked[0][0] - max(_NEAR, 0.5 * (ranked[0][0] - base))}
+    tried: list[Found] = []
+    stages: list[Found] = []
+    for number, (e, h) in enumerate(_by_family(ranked)[:FAMILIES]):
+        part = RUNNER_UP if any(_explains(one) for one in tried) else LONG_SHOT
+        if e - base < PRICE or (number and e < base + part * (ranked[0][0] - base)):
             break
-        if best is rounds[-1].before or explains_all(best) or len(rounds) == _ROUNDS or _is_in_vain(baseline, rounds):
+        progress(f"refining {h.label}", 0.2 + 0.1 * number)
+        found = refined(problem, first, (h,), live)
+        if found is None:
+            log.append(f"{h.label}: diverged")
+            continue
+        log.append(f"refined {label(found.chosen)}: {found.lin.evidence.total(found.chosen) - base:.0f}")
+        tried.append(found)
+        stages.append(found)
+    for found in sorted(tried, key=_score, reverse=True)[:2]:
+        grown = _with_second(problem, found, live, log, base, stages)
+        if _score(grown) > best_score:
+            best, best_score = grown, _score(grown)
+    return Found(best.lin, best.chosen, log, stages, first)
+
+
+def _score(found: Found) -> float:
+    return found.lin.evidence.total(found.chosen, with_constraints=True) - price(found.chosen)
+
+
+def _explains(found: Found) -> bool:
+    """Whether missing torque is at its lowest levels."""
+    return bool(np.sum(posterior_of_levels(found.lin.evidence, found.chosen)[:EXPLAINED]) > 0.95)
+
+
+def posterior_of_levels(evidence: Evidence, chosen: Set) -> Array:
+    """Posterior of the levels of missing torque, (levels,)."""
+    by_level = evidence.by_level(chosen)
+    p = np.exp(by_level - by_level.max())
+    return np.asarray(p / p.sum())
+
+
+def ranked_singles(evidence: Evidence, hypotheses: Sequence[Hypothesis]) -> list[tuple[float, Hypothesis]]:
+    """All single hypotheses but the free form, the best first."""
+    sets: list[Set] = [(h,) for h in hypotheses if h.effect != UNKNOWN]
+    return [(e, chosen[0]) for e, chosen in evidence.ranked(sets, 0.0, 12)]
+
+
+def _by_family(ranked: Sequence[tuple[float, Hypothesis]]) -> list[tuple[float, Hypothesis]]:
+    """The best hypothesis of each effect."""
+    seen: set[str] = set()
+    out = []
+    for e, h in ranked:
+        if h.effect not in seen:
+            seen.add(h.effect)
+            out.append((e, h))
+    return out
+
+
+def refined(problem: Problem, lin: Linearised, chosen: Set, live: set[str] | None) -> Found | None:
+    """Gauss-Newton steps to a set's own optimum; None where they diverge."""
+    keys = [h.key for h in chosen]
+    effects = {h.effect for h in chosen}
+    before = lin.evidence.total(chosen, with_constraints=True)
+    for iteration in range(ITERATIONS):
+        level = lin.evidence.best_level(chosen)
+        where = lin.levels[level]
+        try:
+            state = moved(lin, chosen, level, where)
+            state = replace(state, ratio=RATIO[min(iteration, len(RATIO) - 1)])
+            near = [k for k in (where - 1, where, where + 1) if 0 <= k < len(problem.levels)]
+            lin = linearise(problem, state, near, effects)
+        except np.linalg.LinAlgError:
+            return None
+        chosen = matching(lin, keys)
+        after = lin.evidence.total(chosen, with_constraints=True)
+        fastest = max(float(np.max(np.abs(way.w))) for way in state.ways)
+        if not np.isfinite(after) or not fastest < 200:
+            return None
+        settled = iteration + 1 >= len(RATIO) or not state.active
+        if settled and abs(after - before) < PRICE / 3:
             break
-        before, asked = best, best.extension
-    tell("effects sought", 1.0)
-    return baseline, rounds
+        before = after
+    try:
+        lin = linearise(problem, lin.state, None, live if live is None else live | effects)
+    except np.linalg.LinAlgError:
+        return None
+    return Found(lin, matching(lin, keys), [])
 
 
-def _is_in_vain(baseline: Trial, rounds: Sequence[Round]) -> bool:
-    """Whether so much is left that further effects would hardly explain it all.
+def matching(lin: Linearised, keys: Sequence[tuple[str, tuple[int, ...] | None]]) -> Set:
+    """The hypotheses of a new linearisation with these effects and places, the best of each."""
+    out = []
+    for key in keys:
+        same = [h for h in lin.library.hypotheses if h.key == key]
+        out.append(max(same, key=lambda h: (h.start is not None or bool(h.local), lin.evidence.total((h,)))))
+    return tuple(out)
 
-    What helps most is found first: effects that come later hardly explain many times as much as the last one did.
+
+def _with_second(
+    problem: Problem, found: Found, live: set[str], log: list[str], base: float, stages: list[Found]
+) -> Found:
+    """The set with a second effect, or another in the place of one, as long as that is better."""
+    best, failed = found, set[str]()
+    for _ in range(4):
+        lin = best.lin
+        alone = lin.evidence.total(best.chosen, with_constraints=True) - price(best.chosen)
+        ranked = ranked_singles(lin.evidence, lin.library.hypotheses)
+        sets: list[Set] = [(h,) for _, h in ranked[:4]]
+        if best.chosen:
+            pool = lin.library.hypotheses
+            sets += [(*best.chosen[:1], h) for h in pool]
+            if len(best.chosen) > 1:
+                sets += [(best.chosen[1], h) for h in pool]
+        possible = [s for s in sets if len(s) <= MOST and compatible(s) and label(s) not in failed]
+        candidates = lin.evidence.ranked(possible, PRICE, 1)
+        if not candidates or candidates[0][0] < alone + PRICE / 3:
+            break
+        chosen = candidates[0][1]
+        if {h.key for h in chosen} == {h.key for h in best.chosen}:
+            break
+        grown = refined(problem, lin, chosen, live)
+        if grown is None or _score(grown) < _score(best) + PRICE / 3:
+            failed.add(label(chosen))
+            log.append(f"{label(chosen)}: no better when refined")
+            continue
+        log.append(f"refined {label(grown.chosen)}: {grown.lin.evidence.total(grown.chosen) - base:.0f}")
+        best = grown
+        stages.append(grown)
+    return best
+
+
+def compatible(chosen: Set) -> bool:
+    """Not the free form, and not one effect twice at one place."""
+    for i, one in enumerate(chosen):
+        if one.effect == UNKNOWN:
+            return False
+        for other in chosen[:i]:
+            if one is other:
+                return False
+            if one.effect == other.effect and (one.joints is None or other.joints is None or set(one.joints) & set(other.joints)):
+                return False
+            if set(one.local) & set(other.local):
+                return False
+    return True
+
+
+def freed(problem: Problem, found: Found) -> State | None:
+    """The state with friction unknown where nothing explains what was measured; None where that is nowhere.
+
+    A joint's friction was taken for known there. No more than a small part of the intervals is freed: what is freed is
+    not explained.
     """
-    left, more = beyond_noise(rounds[-1].best), _ROUNDS - len(rounds)
-    latest = [one for one in rounds if len(one.best.extension) == len(rounds)]  # two where the first was sought anew
-    if left > more * _MORE_THAN_THE_LAST * max(gain(one.best, one.before).log_likelihood for one in latest):
-        return True
-    return len(rounds) > 1 and left > _MUCH * beyond_noise(baseline)
-
-
-def _may_have_misled(second: Round, first: Round) -> bool:
-    """Whether the second effect is so large that the first may have stood for it, or hid which of several it is."""
-    gained = [gain(one.best, one.before).log_likelihood for one in (second, first)]
-    effect = first.best.extension[-1].effect
-    others = [trial for trial in first.leaders if trial.extension[-1].effect != effect]
-    is_contended = any(gain(trial, first.before).log_likelihood > CONTENDING * gained[1] for trial in others)
-    return second.best is not second.before and (is_contended or gained[0] > _MISLEADING * gained[1])
-
-
-def _first_anew(
-    make: Make,
-    first: Round,
-    second: Round,
-    effects: Sequence[str],
-    tell: Callable[[float], None],
-    may_stand_alone: bool,
-) -> list[Round]:
-    """The first effect sought once more, now beside the second: it was found while that one was still unknown.
-
-    What then stands beside the second, and no other with it, may be a third one, which explains alone what the two do,
-    and more than the first two: all are sought once more, and that one from as good a beginning.
-    """
-    alone = _newest_alone(make, second)
-    again = one_round(make, alone, effects, tell)
-    if again.best is again.before:  # the second one alone does it
-        effect = alone.extension[-1].effect
-        others = [trial for trial in first.leaders if trial.extension[-1].effect != effect]  # it is no rival of itself
-        return [replace(first, leaders=(again.before, *others)), again]
-    is_alone = all(gain(again.best, other).is_distinct for other in again.leaders[1:])
-    if may_stand_alone and is_alone and again.best.extension[-1].effect != first.best.extension[-1].effect:
-        newest = _newest_alone(make, again)
-        if _does_as_well(newest, again.best) and gain(newest, second.best).is_distinct:
-            anew = one_round(make, first.before, effects, tell, newest)
-            if _does_as_well(anew.best, again.best):
-                return [anew]
-    return [second, again]
-
-
-def _newest_alone(make: Make, one: Round) -> Trial:
-    (alone,) = make([Task(one.best.extension[-1:], one.best, ITERATIONS)])
-    return alone
-
-
-def _does_as_well(trial: Trial, other: Trial) -> bool:
-    return gain(other, trial).log_likelihood < DISTINCT
+    level = found.lin.evidence.best_level(found.chosen)
+    misses = innovations(found.lin, found.chosen, level, found.lin.levels[level])
+    marks, count, total = [], 0, 0
+    for z in misses:
+        wrong = np.flatnonzero(np.max(np.abs(z), axis=1) > _WRONG)
+        wrong = wrong[wrong > 2]
+        marks.append(wrong)
+        count, total = count + wrong.size, total + len(z)
+    if not count or count > _MANY * total:
+        return None
+    modes = []
+    for mode, wrong in zip(found.lin.state.modes, marks, strict=True):
+        free = np.zeros(len(mode.sign), dtype=bool)
+        for row in wrong:
+            free[max(row - 2, 0) : row] = True
+        modes.append(mode.released(free))
+    return replace(found.lin.state, modes=tuple(modes))

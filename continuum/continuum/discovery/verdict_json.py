@@ -1,4 +1,4 @@
-"""Findings for machines."""
+"""The answer for machines."""
 
 from __future__ import annotations
 
@@ -8,112 +8,95 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from continuum.discovery.candidate import Addition
-from continuum.discovery.findings import Estimate, Findings
-from continuum.discovery.motion_phases import PHASES, errors_by_phase
-from continuum.discovery.verdict import Cause, Kind
+import numpy as np
+
+from continuum.discovery.decision import Kind
+from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, nrmse
 from continuum.whole_file import write_whole
 
 
-def write_json(found: Findings, path: str | Path, made: Mapping[str, object]) -> None:
-    """Write the findings.
+def write_json(result: Diagnosis, path: str | Path, made: Mapping[str, object]) -> None:
+    """Write the answer.
 
     Args:
-        found: what to tell.
+        result: the answer.
         path: where.
-        made: how the diagnosis was made: what it read, version, seed.
+        made: how it was made: what was read, version, seed.
 
     Raises:
         FileError: the file cannot be written.
     """
-    write_whole(path, json.dumps(as_mapping(found) | {"made": dict(made)}, indent=2) + "\n")
+    write_whole(path, json.dumps(as_mapping(result) | {"made": dict(made)}, indent=2) + "\n")
 
 
-def as_mapping(found: Findings) -> dict[str, Any]:
+def as_mapping(result: Diagnosis) -> dict[str, Any]:
     """Numbers, strings, lists and mappings; joints count from 1, units are SI."""
-    verdict, unknown = found.verdict, found.verdict.kind is Kind.UNKNOWN
-    causes = [_cause(cause, found.estimates) for cause in verdict.causes]
+    verdict = result.verdict
+    sets = [
+        {"probability": p, "effects": [_cause(cause) for cause in causes]}
+        for causes, p in zip(result.sets, verdict.probabilities or (1.0,) * len(result.sets), strict=True)
+    ]
+    named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
     return {
         "verdict": verdict.kind.value,
-        "causes": [] if unknown else causes,
-        "helps": causes if unknown else [],
-        "alternatives": [_cause(cause, own) for cause, own in zip(verdict.alternatives, found.others, strict=True)],
-        "experiment": verdict.experiment,
-        "unexplained": {"before": verdict.unexplained[0], "after": verdict.unexplained[1]},
-        "nrmse_position": _scores(found, "position"),
-        "nrmse_velocity": _scores(found, "rate"),
-        "gap_closed": found.closed,
-        "best_other": _other(found),
-        "errors_by_phase": {"unit": "rad", **_by_phase(found)},
-        "parameters": [{"name": str(e.unknown), **_estimate(e)} for e in found.estimates],
-        "identifiability": {
-            "unknowns": len(found.identifiability.unknowns),
-            "rank": found.identifiability.rank,
-            "condition": _number(found.identifiability.condition),
-            "entangled": [[str(a), str(b), r] for a, b, r in found.identifiability.entangled],
-            "untold": [str(unknown) for unknown in found.identifiability.untold],
+        "complete": verdict.complete,
+        "sets": sets if named else [],
+        "causes": sets[0]["effects"] if named and sets else [],
+        "alternatives": [cause for one in sets[1:] for cause in one["effects"]] if named else [],
+        "helps": [_cause(cause) for cause in result.causes] if verdict.kind is Kind.UNKNOWN else [],
+        "shares": {name: _share(share) for name, share in result.shares.items()},
+        "closed": _share(result.closed),
+        "missing_torque": {"unit": "N m", "before": _list(result.sigma[0]), "after": _list(result.sigma[1])},
+        "open_loop": {
+            "unit": "rad",
+            "noise": result.before.floor,
+            "tolerance": result.tolerance,
+            "runs": {run.name: _run(result, r) for r, run in enumerate(result.recordings)},
         },
-        "complete": not unknown and verdict.to_close is None,
-        "at_odds": verdict.at_odds,
-        "vague": verdict.vague,
-        "weakness": found.weakness,
-        "notes": list(found.notes),
+        "parameters": [_estimate(one) for one in result.estimates],
+        "notes": list(result.notes),
+        "processor_seconds": result.seconds,
     }
 
 
-def _cause(cause: Cause, estimates: Sequence[Estimate]) -> dict[str, Any]:
-    joints = _joints(cause.addition)
-    prefix = cause.addition.effect + "."
+def _run(result: Diagnosis, r: int) -> dict[str, Any]:
+    theta = result.recordings[r].theta
     return {
-        "effect": cause.addition.effect,
+        when: {"rms": _number(one.errors[r]), "nrmse": _number(nrmse(one.angles[r], theta))}
+        for when, one in (("before", result.before), ("after", result.after))
+    }
+
+
+def _cause(cause: Cause) -> dict[str, Any]:
+    joints = None if cause.joints is None else [joint + 1 for joint in cause.joints]
+    return {
+        "effect": cause.effect,
         "joint": joints[0] if joints is not None and len(joints) == 1 else None,
         "joints": joints,
-        "confidence": cause.confidence,
-        "gain": cause.gain.log_likelihood,
-        "information": cause.gain.information,
-        "parameters": {
-            str(e.unknown)[len(prefix) :]: _estimate(e) for e in estimates if e.unknown.name.startswith(prefix)
-        },
+        "share": _share(cause.share),
+        "log_evidence": cause.gain,
+        "parameters": [_estimate(one) for one in cause.estimates],
     }
 
 
-def _joints(addition: Addition) -> list[int] | None:
-    """Where an effect acts, from 1; null where it belongs to no joints."""
-    return None if addition.joints is None else [joint + 1 for joint in addition.joints]
-
-
-def _other(found: Findings) -> dict[str, Any] | None:
-    """What the best effect that is not named would close of the distance to the noise."""
-    if found.other is None:
-        return None
-    at = found.other.addition
-    return {"effect": at.effect, "joints": _joints(at), "gap_closed": found.other.closed}
-
-
-def _estimate(e: Estimate) -> dict[str, Any]:
-    return {"value": e.value, "low": e.low, "high": e.high, "unit": e.unit, "at_limit": e.at_limit}
-
-
-def _scores(found: Findings, what: str) -> dict[str, dict[str, object]]:
-    """By run, with 95 % intervals; null where a model could not be simulated."""
-    told: dict[str, dict[str, object]] = {}
-    for b, a in zip(found.before, found.after, strict=True):
-        between = [getattr(score, f"{what}_interval") for score in (b, a)]
-        told[b.name] = {
-            "before": _number(getattr(b, what)),
-            "after": _number(getattr(a, what)),
-            "before_interval": [_number(end) for end in between[0]],
-            "after_interval": [_number(end) for end in between[1]],
-        }
-    return told
-
-
-def _by_phase(found: Findings) -> dict[str, dict[str, list[float | None]]]:
-    """Error of free runs in every phase of motion, joint by joint; null where no joint was in it."""
+def _estimate(one: Estimate) -> dict[str, Any]:
     return {
-        when: {phase: [_number(error) for error in of_joints] for phase, of_joints in zip(PHASES, errors, strict=True)}
-        for when, errors in zip(("before", "after"), errors_by_phase(found.before, found.after), strict=True)
+        "name": one.name,
+        "joint": None if one.joint is None else one.joint + 1,
+        "recording": one.recording or None,
+        "value": one.value,
+        "low": _number(one.low),
+        "high": _number(one.high),
+        "unit": one.unit,
     }
+
+
+def _share(share: Share) -> dict[str, Any]:
+    return {"value": _number(share.value), "low": _number(share.low), "high": _number(share.high)}
+
+
+def _list(values: Sequence[float] | np.ndarray) -> list[float | None]:
+    return [_number(float(value)) for value in values]
 
 
 def _number(value: float) -> float | None:

@@ -45,6 +45,7 @@ class Effect:
         shifts_time: whether a little of it looks as if all tensions came later.
         beginnings: values of some of its parameters that belong to the whole arm; a fit begins at those that promise
             most. For effects from whose usual beginning no slope leads to what is right.
+        directions: in which combinations of its sizes it occurs, as factors by parameter; every size by itself without.
     """
 
     name: ClassVar[str]
@@ -62,6 +63,7 @@ class Effect:
     needs_tension: ClassVar[bool] = False
     shifts_time: ClassVar[bool] = False
     beginnings: ClassVar[Sequence[Mapping[str, float]]] = ()
+    directions: ClassVar[Sequence[Mapping[str, float]]] = ()
 
     def n_states(self, n_joints: int) -> int:
         """Number of states that the effect adds."""

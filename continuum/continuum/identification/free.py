@@ -13,6 +13,9 @@ from continuum.dynamics.model import Model
 from continuum.dynamics.values import parameter_slots, parameter_vector
 from continuum.errors import InvalidValueError
 
+THESIS_PARAMETERS = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
+"""What the thesis identified (chapter 3.3), each common to all joints."""
+
 _BASELINE_SPREAD = 1.0  # prior standard deviation of a parameter of Eq. 12, in units of its nominal value
 _EFFECT_SPREAD = 3.0  # of an effect's parameter, in units of its typical size
 _BATCH_ENDS = 2.5  # standard deviations, beyond which no part of a batch is

@@ -1,0 +1,106 @@
+"""The refitted model without any further effect, and the trajectories that go with it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.coordinates import coordinates
+from continuum.discovery.problem import Problem, State, linearise, modes_along, moved
+from continuum.dynamics.model import Model
+from continuum.dynamics.input_kind import InputKind
+from continuum.errors import InvalidValueError
+from continuum.estimation.columns import FreeForm
+from continuum.estimation.friction_modes import friction_modes
+from continuum.estimation.run import Run
+from continuum.estimation.sensor_noise import NoiseModel, white_noise
+from continuum.estimation.structure import Structure
+from continuum.recordings.recording import Recording
+
+LEVELS = 0.005 * 2.0 ** np.arange(6)
+"""Levels of the missing torque's standard deviation, as parts of the arm's torque: from less than any model's error to
+what makes a model useless."""
+_FIRST_LEVELS = (5, 5, 4)  # of the first iterations: large, so that a wrong model does not bend the trajectories
+_VARYING = 4  # different rows of inputs, fewer of which are a hold and a release
+_MOST_ITERATIONS, _SETTLED = 4, 2.0  # steps, and change of log-evidence after which there is none more
+_SLOW = np.deg2rad(0.2)  # rad, slow error of an angle from inertial sensors
+
+
+def problem_of(structure: Structure, recordings: Sequence[Recording]) -> Problem:
+    """All that is fixed before a search."""
+    runs = tuple(run_of(recording, structure.given) for recording in recordings)
+    common = coordinates(structure, runs)
+    n = structure.n
+    noise = NoiseModel(white_noise(runs), np.full(n, _SLOW), np.full(n, common.torque))
+    return Problem(structure, common, runs, noise, LEVELS, _free_form(runs))
+
+
+def run_of(recording: Recording, model: Model) -> Run:
+    """A recording's rows, and inputs of the model's kind."""
+    n = recording.n_joints
+    if recording.times.size < 8:
+        raise InvalidValueError(f"rows of {recording.name}", recording.times.size, "8 or more")
+    inputs = recording.inputs_for(model)
+    readings = recording.theta if recording.theta_rate is None else np.hstack([recording.theta, recording.theta_rate])
+    return Run(
+        recording.name, recording.times, np.ascontiguousarray(readings), np.ones_like(readings), n,
+        (np.asarray(inputs.times, dtype=float), np.asarray(inputs.values, dtype=float)),
+    )  # fmt: skip
+
+
+def fitted_baseline(problem: Problem) -> tuple[Problem, State]:
+    """Smooth and refit, with much missing torque allowed at first, then with as much as is most probable.
+
+    Whether inputs hold from row to row, as commands do, or change linearly, as measured ones, is what is more probable.
+    """
+    s = problem.structure
+    stribeck = np.full(s.n, 0.0)
+    ways = tuple(run.first_guess() for run in problem.runs)
+    modes = tuple(friction_modes(run, way, stribeck) for run, way in zip(problem.runs, ways, strict=True))
+    none: tuple[dict[tuple[str, str, int], float], ...] = tuple({} for _ in problem.runs)
+    state = State({}, none, {}, {}, 1.6, ways, modes)
+    for level in _FIRST_LEVELS:
+        lin = linearise(problem, state, [level], live=())
+        state = moved(lin, (), 0, level)
+        state = State(state.shared, state.own, {}, state.held, 1.6, state.ways, modes_along(problem, state))
+    problem = _with_likelier_inputs(problem, state)
+    before = -np.inf
+    for _ in range(_MOST_ITERATIONS):
+        lin = linearise(problem, state, None, live=())
+        after, level = lin.evidence.total(()), lin.evidence.best_level(())
+        if abs(after - before) < _SETTLED:
+            break
+        before, state = after, moved(lin, (), level, level)
+    return problem, state
+
+
+def _with_likelier_inputs(problem: Problem, state: State) -> Problem:
+    if all(len(np.unique(run.signal[1], axis=0)) < _VARYING for run in problem.runs):
+        return problem
+    linear = replace(problem, runs=tuple(run.with_held(False) for run in problem.runs))
+    held, changing = (linearise(one, state, None, live=()).evidence.total(()) for one in (problem, linear))
+    return linear if changing > held else problem
+
+
+def _free_form(runs: Sequence[Run]) -> FreeForm:
+    """Bumps over the range of each joint's angles."""
+    n = runs[0].n
+    q = np.concatenate([run.readings[:, :n] for run in runs])
+    low, high = np.quantile(q, 0.005, axis=0), np.quantile(q, 0.995, axis=0)
+    high = np.maximum(high, low + 1e-3)
+    centers: list[Array] = []
+    widths: list[Array] = []
+    for bumps in (6, 5):
+        centers.append(np.linspace(low, high, bumps).T)
+        widths.append((high - low) / (bumps - 1))
+    return FreeForm((centers[0], centers[1]), (widths[0], widths[1]), (0.15, 0.6))
+
+
+def has_tension(recordings: Sequence[Recording], model: Model) -> bool:
+    """Whether inputs drive the arm, not only hold it before a release."""
+    if model.inputs is not InputKind.CABLES:
+        return True
+    return any(int(np.sum(np.any(run_of(one, model).inputs > 0.3, axis=1))) > 12 * 2 for one in recordings)

@@ -1,0 +1,152 @@
+"""The decision: what candidates' evidence, missing torque and open-loop simulations allow to be said.
+
+Terms. A candidate *explains* the data where what is missing is no more than any model's, and no torque of free form is
+more probable than none. Its *closed share* is the part of the distance between the baseline's open-loop error and the
+sensors' noise that it closes on the recordings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from math import exp, log
+
+import numpy as np
+from numpy.random import Generator
+
+from continuum.arrays import Array
+from continuum.discovery.candidate import Candidate, Key
+
+PRICE = 6.0
+"""Prior log-odds against one more effect: e^6 = 400 to 1 against any given one of some sixty."""
+ODDS = log(19.0)
+"""Log-odds from which one of two hypotheses is excluded: 95 %."""
+MODEL_ERROR = 0.04
+"""Part of what a set of effects explains by which evidence errs: columns are linearised, and friction's curve and a
+cable's geometry are right to a few percent."""
+NEGLIGIBLE = 0.0125
+"""Missing torque that no model of an arm does without, as a part of the torque that moves it."""
+LEAST_SHARE = 0.25
+"""Least closed share of a cause that leaves something unknown: what closes less does not change a simulation's use."""
+FREE_PART = 0.1
+"""Part of what a cause explains that a torque of free form may find besides, for the cause to be named alone."""
+
+
+class Kind(Enum):
+    """Kinds of verdicts."""
+
+    ADEQUATE = "adequate"
+    CAUSE = "cause"
+    AMBIGUOUS = "ambiguous"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is said.
+
+    Attributes:
+        kind: of the verdict.
+        sets: of effects that the data leave possible, the most probable first; empty where unknown.
+        probabilities: of these among each other.
+        complete: whether nothing that matters stays unknown.
+        helps: the set that helps most where the cause is unknown; empty where none does.
+    """
+
+    kind: Kind
+    sets: tuple[Key, ...]
+    probabilities: tuple[float, ...]
+    complete: bool
+    helps: Key = ()
+
+
+def decide(
+    baseline: Candidate, others: Sequence[Candidate], torque: float, floor: float, tolerance: float, rng: Generator
+) -> Verdict:
+    """One verdict from all candidates.
+
+    Args:
+        baseline: the refitted model alone.
+        others: sets of effects, each at its own optimum.
+        torque: that moves the arm, root mean square [N m].
+        floor: of an open-loop error, by the sensors' noise [rad].
+        tolerance: open-loop error that a user accepts [rad].
+        rng: for intervals.
+    """
+
+    def score(one: Candidate) -> float:
+        return one.log_evidence - baseline.log_evidence - PRICE * len(one.effects)
+
+    def explains(one: Candidate) -> bool:
+        return one.sigma <= NEGLIGIBLE * torque and one.free_form < PRICE
+
+    def margin(one: Candidate) -> float:
+        return max(ODDS, MODEL_ERROR * max(one.log_evidence - baseline.log_evidence, 0.0))
+
+    possible = sorted((one for one in [baseline, *others] if explains(one)), key=score, reverse=True)
+    complete = bool(possible)
+    if not complete:  # nothing explains all: what explains most, as open-loop runs confirm it
+        possible = [
+            one
+            for one in others
+            if closed(baseline, one, floor, rng)[1] > LEAST_SHARE
+            and one.free_form < FREE_PART * (one.log_evidence - baseline.log_evidence)
+        ]
+        possible.sort(key=lambda one: closed(baseline, one, floor, rng)[0], reverse=True)
+        if not possible:
+            small = baseline.completed and float(np.max(baseline.errors)) < tolerance
+            helps = max(others, key=score, default=baseline)
+            kind = Kind.ADEQUATE if small else Kind.UNKNOWN
+            return Verdict(kind, (), (), small, helps.effects if score(helps) > ODDS and not small else ())
+    best = possible[0]
+    for part in possible:  # a second effect has to be worth more than what the first one's evidence errs by
+        if set(part.effects) < set(best.effects) and not adds(baseline, part, best, margin(best), floor, rng):
+            best = part
+    rivals = [one for one in possible if not set(one.effects) >= set(best.effects) or one is best]
+    if complete:
+        sets = [one for one in rivals if score(one) > score(best) - margin(best)]
+    else:
+        sets = [one for one in rivals if not further(best, one, rng)]
+    sets.sort(key=lambda one: (one is not best, -score(one)))
+    weights = np.array([exp(max(score(one) - score(best), -30.0) / max(margin(best) / ODDS, 1.0)) for one in sets])
+    probabilities = tuple(float(w) for w in weights / weights.sum())
+    kind = Kind.AMBIGUOUS if len(sets) > 1 else Kind.ADEQUATE if best is baseline else Kind.CAUSE
+    return Verdict(kind, tuple(one.effects for one in sets), probabilities, complete)
+
+
+def adds(baseline: Candidate, part: Candidate, whole: Candidate, margin: float, floor: float, rng: Generator) -> bool:
+    """Whether a set's further effect is there: more probable by a margin, and open-loop runs come nearer by it."""
+    gained = whole.log_evidence - part.log_evidence - PRICE * (len(whole.effects) - len(part.effects))
+    return gained > (ODDS if part is baseline else margin) and (part is baseline or nearer(part, whole, rng))
+
+
+def nearer(one: Candidate, other: Candidate, rng: Generator) -> bool:
+    """Whether open-loop errors fall from one to the other, by the 95 % interval over resampled runs."""
+    return bool(np.quantile(_resampled(one.errors - other.errors, rng), 0.05) > 0)
+
+
+def further(one: Candidate, other: Candidate, rng: Generator) -> bool:
+    """Whether the other's open-loop errors are larger, by the 95 % interval over resampled runs."""
+    return nearer(other, one, rng)
+
+
+def closed(baseline: Candidate, one: Candidate, floor: float, rng: Generator) -> tuple[float, float, float]:
+    """Closed share with its 95 % interval by resampling runs; 0 where there is no distance to close."""
+    gained = np.where(np.isfinite(one.errors), baseline.errors - one.errors, -baseline.errors)
+    distance = baseline.errors - floor
+    whole = float(np.sum(distance))
+    if whole <= 0:
+        return 0.0, 0.0, 0.0
+    drawn = rng.integers(gained.size, size=(_DRAWS, gained.size))
+    shares = gained[drawn].sum(axis=1) / np.maximum(distance[drawn].sum(axis=1), 1e-3 * whole)
+    low, high = np.quantile(shares, (0.025, 0.975))
+    return float(np.sum(gained) / whole), float(low), float(high)
+
+
+_DRAWS = 400
+
+
+def _resampled(differences: Array, rng: Generator) -> Array:
+    differences = np.where(np.isfinite(differences), differences, -np.inf)
+    return np.asarray(differences[rng.integers(differences.size, size=(_DRAWS, differences.size))].mean(axis=1))

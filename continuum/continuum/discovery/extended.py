@@ -1,0 +1,54 @@
+"""The model file's model with what was found: refitted parameters, and the effects of a set."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.candidate import Key
+from continuum.discovery.problem import Problem, State, point_of
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.parameters import PARAMETERS
+from continuum.dynamics.values import with_vector
+from continuum.estimation.structure import absent_values
+
+
+def model_of(problem: Problem, state: State, key: Key, model: Model) -> Model:
+    """A model with the state's values.
+
+    Ordinary differences of parts become the model's own parameters; what each recording has for itself is left out.
+
+    Args:
+        problem, state: where values come from.
+        key: effects of the set.
+        model: that was diagnosed.
+    """
+    s, named = problem.structure, {effect for effect, _ in key}
+    base = with_vector(s.model, point_of(problem, state).values)
+    present = {active.effect.name for active in model.effects}
+    p = base.parameters
+    kept: dict[str, ActiveEffect] = {}
+    for active in base.effects:
+        if active.effect.name in named or active.effect.name in present:
+            kept[active.effect.name] = active
+        else:
+            p = active.effect.change_parameters(p, active.values)
+    for active in model.effects:
+        kept.setdefault(active.effect.name, active)
+    for effect in s.offered:
+        if effect.name in named and effect.name not in kept:
+            own = {name: np.array(value) for name, value in absent_values(effect, s.n).items()}
+            for (name, parameter, joint), value in state.shared.items():
+                if name == effect.name:
+                    own[parameter][max(joint, 0)] += value
+            own |= {name: np.asarray(value) for name, value in state.active.get(effect.name, {}).items()}
+            kept[effect.name] = ActiveEffect(effect, own)
+    clipped = {name: _within(name, value) for name, value in p.named().items() if value is not None}
+    return replace(model, parameters=replace(p, **clipped), effects=tuple(kept.values()))
+
+
+def _within(name: str, value: Array) -> Array:
+    spec = PARAMETERS[name]
+    return np.clip(np.asarray(value, dtype=float), spec.lower, spec.upper)

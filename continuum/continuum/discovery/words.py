@@ -1,0 +1,134 @@
+"""The answer in plain words: verdict, causes, what stays unknown, and what to measure next."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from continuum.discovery.decision import Kind
+from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_named, nrmse
+from continuum.dynamics.effect_lookup import effect_named
+
+_MORE_RUNS = "Record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
+
+
+def verdict_in_words(result: Diagnosis) -> str:
+    """Two or three sentences."""
+    verdict = result.verdict
+    match verdict.kind:
+        case Kind.ADEQUATE:
+            return (
+                "With springs and friction refitted, the simulation agrees with these recordings. "
+                f"{_error(result)} Nothing in them calls for a further effect."
+            )
+        case Kind.CAUSE:
+            return f"{_matters(result.causes)} {_closes(result)} {_rest(result)}"
+        case Kind.AMBIGUOUS:
+            names = "; or ".join(" and ".join(in_full(cause) for cause in causes) for causes in result.sets)
+            return (
+                f"Something is missing, but these recordings cannot tell which of these it is: {names}. "
+                f"To tell them apart: {_experiment(result)}"
+            )
+        case Kind.UNKNOWN if result.causes:
+            helps = " with ".join(in_full(cause) for cause in result.causes)
+            return (
+                "The simulation misses something that no effect of the library explains. "
+                f"{helps} helps most, but much stays unexplained: do not take it for the cause. {_MORE_RUNS}"
+            )
+        case _:
+            return f"The simulation misses something, and no effect of the library even helps. {_MORE_RUNS}"
+
+
+def in_full(cause: Cause) -> str:
+    """An effect's name, where it acts, and in brackets what that means."""
+    where = f" at {places(cause)}" if places(cause) else ""
+    return f"{cause.effect}{where} ({_matter(cause).rstrip('.')})"
+
+
+def places(cause: Cause) -> str:
+    """At which joints, in words; empty where it belongs to the whole arm."""
+    if cause.joints is None:
+        return ""
+    return f"joint{'s' if len(cause.joints) > 1 else ''} {', '.join(str(joint + 1) for joint in cause.joints)}"
+
+
+def share_in_words(share: Share) -> str:
+    """Percent with its interval."""
+    if not math.isfinite(share.low):
+        return f"{100 * share.value:.0f} %"
+    return f"{100 * share.value:.0f} % ({100 * share.low:.0f} to {100 * share.high:.0f})"
+
+
+def shares_in_words(result: Diagnosis) -> list[tuple[str, str]]:
+    """Table of what each effect closes of the open-loop error, and of what stays unknown."""
+    return [(name, share_in_words(share)) for name, share in result.shares.items()]
+
+
+def sigma_in_words(result: Diagnosis) -> list[tuple[str, str]]:
+    """Table of the missing torque at each joint, before and after."""
+    before, after = (1e3 * sigma for sigma in result.sigma)
+    arrow = [f"{b:.1f}" + f" -> {a:.1f}" * result.is_extended for b, a in zip(before, after, strict=True)]
+    return [(f"joint {joint + 1}", f"{text} mN m") for joint, text in enumerate(arrow)]
+
+
+def errors_in_words(result: Diagnosis) -> list[tuple[str, str]]:
+    """Table of open-loop errors of every recording: root mean square, and Eq. 19."""
+    rows = []
+    for r, run in enumerate(result.recordings):
+        models = [result.before, result.after] if result.is_extended else [result.before]
+        degrees = " -> ".join(f"{np.degrees(one.errors[r]):.2f}" for one in models)
+        scores = " -> ".join(f"{nrmse(one.angles[r], run.theta):.3f}" for one in models)
+        rows.append((run.name, f"{degrees} deg   NRMSE {scores}"))
+    return rows
+
+
+def estimate_in_words(one: Estimate) -> str:
+    """Value with its interval and unit."""
+    interval = f" ({one.low:.4g} to {one.high:.4g})" if math.isfinite(one.low) else ""
+    unit = f" {one.unit}" * (one.unit != "1")
+    degrees = f" = {math.degrees(one.value):.3g} degrees" if one.unit == "rad" else ""
+    return f"{one.value:.4g}{interval}{unit}{degrees}"
+
+
+def lookalikes(result: Diagnosis) -> list[str]:
+    """What is no effect of the library and would look like those that are named."""
+    if not is_named(result.verdict.kind):
+        return []
+    named = dict.fromkeys(cause.effect for causes in result.sets for cause in causes)
+    return [f"{name}: {beware}" for name in named if (beware := effect_named(name).beware)]
+
+
+def _matters(causes: Sequence[Cause]) -> str:
+    return " Besides: ".join(_matter(cause) + (f" ({places(cause)})" if places(cause) else "") for cause in causes)
+
+
+def _matter(cause: Cause) -> str:
+    """What is the matter; which way, where all sizes are off the same way."""
+    effect = effect_named(cause.effect)
+    sizes = [one.value for one in cause.estimates if not effect.parameters[one.name.split(".")[1]].default]
+    more, less = (bool(sizes) and all(sign * size > 0 for size in sizes) for sign in (1, -1))
+    return effect.in_words_if_more * more or effect.in_words_if_less * less or effect.in_words
+
+
+def _closes(result: Diagnosis) -> str:
+    return (
+        "Adding it to the simulation closes "
+        f"{share_in_words(result.closed)} of the distance between its open-loop error and the sensors' noise."
+    )
+
+
+def _rest(result: Diagnosis) -> str:
+    if result.verdict.complete:
+        return "No further torque is missing beyond what any model leaves."
+    return "A remainder stays, and its cause is unknown."
+
+
+def _error(result: Diagnosis) -> str:
+    worst = np.degrees(np.nanmax(result.before.errors))
+    return f"Left to itself it stays within {worst:.2f} degrees of the measured angles (root mean square of a recording)."
+
+
+def _experiment(result: Diagnosis) -> str:
+    return " ".join(dict.fromkeys(effect_named(c.effect).experiment for causes in result.sets for c in causes))

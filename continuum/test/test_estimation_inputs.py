@@ -1,0 +1,97 @@
+"""Inputs amid the substeps: means of a signal over each, whenever it begins."""
+
+from dataclasses import replace
+
+import numpy as np
+from continuum_laws.strategies import LAW
+from hypothesis import given
+from hypothesis import strategies as st
+
+from continuum.dynamics.tensions import Tensions
+from continuum.estimation.run import Run
+
+SEEDS = st.integers(0, 10**6)
+DELAYS = st.floats(-0.05, 0.3)
+
+
+def drawn(seed: int, held: bool, breaks: int = 9) -> Run:
+    """Rows and inputs at times of their own; rows reach beyond both ends of the inputs."""
+    random = np.random.default_rng(seed)
+    times = random.uniform(-0.1, 0.1) + np.cumsum(random.uniform(0.001, 0.03, 12))
+    given_at = random.uniform(-0.1, 0.2) + np.cumsum(random.uniform(0.002, 0.03, breaks))
+    readings = np.zeros((12, 1))
+    return Run("any", times, readings, readings, 1, (given_at, random.uniform(0, 5, (breaks, 2))), held)
+
+
+def edges(run: Run) -> np.ndarray:
+    """Where the substeps begin, and the last one ends."""
+    return run.times[0] + np.concatenate([[0.0], np.cumsum(run.length)])
+
+
+@LAW
+@given(SEEDS, DELAYS, st.booleans())
+def test_inputs_are_means_over_the_substeps(seed: int, delay: float, held: bool) -> None:
+    """Of what the simulator is told, summed up over many moments between the breaks."""
+    run = drawn(seed, held)
+    told, ends = Tensions(run.signal[0] + delay, run.signal[1], held), edges(run)
+    found = run.inputs_later(delay)
+    for k, (begin, end) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
+        inside = told.times[(told.times > begin) & (told.times < end)]
+        pieces = np.concatenate([[begin], inside, [end]])
+        total = np.zeros(2)
+        for a, b in zip(pieces[:-1], pieces[1:], strict=True):
+            moments = a + (b - a) * (np.arange(20) + 0.5) / 20  # the middles of parts: exact for a straight line
+            total += (b - a) * told.over(moments).mean(axis=0)
+        np.testing.assert_allclose(found[k], total / (end - begin), rtol=1e-7, atol=1e-7)
+
+
+@LAW
+@given(SEEDS, DELAYS, DELAYS, st.booleans())
+def test_later_inputs_are_those_of_a_signal_that_begins_later(
+    seed: int, delay: float, further: float, held: bool
+) -> None:
+    """By parts or at once."""
+    run = drawn(seed, held)
+    late = replace(run, signal=(run.signal[0] + delay, run.signal[1]))
+    np.testing.assert_allclose(run.inputs_later(delay), late.inputs, rtol=1e-7, atol=1e-7)
+    np.testing.assert_allclose(run.inputs_later(delay + further), late.inputs_later(further), rtol=1e-7, atol=1e-7)
+    np.testing.assert_array_equal(run.inputs_later(0.0), run.inputs)
+
+
+@LAW
+@given(SEEDS, DELAYS, st.booleans())
+def test_rows_that_move_with_the_inputs_see_the_same(seed: int, delay: float, held: bool) -> None:
+    run = drawn(seed, held)
+    together = replace(run, times=run.times + delay, signal=(run.signal[0] + delay, run.signal[1]))
+    np.testing.assert_allclose(together.inputs, run.inputs, rtol=1e-6, atol=1e-6)
+
+
+@LAW
+@given(SEEDS, DELAYS, st.booleans())
+def test_inputs_that_never_change_are_the_same_at_any_time(seed: int, delay: float, held: bool) -> None:
+    """Whether they are told once or again and again."""
+    run = drawn(seed, held)
+    value = np.random.default_rng(seed).uniform(0, 5, 2)
+    for times in (run.signal[0], run.signal[0][:1]):
+        still = replace(run, signal=(times, np.tile(value, (times.size, 1))))
+        np.testing.assert_allclose(still.inputs_later(delay), np.tile(value, (run.length.size, 1)), rtol=1e-9)
+
+
+@LAW
+@given(SEEDS, st.booleans())
+def test_substeps_fill_the_intervals(seed: int, held: bool) -> None:
+    """Each interval by equal ones."""
+    run = drawn(seed, held)
+    for k, (a, b) in enumerate(zip(run.first[:-1], run.first[1:], strict=True)):
+        np.testing.assert_allclose(run.length[a:b], run.intervals[k] / (b - a), rtol=1e-12)
+    np.testing.assert_allclose(edges(run)[run.first], run.times, rtol=0, atol=1e-12)
+
+
+@LAW
+@given(SEEDS, st.booleans())
+def test_held_inputs_differ_from_linear_ones_only_where_they_change(seed: int, held: bool) -> None:
+    run = drawn(seed, held)
+    other, ends = run.with_held(not held), edges(run)
+    outside = (ends[1:] <= run.signal[0][0]) | (ends[:-1] >= run.signal[0][-1])
+    np.testing.assert_allclose(other.inputs[outside], run.inputs[outside], rtol=1e-9, atol=1e-9)
+    assert other.held != run.held

@@ -1,0 +1,276 @@
+"""One interval of Eq. 12 against simulations, differences, and the exponential of a linear arm."""
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+import scipy.linalg
+from continuum_laws.differences import differences
+from estimation_arm import N, constrained, drawn_values, left_side, run_over, slipping, structure
+from hypothesis import given
+from hypothesis import strategies as st
+
+from continuum.dynamics.integration.esdirk_tableau import fourth_order
+from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.tensions import Tensions
+from continuum.dynamics.values import with_vector
+from continuum.estimation.friction_modes import FrictionModes
+from continuum.estimation.run import Run, Trajectory
+from continuum.estimation.transition import Transition, transition
+
+from continuum_laws.strategies import LAW
+
+SEEDS = st.integers(0, 10**6)
+SMOOTH = {
+    "coulomb_friction": 0.0, "capstan_friction": 0.0, "capstan.friction": 0.0, "load_friction.radius": 0.0,
+    "sensor_cable.dry": 0.0,
+}  # fmt: skip
+"""An arm whose friction has no sign: what it does is the same, whatever rate dry friction is told."""
+SHORT = 1e-3  # s: one substep
+LONG = 0.02  # s: several
+
+
+@dataclass(frozen=True)
+class Arm:
+    """A random arm somewhere, and intervals that begin there.
+
+    Attributes:
+        values: parameters.
+        x: angles and rates.
+        u: tensions.
+        d: missing torque.
+    """
+
+    values: np.ndarray
+    x: np.ndarray
+    u: np.ndarray
+    d: np.ndarray
+
+    @classmethod
+    def drawn(cls, seed: int, with_effects: bool = True, **changed: float) -> "Arm":
+        random = np.random.default_rng(seed)
+        values = drawn_values(random, with_effects, **changed)
+        rate = random.choice([-1.0, 1.0], N) * random.uniform(0.5, 2, N)
+        x = np.concatenate([random.uniform(-0.5, 0.5, N), rate])
+        return cls(values, x, random.uniform(0.5, 6, 2), random.normal(0, 0.05, N))
+
+    def interval(self, length: float) -> Run:
+        return run_over(np.array([0.0, length]), self.u)
+
+    def substeps(self, length: float) -> int:
+        return int(self.interval(length).first[-1])
+
+    @property
+    def slips(self) -> FrictionModes:
+        return slipping(np.sign(self.x[N:])[None])
+
+    def over(
+        self,
+        length: float,
+        modes: FrictionModes | None = None,
+        x: np.ndarray | None = None,
+        d: np.ndarray | None = None,
+        held: np.ndarray | None = None,
+        gained: np.ndarray | float = 0.0,
+        reference: np.ndarray | None = None,
+    ) -> Transition:
+        """One interval from a state, its own without, along a trajectory whose rates gain so much."""
+        x, d = self.x if x is None else x, self.d if d is None else d
+        q, w = np.stack([x[:N], x[:N] + length * x[N:]]), np.stack([x[N:], x[N:] + gained])
+        held = np.zeros((self.substeps(length), N)) if held is None else held
+        values, way = self.values, Trajectory(q, w, np.zeros((2, N)), np.stack([d, d]))
+        reference = values if reference is None else reference
+        return transition(
+            structure().equations, self.interval(length), way, modes or self.slips, values, reference, held
+        )
+
+    def gained(self, length: float) -> np.ndarray:
+        """By how much the rates change over an interval, by the interval itself."""
+        gained = np.zeros(N)
+        for _ in range(4):
+            gained = self.over(length, gained=gained).end[0, N:] - self.x[N:]
+        return gained
+
+
+@lru_cache
+def exact() -> Simulator:
+    return Simulator(structure().model, Tolerances(1e-10, 1e-11, 1e-3), fourth_order())
+
+
+def relative(found: np.ndarray, expected: np.ndarray, scale: np.ndarray | None = None) -> float:
+    """Largest error by the largest entry."""
+    return float(np.max(np.abs(found - expected)) / np.max(np.abs(expected if scale is None else scale)))
+
+
+def missed_by_simulation(arm: Arm, rows: int) -> tuple[float, float]:
+    """By how much ends and derivatives of a few intervals miss exact simulations, relative to what changes."""
+    times = np.linspace(0.0, 0.008, rows + 1)
+    tensions, still = Tensions(np.zeros(1), arm.u[None]), np.zeros((rows + 1, N))
+    told = exact().run(arm.x, times, tensions, arm.values)
+    run, way = run_over(times, arm.u), Trajectory(told.theta, told.theta_rate, still, still)
+    modes = slipping(np.tile(np.sign(arm.x[N:]), (rows, 1)))
+    found = transition(
+        structure().equations, run, way, modes, arm.values, arm.values, np.zeros((int(run.first[-1]), N))
+    )
+    nothing = np.zeros((arm.values.size, 2 * N))
+    one = exact().run(arm.x, times[:2], tensions, arm.values, nothing, np.eye(2 * N))
+    return (
+        relative(found.end, told.states[1:], np.ptp(told.theta_rate)) * rows,
+        relative(found.F[0], one.slopes[-1], one.slopes[-1] - np.eye(2 * N)),
+    )
+
+
+@pytest.mark.parametrize("with_effects", [False, True])
+def test_intervals_tend_to_the_simulation(with_effects: bool) -> None:
+    """The ends to second order, their derivatives by the state to first order, as substeps are halved twice."""
+    arms = [Arm.drawn(seed, with_effects, **SMOOTH) for seed in range(6)]
+    (end, slope), (end_short, slope_short) = (
+        np.mean([missed_by_simulation(arm, rows) for arm in arms], axis=0) for rows in (16, 64)
+    )
+    assert end_short < min(end / 8, 0.01)
+    assert slope_short < min(slope / 2.5, 0.05)
+
+
+@LAW
+@given(SEEDS)
+def test_the_derivative_by_the_state_is_that_of_the_end(seed: int) -> None:
+    """But for what the exponential itself changes, which vanishes with the length."""
+    arm, short = Arm.drawn(seed, **SMOOTH), 1e-5
+    gained = arm.gained(short)
+    slopes = differences(lambda x: arm.over(short, x=x, gained=gained).end[0], arm.x, 1e-4)
+    change, missed = slopes - np.eye(2 * N), arm.over(short, gained=gained).F[0] - slopes
+    assert np.max(np.abs(missed).max(axis=0) / np.abs(change[N:]).max(axis=0)) < 0.01
+
+
+@LAW
+@given(SEEDS, st.sampled_from([None, 0, 1, 2]), st.booleans())
+def test_derivatives_by_torque_are_those_of_the_end(seed: int, joint: int | None, several: bool) -> None:
+    """Of one substep, or of several of a linear arm: else exponentials change with the torque of substeps before."""
+    arm, random = linear_arm(seed) if several else Arm.drawn(seed), np.random.default_rng(seed)
+    length, rows = (LONG, arm.substeps(LONG)) if several else (SHORT, 1)
+    modes = arm.slips if joint is None else constrained(arm.slips, joint, random.normal(0, 20))
+    reference = arm.values if several else drawn_values(random)
+    found = arm.over(length, modes, reference=reference)
+
+    def by_held(held: np.ndarray) -> np.ndarray:
+        return arm.over(length, modes, held=held.reshape(rows, N)).end[0]
+
+    def by_missing(d: np.ndarray) -> np.ndarray:
+        return arm.over(length, modes, d=d, reference=reference).end[0]
+
+    assert relative(np.hstack(list(found.W)), differences(by_held, np.zeros(rows * N), 1e-3)) < 1e-6
+    assert relative(found.D[0], differences(by_missing, np.zeros(N), 1e-3)) < 1e-6
+
+
+@LAW
+@given(SEEDS, st.sampled_from([SHORT, LONG]))
+def test_missing_torque_is_torque_that_is_held_over_the_interval(seed: int, length: float) -> None:
+    """Where the reference model is the model itself."""
+    found = Arm.drawn(seed).over(length)
+    np.testing.assert_allclose(found.D[0], found.W.sum(axis=0), rtol=1e-9, atol=1e-12 * np.abs(found.D).max())
+
+
+@LAW
+@given(SEEDS)
+def test_missing_torque_acts_by_the_inertia_of_the_reference(seed: int) -> None:
+    """Over a short interval it is all that matters: rates change by the length times its inverse."""
+    arm, random, short = Arm.drawn(seed), np.random.default_rng(seed + 1), 1e-6
+    reference = drawn_values(random)
+    model = with_vector(structure().model, reference)
+    inertia = differences(lambda v: left_side(model, arm.x, v, arm.u, arm.x[N:]), np.zeros(N), 1.0)
+    assert relative(arm.over(short, reference=reference).D[0, N:], short * np.linalg.inv(inertia)) < 0.05
+
+
+@LAW
+@given(SEEDS, st.lists(st.sampled_from([-1.0, 0.0, 1.0]), min_size=N, max_size=N), st.sampled_from([SHORT, LONG]))
+def test_process_noise_is_a_covariance(seed: int, sign: list[float], length: float) -> None:
+    arm, random = Arm.drawn(seed), np.random.default_rng(seed)
+    slips = np.abs(np.array([sign]))
+    noise = [random.uniform(0, 3, (1, N)) * (1 - slips), random.uniform(0, 1e-2, (1, N)) * slips]
+    modes = FrictionModes(np.array([sign]), *noise, random.normal(0, 20, (1, N)))
+    found = arm.over(length, modes).noise[0]
+    np.testing.assert_array_equal(found, found.T)
+    assert np.linalg.eigvalsh(found)[0] > -1e-12 * np.linalg.eigvalsh(found)[-1]
+    louder = arm.over(length, replace(modes, rate_noise=3 * noise[0], torque_noise=3 * noise[1])).noise[0]
+    np.testing.assert_allclose(louder, 9 * found, rtol=1e-9, atol=1e-12 * np.abs(found).max())
+    assert not np.any(arm.over(length, replace(modes, rate_noise=0 * noise[0], torque_noise=0 * noise[1])).noise)
+
+
+@LAW
+@given(SEEDS, st.integers(0, N - 1), st.sampled_from([SHORT, LONG]), st.floats(-50, 50), st.floats(0, 5))
+def test_a_constrained_joint_follows_its_acceleration(
+    seed: int, joint: int, length: float, acceleration: float, rate_noise: float
+) -> None:
+    """Whatever the others do, and what is missing; its rate's noise is that of white acceleration."""
+    arm = Arm.drawn(seed)
+    held = np.random.default_rng(seed).normal(0, 1, (arm.substeps(length), N))
+    found = arm.over(length, constrained(arm.slips, joint, acceleration, rate_noise), held=held, gained=1.0)
+    own = [joint, N + joint]
+    moved = length * np.array([arm.x[N + joint] + acceleration * length / 2, acceleration])
+    np.testing.assert_allclose(found.end[0, own], arm.x[own] + moved, rtol=1e-9, atol=1e-9)
+    by_state = np.zeros((2, 2 * N))
+    by_state[:, own] = [[1.0, length], [0.0, 1.0]]
+    np.testing.assert_allclose(found.F[0, own], by_state, rtol=1e-9, atol=1e-9)
+    assert not np.any(found.D[0, own])
+    assert not np.any(found.D[0, :, joint])
+    assert not np.any(found.W[:, own])
+    assert not np.any(found.W[:, :, joint])
+    white = rate_noise**2 * np.array([[length**2 / 3, length / 2], [length / 2, 1.0]])
+    np.testing.assert_allclose(found.noise[0][np.ix_(own, own)], white, rtol=1e-6, atol=1e-12)
+
+
+@LAW
+@given(SEEDS, st.lists(st.booleans(), min_size=N, max_size=N))
+def test_accelerations_amid_the_substeps_balance_the_equations(seed: int, given_joints: list[bool]) -> None:
+    """At joints that slip, with what is held; the others have the acceleration that they are given."""
+    arm, random = Arm.drawn(seed), np.random.default_rng(seed)
+    modes, run = arm.slips, arm.interval(LONG)
+    wanted, held = random.normal(0, 20, N), random.normal(0, 0.1, (arm.substeps(LONG), N))
+    for joint in np.flatnonzero(given_joints):
+        modes = constrained(modes, int(joint), wanted[joint])
+    found = arm.over(LONG, modes, held=held)
+    x1 = np.stack([arm.x[:N], arm.x[:N] + LONG * arm.x[N:]])
+    q, w = run.between(Trajectory(x1, np.stack([arm.x[N:]] * 2), 0 * x1, 0 * x1))
+    model, slips = with_vector(structure().model, arm.values), ~np.array(given_joints)
+    for k, acceleration in enumerate(found.acceleration):
+        left = left_side(model, np.concatenate([q[k], w[k]]), acceleration, arm.u, found.slip[k])
+        np.testing.assert_allclose(left[slips], held[k, slips], rtol=1e-8, atol=1e-10)
+        np.testing.assert_array_equal(acceleration[~slips], wanted[~slips])
+
+
+def linear_arm(seed: int) -> Arm:
+    """Links without weight: inertia that does not depend on the posture, springs and viscous friction, some very stiff."""
+    random = np.random.default_rng(seed)
+    arm = Arm.drawn(seed, False, mass=1e-9, stribeck_gain=0.0, friction_slope=1e4)
+    for name in ("stiffness", "viscous_friction"):
+        arm.values[structure().slots[name]] *= 10 ** random.uniform(-1, 2, N)
+    return replace(arm, u=np.zeros(2))
+
+
+@LAW
+@given(SEEDS, st.sampled_from([SHORT, LONG]))
+def test_an_interval_of_a_linear_arm_is_exact(seed: int, length: float) -> None:
+    """However stiff it is, and however far the trajectory is from it."""
+    arm = linear_arm(seed)
+    held = np.tile(np.random.default_rng(seed).normal(0, 0.1, N), (arm.substeps(length), 1))
+    found = arm.over(length, held=held, gained=1.0)
+    model = with_vector(structure().model, arm.values)
+
+    def left(x: np.ndarray, v: np.ndarray) -> np.ndarray:
+        return left_side(model, x, v, arm.u, found.slip[0])
+
+    at_rest, none = np.zeros(2 * N), np.zeros(N)
+    inverse = np.linalg.inv(differences(lambda v: left(at_rest, v), none, 1.0))
+    by_state, push = -inverse @ differences(lambda x: left(x, none), at_rest, 1.0), np.zeros(2 * N)
+    push[N:] = inverse @ (held[0] + arm.d - left(at_rest, none))
+    one = scipy.linalg.block_diag(np.eye(N), inverse)[:, N:]
+    whole = np.zeros((3 * N + 1, 3 * N + 1))
+    whole[:N, N : 2 * N], whole[N : 2 * N, : 2 * N] = np.eye(N), by_state
+    whole[: 2 * N, 2 * N : 3 * N], whole[: 2 * N, -1] = one, push
+    flow = scipy.linalg.expm(length * whole)[: 2 * N]
+    expected = flow[:, : 2 * N] @ arm.x + flow[:, -1]
+    for part, wanted in ((found.F[0], flow[:, : 2 * N]), (found.D[0], flow[:, 2 * N : -1]), (found.end[0], expected)):
+        assert relative(part[:N], wanted[:N]) < 1e-5
+        assert relative(part[N:], wanted[N:]) < 1e-5
