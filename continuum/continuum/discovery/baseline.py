@@ -65,7 +65,7 @@ def fitted_baseline(problem: Problem) -> tuple[Problem, State]:
     for level in _FIRST_LEVELS:
         lin = linearise(problem, state, [level], live=())
         state = moved(lin, (), 0, level)
-        state = State(state.shared, state.own, {}, state.held, 1.6, state.ways, modes_along(problem, state))
+        state = replace(state, modes=modes_along(problem, state))
     problem = _with_likelier_inputs(problem, state)
     before = -np.inf
     for _ in range(_MOST_ITERATIONS):

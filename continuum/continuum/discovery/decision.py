@@ -28,7 +28,9 @@ cable's geometry are right to a few percent."""
 NEGLIGIBLE = 0.0125
 """Missing torque that no model of an arm does without, as a part of the torque that moves it."""
 LEAST_SHARE = 0.25
-"""Least closed share of a cause that leaves something unknown: what closes less does not change a simulation's use."""
+"""Least closed share of a cause that leaves something unknown: what closes less is not most of what is missing."""
+SECOND_SHARE = 0.05
+"""Least share that a second effect closes of its own: what closes less does not change a simulation's use."""
 FREE_PART = 0.1
 """Part of what a cause explains that a torque of free form may find besides, for the cause to be named alone."""
 
@@ -95,7 +97,7 @@ def decide(
         ]
         possible.sort(key=lambda one: closed(baseline, one, floor, rng)[0], reverse=True)
         if not possible:
-            small = baseline.completed and float(np.max(baseline.errors)) < tolerance
+            small = baseline.completed and float(np.sqrt(np.mean(baseline.errors**2))) < tolerance
             helps = max(others, key=score, default=baseline)
             kind = Kind.ADEQUATE if small else Kind.UNKNOWN
             return Verdict(kind, (), (), small, helps.effects if score(helps) > ODDS and not small else ())
@@ -118,7 +120,11 @@ def decide(
 def adds(baseline: Candidate, part: Candidate, whole: Candidate, margin: float, floor: float, rng: Generator) -> bool:
     """Whether a set's further effect is there: more probable by a margin, and open-loop runs come nearer by it."""
     gained = whole.log_evidence - part.log_evidence - PRICE * (len(whole.effects) - len(part.effects))
-    return gained > (ODDS if part is baseline else margin) and (part is baseline or nearer(part, whole, rng))
+    if part is baseline:
+        return gained > ODDS
+    distance = float(np.mean(baseline.errors)) - floor
+    closer = np.quantile(_resampled(part.errors - whole.errors, rng), 0.05)
+    return gained > margin and bool(closer > SECOND_SHARE * max(distance, 0.0))
 
 
 def nearer(one: Candidate, other: Candidate, rng: Generator) -> bool:

@@ -78,11 +78,14 @@ class Evidence:
         nuisance: common to all.
         hypotheses: all that may be asked for.
         width: number of columns.
+        prior_levels: number of levels that are alike beforehand; those that are not given are not probable.
     """
 
     def __init__(
-        self, runs: Sequence[Sequence[RunLikelihood]], nuisance: Nuisance, hypotheses: Sequence[Hypothesis], width: int
-    ) -> None:
+        self, runs: Sequence[Sequence[RunLikelihood]], nuisance: Nuisance, hypotheses: Sequence[Hypothesis], width: int,
+        prior_levels: int,
+    ) -> None:  # fmt: skip
+        self._prior_levels = prior_levels
         self.runs, self.nuisance, self.width = runs, nuisance, width
         self._at: dict[int, slice] = {}
         maps, end = [], 0
@@ -128,7 +131,7 @@ class Evidence:
 
     def total(self, chosen: Set, with_constraints: bool = False) -> float:
         """Log-evidence with all levels alike beforehand."""
-        return logsum(self.by_level(chosen, with_constraints)) - log(self.n_levels)
+        return logsum(self.by_level(chosen, with_constraints)) - log(self._prior_levels)
 
     def best_level(self, chosen: Set) -> int:
         """The most probable level."""

@@ -55,6 +55,7 @@ class State:
         ratio: by which active values are changed for differences.
         ways: trajectories.
         modes: of friction.
+        rate_sd: standard deviations of the smoothed rates, (n_times, n) each [rad/s]; none at first.
     """
 
     shared: Values
@@ -64,6 +65,7 @@ class State:
     ratio: float
     ways: tuple[Trajectory, ...]
     modes: tuple[FrictionModes, ...]
+    rate_sd: tuple[Array, ...] = ()
 
 
 @dataclass
@@ -174,7 +176,7 @@ def linearise(
              for run, way, lin, theta_r in zip(problem.runs, state.ways, runs, theta, strict=True)]
             for k in (range(len(problem.levels)) if levels is None else levels)
         ],
-        nuisance, library.hypotheses, library.width,
+        nuisance, library.hypotheses, library.width, len(problem.levels),
     )  # fmt: skip
     chosen = tuple(range(len(problem.levels)) if levels is None else levels)
     return Linearised(problem, state, library, evidence, runs, theta, chosen)
@@ -209,14 +211,15 @@ def moved(lin: Linearised, chosen: Set, level: int, sigma_index: int) -> State:
     problem, state, library = lin.problem, lin.state, lin.library
     best = lin.evidence.optimum(chosen, level)
     noise = problem.noise.at(problem.levels[sigma_index] * problem.noise.sigma)
-    ways = []
+    ways, sds, n = [], [], problem.structure.n
     for r, (run, way, one) in enumerate(zip(problem.runs, state.ways, lin.runs, strict=True)):
         theta = best.theta - lin.theta[r]
         if best.local_columns.size:
             theta[best.local_columns] += best.local[r]
         added = one.columns[0] @ theta, one.columns[1] @ theta
-        by, _, _ = smoothed(run, way, one.step, one.seen, added, noise)
+        by, variance, _ = smoothed(run, way, one.step, one.seen, added, noise)
         ways.append(way.moved(by))
+        sds.append(np.sqrt(np.maximum(variance[:, n : 2 * n], 0.0)))
     shared = {key: float(best.theta[column]) for key, column in library.at.items() if best.theta[column] != 0.0}
     name_of = {column: key for key, column in library.at.items()}
     own = tuple(
@@ -225,7 +228,7 @@ def moved(lin: Linearised, chosen: Set, level: int, sigma_index: int) -> State:
     held = {name: float(best.theta[column]) for name, column in library.torque_only.items()}
     active = library.stepped(chosen, best.values)
     _take_shapes(problem.structure, chosen, best.values, active, shared)
-    return replace(state, shared=shared, own=own, held=held, active=active, ways=tuple(ways))
+    return replace(state, shared=shared, own=own, held=held, active=active, ways=tuple(ways), rate_sd=tuple(sds))
 
 
 def _take_shapes(
@@ -267,5 +270,8 @@ def modes_along(problem: Problem, state: State) -> tuple[FrictionModes, ...]:
     s = problem.structure
     p = point_of(problem, state).values
     stribeck = p[s.slots["coulomb_friction"]] * p[s.slots["stribeck_gain"]]
-    return tuple(friction_modes(run, way, stribeck) for run, way in zip(problem.runs, state.ways, strict=True))
+    known = state.rate_sd or (None,) * len(problem.runs)
+    return tuple(
+        friction_modes(run, way, stribeck, sd) for run, way, sd in zip(problem.runs, state.ways, known, strict=True)
+    )
 

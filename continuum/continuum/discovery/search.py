@@ -12,13 +12,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.discovery.decision import MODEL_ERROR, PRICE
 from continuum.discovery.evidence import Evidence, Set
 from continuum.discovery.hypotheses import UNKNOWN, Hypothesis
 from continuum.discovery.problem import Linearised, Problem, State, innovations, linearise, moved
 
-PRICE = 6.0
-"""Prior log-odds against one more effect, e^6 = 400 to 1 against any given one of some 60: about one in seven that there
-is one at all. It is also the change of log-evidence below which an iteration has converged."""
 MOST = 2
 """Effects that are named together at most: three would need more runs than a laboratory makes."""
 RATIO = (1.6, 1.25, 1.1)
@@ -34,7 +32,7 @@ LONG_SHOT = 0.2
 RUNNER_UP = 0.6
 """Part of the best single effect's gain from which another is refined too: screening ranks to within a third."""
 _NEAR = 40.0  # log-evidence below the best single effect: hypotheses beyond are not followed (e^-40 is no chance)
-_FOLLOWED = 8  # single effects from which pairs are made
+_EXCHANGES = 3  # times that a second effect is added, or one of two exchanged
 _WRONG, _MANY = 5.0, 0.02  # deviations that no interval misses by chance, and part of them that may be freed
 
 type Progress = Callable[[str, float], None]
@@ -90,14 +88,14 @@ def find(problem: Problem, start: State, progress: Progress) -> Found:
         if e - base < PRICE or (number and e < base + part * (ranked[0][0] - base)):
             break
         progress(f"refining {h.label}", 0.2 + 0.1 * number)
-        found = refined(problem, first, (h,), live)
+        found = refined(problem, first, (h,))
         if found is None:
             log.append(f"{h.label}: diverged")
             continue
         log.append(f"refined {label(found.chosen)}: {found.lin.evidence.total(found.chosen) - base:.0f}")
         tried.append(found)
         stages.append(found)
-    for found in sorted(tried, key=_score, reverse=True)[:2]:
+    for found in sorted(tried, key=_score, reverse=True)[:1 if any(map(_explains, tried)) else 2]:
         grown = _with_second(problem, found, live, log, base, stages)
         if _score(grown) > best_score:
             best, best_score = grown, _score(grown)
@@ -137,19 +135,17 @@ def _by_family(ranked: Sequence[tuple[float, Hypothesis]]) -> list[tuple[float, 
     return out
 
 
-def refined(problem: Problem, lin: Linearised, chosen: Set, live: set[str] | None) -> Found | None:
+def refined(problem: Problem, lin: Linearised, chosen: Set) -> Found | None:
     """Gauss-Newton steps to a set's own optimum; None where they diverge."""
     keys = [h.key for h in chosen]
     effects = {h.effect for h in chosen}
     before = lin.evidence.total(chosen, with_constraints=True)
     for iteration in range(ITERATIONS):
         level = lin.evidence.best_level(chosen)
-        where = lin.levels[level]
         try:
-            state = moved(lin, chosen, level, where)
+            state = moved(lin, chosen, level, lin.levels[level])
             state = replace(state, ratio=RATIO[min(iteration, len(RATIO) - 1)])
-            near = [k for k in (where - 1, where, where + 1) if 0 <= k < len(problem.levels)]
-            lin = linearise(problem, state, near, effects)
+            lin = linearise(problem, state, near(problem, lin.levels[level]), effects)
         except np.linalg.LinAlgError:
             return None
         chosen = matching(lin, keys)
@@ -161,11 +157,12 @@ def refined(problem: Problem, lin: Linearised, chosen: Set, live: set[str] | Non
         if settled and abs(after - before) < PRICE / 3:
             break
         before = after
-    try:
-        lin = linearise(problem, lin.state, None, live if live is None else live | effects)
-    except np.linalg.LinAlgError:
-        return None
-    return Found(lin, matching(lin, keys), [])
+    return Found(lin, chosen, [])
+
+
+def near(problem: Problem, level: int) -> list[int]:
+    """A level of missing torque and those beside it."""
+    return [k for k in (level - 1, level, level + 1) if 0 <= k < len(problem.levels)]
 
 
 def matching(lin: Linearised, keys: Sequence[tuple[str, tuple[int, ...] | None]]) -> Set:
@@ -181,25 +178,26 @@ def _with_second(
     problem: Problem, found: Found, live: set[str], log: list[str], base: float, stages: list[Found]
 ) -> Found:
     """The set with a second effect, or another in the place of one, as long as that is better."""
-    best, failed = found, set[str]()
-    for _ in range(4):
-        lin = best.lin
-        alone = lin.evidence.total(best.chosen, with_constraints=True) - price(best.chosen)
+    best, failed, looked = found, set[str](), None
+    for _ in range(_EXCHANGES):
+        if looked is not best:  # all that may stand beside the set, about its own optimum
+            level = best.lin.levels[best.lin.evidence.best_level(best.chosen)]
+            effects = live | {h.effect for h in best.chosen}
+            lin = linearise(problem, best.lin.state, near(problem, level), effects)
+            standing, looked = matching(lin, [h.key for h in best.chosen]), best
+        alone = lin.evidence.total(standing, with_constraints=True) - price(standing)
         ranked = ranked_singles(lin.evidence, lin.library.hypotheses)
         sets: list[Set] = [(h,) for _, h in ranked[:4]]
-        if best.chosen:
-            pool = lin.library.hypotheses
-            sets += [(*best.chosen[:1], h) for h in pool]
-            if len(best.chosen) > 1:
-                sets += [(best.chosen[1], h) for h in pool]
+        sets += [(one, h) for one in standing for h in lin.library.hypotheses]
         possible = [s for s in sets if len(s) <= MOST and compatible(s) and label(s) not in failed]
         candidates = lin.evidence.ranked(possible, PRICE, 1)
-        if not candidates or candidates[0][0] < alone + PRICE / 3:
+        # what adds less than columns err by would not be named anyway
+        if not candidates or candidates[0][0] < alone + max(PRICE / 3, MODEL_ERROR * (alone - base)):
             break
         chosen = candidates[0][1]
         if {h.key for h in chosen} == {h.key for h in best.chosen}:
             break
-        grown = refined(problem, lin, chosen, live)
+        grown = refined(problem, lin, chosen)
         if grown is None or _score(grown) < _score(best) + PRICE / 3:
             failed.add(label(chosen))
             log.append(f"{label(chosen)}: no better when refined")

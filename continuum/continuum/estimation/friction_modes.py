@@ -16,8 +16,9 @@ from continuum.arrays import Array
 from continuum.estimation.run import Run, Trajectory
 
 SLIPPING = 0.3
-"""Rate [rad/s] above which the direction of motion is known: five times what a smoothed rate errs by, and Stribeck's
-rate of greased joints, below which friction is least alike."""
+"""Rate [rad/s] above which the direction of motion is known: Stribeck's rate of greased joints, below which friction is
+least alike; more where smoothed rates err by much."""
+_SURE = 4.0  # standard deviations of a smoothed rate from which its direction is known
 _STUCK, _REVERSING = 0.05, 3.0  # rad/s by which a rate may change within a sample of 1/120 s, one standard deviation
 _SAMPLE = 1 / 120  # s
 _WHITE = 2e-4  # N m sqrt(s): white torque of a slipping joint, 2 mN m over a sample
@@ -53,19 +54,23 @@ class FrictionModes:
         )
 
 
-def friction_modes(run: Run, way: Trajectory, stribeck_torque: Array, base_rate: Array | None = None) -> FrictionModes:
+def friction_modes(
+    run: Run, way: Trajectory, stribeck_torque: Array, rate_sd: Array | None = None, base_rate: Array | None = None
+) -> FrictionModes:
     """Modes along a trajectory.
 
     Args:
         run: its readings.
         way: the smoothed trajectory.
         stribeck_torque: by which friction at rest exceeds that of fast motion, (n,) [N m].
+        rate_sd: standard deviation of the smoothed rates, (n_times, n) [rad/s].
         base_rate: of the plate under joint 1, which that joint's friction does not see, (n_times,) [rad/s].
     """
     w, h = way.w.copy(), run.intervals[:, None]
     if base_rate is not None:
         w[:, 0] -= base_rate
-    moving = np.where(np.abs(w) < SLIPPING, 0.0, np.sign(w))
+    least = SLIPPING if rate_sd is None else np.maximum(SLIPPING, _SURE * rate_sd)
+    moving = np.where(np.abs(w) < least, 0.0, np.sign(w))
     one_sided = _without_creep(moving)
     sign = np.where(one_sided[:-1] == one_sided[1:], one_sided[:-1], 0.0)
     sign = np.where(sign * _measured_rate(run, base_rate) >= _MOVED * SLIPPING, sign, 0.0)
