@@ -49,7 +49,9 @@ def wanted() -> Stamp:
 
 def _compiled_sources() -> list[Path]:
     """Sources that numba's cached code may come from."""
-    return sorted((ROOT / "continuum" / "continuum" / "kinematics").rglob("*.py"))
+    library = ROOT / "continuum" / "continuum"
+    folders = ("kinematics", "dynamics/integration", "estimation", "discovery")
+    return sorted(path for folder in folders for path in (library / folder).rglob("*.py"))
 
 
 def _is_installed(name: str) -> bool:

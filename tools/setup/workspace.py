@@ -40,20 +40,24 @@ def build(names: list[str]) -> None:
     _free_scripts()
 
 
-WARM_UPS = ("continuum.kinematics.compiled.warm_up", "continuum.dynamics.warm_up")
+WARM_UPS = {
+    "solver and integrator": ("continuum.kinematics.compiled.warm_up", "continuum.dynamics.warm_up"),
+    "a first diagnosis": ("continuum.discovery.warm_up",),
+}
 
 
 def compile_solver() -> None:
-    """Fill numba's cache, so that no node compiles while it runs.
+    """Fill the caches of numba and of compiled equations, so that no node and no diagnosis compiles while it runs.
 
     Raises:
-        SetupError: the inverse kinematics' solver or the dynamics' integrator does not compile.
+        SetupError: the inverse kinematics' solver, the dynamics' integrator or what a diagnosis needs does not compile.
     """
-    with Step("solver and integrator, compiled", "does not compile; the lines above say why.") as step:
-        step.run(
-            ["bash", "-c", f"source install/setup.bash && {' && '.join(f'python3 -m {name}' for name in WARM_UPS)}"],
-            venv_environment(),
-        )
+    for what, modules in WARM_UPS.items():
+        with Step(f"{what}, compiled", "does not compile; the lines above say why.") as step:
+            step.run(
+                ["bash", "-c", " && ".join(["source install/setup.bash", *(f"python3 -m {name}" for name in modules)])],
+                venv_environment(),
+            )
 
 
 def remove() -> None:
