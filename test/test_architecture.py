@@ -19,6 +19,7 @@ CODE = ("*.py", "*.xml", "*.xacro", "*.yaml", "*.msg", "*.cfg", "CMakeLists.txt"
 
 COMPILER = "build-essential"  # machine code of dynamic models is made where they run
 PLAIN_PYTHON = {  # what a module is called in package.xml (rosdep's keys)
+    "jinja2": "python3-jinja2",
     "llvmlite": "python3-numba",  # comes with it
     "matplotlib": "python3-matplotlib",
     "numba": "python3-numba",
