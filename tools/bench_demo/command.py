@@ -6,12 +6,16 @@ import argparse
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
 
 import tools.bench_demo
 from continuum.cli import main as continuum
 from continuum.cli.diagnose import EXIT_CODES
-from continuum.discovery.candidate import Addition, extended
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.model_file import load_model, save_model
 from continuum.errors import ContinuumError
 from tools.bench_demo.conductor import Conductor, side_by_side
@@ -91,8 +95,7 @@ def _launch_command(port: str, out: Path) -> list[str]:
     words.append(f"calibration:={out / 'sensors.yaml'}")
     if port:
         return [*words, f"port:={port}"]
-    loaded = extended(load_model("lamecc_prototype.yaml"), (Addition("tip_payload"),))
-    save_model(loaded.with_values({"tip_payload.mass": PAYLOAD}), out / "arm.yaml")
+    save_model(_loaded(load_model("lamecc_prototype.yaml")), out / "arm.yaml")
     return [
         *words,
         f"emulated_model:={out / 'arm.yaml'}",
@@ -100,6 +103,12 @@ def _launch_command(port: str, out: Path) -> list[str]:
         f"emulator_control:={out / 'control'}",
         f"emulator_truth:={out / 'truth.csv'}",
     ]
+
+
+def _loaded(model: Model) -> Model:
+    """The model with the weight at its tip."""
+    weight = ActiveEffect(effect_named("tip_payload"), {"mass": np.array([PAYLOAD])})
+    return replace(model, effects=(*model.effects, weight))
 
 
 def _calibrate(conductor: Conductor) -> None:
