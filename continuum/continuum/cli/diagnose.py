@@ -43,8 +43,8 @@ def add_to(commands: Any) -> None:
     )
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the intervals; default %(default)s")
     parser.add_argument(
-        "--tolerance", metavar="DEG", type=float, default=0.5,
-        help="open-loop error of an adequate model, root mean square of a recording; default %(default)s degrees",
+        "--tolerance", metavar="DEG", type=float,
+        help="open-loop error of an adequate model, root mean square; default three times the angles' noise",
     )  # fmt: skip
     parser.set_defaults(run=run)
 
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> int:
     from continuum.discovery.verdict_json import write_json
     from continuum.dynamics.model_file import save_model
 
-    tolerance = math.radians(options.tolerance)
+    tolerance = None if options.tolerance is None else math.radians(options.tolerance)
     with told() as tell:
         result = diagnose(recordings, model, tolerance=tolerance, seed=options.seed, progress=tell)
     show(result)
@@ -84,7 +84,13 @@ def _made(options: argparse.Namespace) -> dict[str, Any]:
     """How a diagnosis was made: the version, of what, without the folders, and with which options."""
     *names, model = (printable(Path(path).name) for path in (*options.data, options.model))
     version = importlib.metadata.version("continuum")
-    return {"version": version, "recordings": names, "model": model, "seed": options.seed, "tolerance": options.tolerance}
+    return {
+        "version": version,
+        "recordings": names,
+        "model": model,
+        "seed": options.seed,
+        "tolerance": options.tolerance,
+    }
 
 
 def _how(options: argparse.Namespace) -> str:

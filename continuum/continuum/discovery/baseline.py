@@ -9,11 +9,12 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.coordinates import coordinates
-from continuum.discovery.problem import Problem, State, linearise, modes_along, moved
-from continuum.dynamics.model import Model
+from continuum.discovery.gauss_newton import modes_along, moved
+from continuum.discovery.problem import Problem, State, linearise
 from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
-from continuum.estimation.columns import FreeForm
+from continuum.estimation.free_form import FreeForm
 from continuum.estimation.friction_modes import friction_modes
 from continuum.estimation.run import Run
 from continuum.estimation.sensor_noise import NoiseModel, white_noise
@@ -35,7 +36,7 @@ def problem_of(structure: Structure, recordings: Sequence[Recording]) -> Problem
     common = coordinates(structure, runs)
     n = structure.n
     noise = NoiseModel(white_noise(runs), np.full(n, _SLOW), np.full(n, common.torque))
-    return Problem(structure, common, runs, noise, LEVELS, _free_form(runs))
+    return Problem(structure, common, runs, noise, np.asarray(LEVELS, dtype=float), _free_form(runs))
 
 
 def run_of(recording: Recording, model: Model) -> Run:

@@ -10,8 +10,9 @@ import numpy as np
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of
 from continuum.discovery.candidate import Candidate, Key
 from continuum.discovery.confirmation import Confirmation, OpenLoop
+from continuum.discovery.gauss_newton import moved
 from continuum.discovery.hypotheses import UNKNOWN
-from continuum.discovery.problem import Problem, State, linearise, moved
+from continuum.discovery.problem import Problem, State, linearise
 from continuum.discovery.search import Found, find, matching, posterior_of_levels
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
@@ -22,6 +23,10 @@ SIMULABLE_STEPS = 2
 """Gauss-Newton steps after which a refit without some nuisances has settled."""
 
 type Progress = Callable[[str, float], None]
+
+
+def silent(_what: str, _share: float) -> None:
+    """Tell nobody of progress."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +67,7 @@ def examine(
     recordings: Sequence[Recording],
     model: Model,
     effects: Sequence[str] | None = None,
-    progress: Progress = lambda what, share: None,
+    progress: Progress = silent,
 ) -> Examination:
     """Search for sets of effects and simulate each open loop."""
     progress("compiling", 0.0)

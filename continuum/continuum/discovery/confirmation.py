@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.problem import Problem, State, point_of
-from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.dynamics.values import with_vector
@@ -74,7 +75,9 @@ class Confirmation:
             if stateful not in self._simulators:
                 self._simulators[stateful] = Simulator(model, _TOLERANCES)
             simulator = self._simulators[stateful].around(model)
-            delay = sum(float(own[name][0]) for e in s.late if (own := state.active.get(e.name)) for name in e.parameters)
+            delay = sum(
+                float(own[name][0]) for e in s.late if (own := state.active.get(e.name)) for name in e.parameters
+            )
             inputs = replace(recording.inputs_for(s.given), held=run.held)
             q, w = np.full_like(way.q, np.nan), np.full_like(way.q, np.nan)
             for begin, end in _segments(run.times):
@@ -102,7 +105,7 @@ def _segments(times: Array) -> list[tuple[int, int]]:
     """First row and row after the last of each segment."""
     count = max(1, int(np.ceil((times[-1] - times[0]) / SEGMENT - 0.25)))
     edges = np.searchsorted(times, np.linspace(times[0], times[-1], count + 1))
-    return [(int(a), int(b) + (b == len(times) - 1)) for a, b in zip(edges[:-1], edges[1:], strict=True) if b - a > 1]
+    return [(int(a), int(b) + (b == len(times) - 1)) for a, b in pairwise(edges) if b - a > 1]
 
 
 def _beginning(model: Model, q: Array, w: Array, u: Array) -> Array:
@@ -112,4 +115,3 @@ def _beginning(model: Model, q: Array, w: Array, u: Array) -> Array:
         if active.effect.n_states(model.n_joints):
             parts.append(np.asarray(active.effect.initial_state(q, u, active.values, p), dtype=float))
     return np.concatenate(parts)
-

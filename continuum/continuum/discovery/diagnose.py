@@ -10,7 +10,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Candidate
-from continuum.discovery.candidates import Examination, Examined, Progress, examine, free_form_gain
+from continuum.discovery.candidates import Examination, Examined, Progress, examine, free_form_gain, silent
 from continuum.discovery.decision import Kind, Verdict, closed, decide
 from continuum.discovery.estimates import baseline_estimates, estimates_of
 from continuum.discovery.extended import model_of
@@ -23,8 +23,9 @@ from continuum.recordings.cable_sides import refuse_swapped_cables
 from continuum.recordings.rate_ratio import odd_rates
 from continuum.recordings.recording import Recording
 
-TOLERANCE = np.radians(0.5)
-"""Open-loop error [rad] up to which a model is adequate, where no other is asked for: what a protractor tells."""
+TOLERANCE = 3.0
+"""Open-loop error up to which a model is adequate, where no other is asked for, in units of the angles' noise: an error
+that no single reading shows."""
 _FREE_FORM = 4
 """Candidates for which a torque of free form is tried, the most probable first."""
 
@@ -33,9 +34,9 @@ def diagnose(
     recordings: Sequence[Recording],
     model: Model,
     effects: Sequence[str] | None = None,
-    tolerance: float = TOLERANCE,
+    tolerance: float | None = None,
     seed: int = 0,
-    progress: Progress = lambda what, share: None,
+    progress: Progress = silent,
 ) -> Diagnosis:
     """Diagnose a model by measured data.
 
@@ -43,7 +44,7 @@ def diagnose(
         recordings: runs of the arm.
         model: with nominal values.
         effects: names of those to try; all that are installed without.
-        tolerance: open-loop error up to which a model is adequate [rad].
+        tolerance: open-loop error up to which a model is adequate [rad]; TOLERANCE times the noise without.
         seed: of the resampling of runs for intervals.
         progress: told what is done, and the part of all that is over.
 
@@ -58,17 +59,24 @@ def diagnose(
 
 
 def _answer(
-    found: Examination, recordings: Sequence[Recording], model: Model, tolerance: float, rng: np.random.Generator,
+    found: Examination,
+    recordings: Sequence[Recording],
+    model: Model,
+    tolerance: float | None,
+    rng: np.random.Generator,
     began: float,
-) -> Diagnosis:  # fmt: skip
+) -> Diagnosis:
     problem, base = found.problem, found.baseline
     tested = [base, *found.others[:_FREE_FORM]]
     gains = {id(one): free_form_gain(problem, one.found) for one in tested}
-    candidates = {id(one): replace(one.candidate, free_form=gains.get(id(one), np.inf)) for one in (base, *found.others)}
+    candidates = {
+        id(one): replace(one.candidate, free_form=gains.get(id(one), np.inf)) for one in (base, *found.others)
+    }
     baseline = candidates[id(base)]
     others = [candidates[id(one)] for one in found.others]
     floor = base.open_loop.floor
-    verdict = decide(baseline, others, problem.coordinates.torque, floor, tolerance, rng)
+    accepted = TOLERANCE * floor if tolerance is None else tolerance
+    verdict = decide(baseline, others, problem.coordinates.torque, floor, accepted, rng)
     odd = odd_rates(recordings)
     if odd:  # nothing that is fitted to readings which contradict each other can be trusted
         verdict = Verdict(Kind.UNKNOWN, (), (), False)
@@ -82,7 +90,7 @@ def _answer(
         verdict, sets, share, (before[0], after[0]), (before[1], after[1]), baseline_estimates(problem, best),
         base.open_loop, best.open_loop, model_of(problem, base.simulable, (), model),
         model_of(problem, best.simulable, best.candidate.effects, model), tuple(recordings),
-        (*odd, *_notes(recordings, problem, best)), tolerance, time.process_time() - began,
+        (*odd, *_notes(recordings, problem, best)), accepted, time.process_time() - began,
     )  # fmt: skip
 
 
@@ -90,11 +98,19 @@ def _causes(found: Examination, one: Examined, baseline: Candidate, rng: np.rand
     """Effects of a set; its closed share is divided in proportion to the evidence that each adds."""
     evidence, chosen = one.found.lin.evidence, one.found.chosen
     whole = evidence.total(chosen, with_constraints=True)
-    gains = [whole - evidence.total(tuple(h for h in chosen if h is not left), with_constraints=True) for left in chosen]
+    gains = [
+        whole - evidence.total(tuple(h for h in chosen if h is not left), with_constraints=True) for left in chosen
+    ]
     value, low, high = closed(baseline, one.candidate, one.open_loop.floor, rng)
     parts: Array = np.maximum(gains, 1e-9) / np.sum(np.maximum(gains, 1e-9))
     return tuple(
-        Cause(h.effect, h.joints, Share(value * part, low * part, high * part), float(gain), estimates_of(found.problem, one, h))
+        Cause(
+            h.effect,
+            h.joints,
+            Share(value * part, low * part, high * part),
+            float(gain),
+            estimates_of(found.problem, one, h),
+        )
         for h, part, gain in zip(chosen, parts, gains, strict=True)
     )
 
@@ -103,7 +119,9 @@ def _notes(recordings: Sequence[Recording], problem: Problem, best: Examined) ->
     notes = [f"{recording.name}: {note}" for recording in recordings for note in recording.notes]
     if any(run.is_driven for run in recordings):
         held = all(run.held for run in problem.runs)
-        notes.append("inputs are taken " + ("to hold until their next row" if held else "to change linearly from row to row"))
+        notes.append(
+            "inputs are taken " + ("to hold until their next row" if held else "to change linearly from row to row")
+        )
     if len(recordings) < 3:
         notes.append("few recordings: nothing shows that the answer holds for another run")
     local = sorted({h.effect for h in best.found.chosen if h.local})
@@ -112,10 +130,10 @@ def _notes(recordings: Sequence[Recording], problem: Problem, best: Examined) ->
     return tuple(notes)
 
 
-def _check(recordings: Sequence[Recording], model: Model, tolerance: float, seed: int) -> None:
+def _check(recordings: Sequence[Recording], model: Model, tolerance: float | None, seed: int) -> None:
     if not recordings:
         raise InvalidValueError("recordings", 0, "one or more")
-    if not 0 < tolerance < np.inf:
+    if tolerance is not None and not 0 < tolerance < np.inf:
         raise InvalidValueError("tolerance", tolerance, "an angle > 0")
     if seed < 0:
         raise InvalidValueError("seed", seed, "0 or more")
@@ -125,4 +143,3 @@ def _check(recordings: Sequence[Recording], model: Model, tolerance: float, seed
         for other in recordings[:number]:
             if np.array_equal(one.theta, other.theta):
                 raise InvalidValueError("recordings", f"{other.name} and {one.name}", "different runs: these are one")
-

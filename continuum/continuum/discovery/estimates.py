@@ -27,28 +27,63 @@ def estimates_of(problem: Problem, one: Examined, hypothesis: Hypothesis) -> tup
         at += len(h.coefficients)
     size, ratio = max(float(best.values[at]), 0.2) if hypothesis.coefficients else 1.0, np.log(found.lin.library.ratio)
     for k, c in enumerate(hypothesis.coefficients):
-        value, sd, joint = float(best.values[at + k]), float(best.sd[at + k]), c.joints[0] if len(c.joints) == 1 else None
+        value, sd, joint = (
+            float(best.values[at + k]),
+            float(best.sd[at + k]),
+            c.joints[0] if len(c.joints) == 1 else None,
+        )
         if c.kind == "slot":
             parts = [(c.parameter, 1.0)]
             if effect.directions and hypothesis.weights:
                 parts = _direction(hypothesis, effect.directions, problem.structure.n)
             for name, factor in parts:
                 origin = spec[name].default or 0.0
-                out.append(_estimate(effect.name, name, joint, origin + factor * value, factor * sd, spec[name].unit, spec[name].meaning))
+                out.append(
+                    _estimate(
+                        effect.name,
+                        name,
+                        joint,
+                        origin + factor * value,
+                        factor * sd,
+                        spec[name].unit,
+                        spec[name].meaning,
+                    )
+                )
         elif hypothesis.start is not None:
             own = state.active.get(effect.name, hypothesis.start)
             where = joint or 0
             if c.kind == "log":
                 now = float(np.atleast_1d(own[c.parameter])[where if spec[c.parameter].per_joint else 0])
                 now *= float(np.exp(ratio * np.clip(value / size, -1.5, 1.5)))
-                out.append(_estimate(effect.name, c.parameter, joint, now, now * ratio * sd / size, spec[c.parameter].unit, spec[c.parameter].meaning))
+                out.append(
+                    _estimate(
+                        effect.name,
+                        c.parameter,
+                        joint,
+                        now,
+                        now * ratio * sd / size,
+                        spec[c.parameter].unit,
+                        spec[c.parameter].meaning,
+                    )
+                )
     keys = {column: key for key, column in found.lin.library.at.items()}
     for r, run in enumerate(problem.runs):
         for i, column in enumerate(best.local_columns):
             if int(column) in hypothesis.local and keys.get(int(column), ("",))[0] == effect.name:
                 _, name, j = keys[int(column)]
                 sd = _local_sd(one, r, level, i)
-                out.append(_estimate(effect.name, name, j if j >= 0 else None, float(best.local[r, i]), sd, spec[name].unit, spec[name].meaning, run.name))
+                out.append(
+                    _estimate(
+                        effect.name,
+                        name,
+                        j if j >= 0 else None,
+                        float(best.local[r, i]),
+                        sd,
+                        spec[name].unit,
+                        spec[name].meaning,
+                        run.name,
+                    )
+                )
     return tuple(out)
 
 
@@ -75,11 +110,22 @@ def baseline_estimates(problem: Problem, one: Examined) -> tuple[Estimate, ...]:
     """The model's own springs and friction as refitted, the mean over joints."""
     values, slots = point_of(problem, one.simulable).values, problem.structure.slots
     return tuple(
-        Estimate(name, None, "", float(np.mean(values[slots[name]])), np.nan, np.nan, PARAMETERS[name].unit, PARAMETERS[name].meaning)
+        Estimate(
+            name,
+            None,
+            "",
+            float(np.mean(values[slots[name]])),
+            np.nan,
+            np.nan,
+            PARAMETERS[name].unit,
+            PARAMETERS[name].meaning,
+        )
         for name in _SHOWN
     )
 
 
-def _estimate(effect: str, name: str, joint: int | None, value: float, sd: float, unit: str, meaning: str, run: str = "") -> Estimate:
+def _estimate(
+    effect: str, name: str, joint: int | None, value: float, sd: float, unit: str, meaning: str, run: str = ""
+) -> Estimate:
     sd = abs(sd)
     return Estimate(f"{effect}.{name}", joint, run, value, value - _Z * sd, value + _Z * sd, unit, meaning)

@@ -1,22 +1,25 @@
 """Evidence of hypotheses by linear algebra: coefficients with Gaussian priors and bounds are integrated out.
 
-For run r and a level of the missing torque, -2 log p(y_r | theta) = energy_r - 2 theta' e_r + theta' L_r theta + log_det_r.
+For run r and a level of the missing torque
+
+    -2 log p(y_r | theta) = energy_r - 2 theta' e_r + theta' L_r theta + log_det_r.
+
 A hypothesis is a linear map H from its coefficients a to theta. Baseline parameters and ordinary differences of parts,
 the nuisances, are integrated out once; what each run has for itself by the Schur complement of its own block.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import erfc, log, sqrt
+from math import log
 
-import numba
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.discovery.evidence_kernel import evidences
 from continuum.discovery.hypotheses import Hypothesis
+from continuum.discovery.quadratic_program import bounded_minimum
 from continuum.estimation.augmented_filter import RunLikelihood
 
 type Set = tuple[Hypothesis, ...]
@@ -110,11 +113,13 @@ class Evidence:
         if key not in self._memo:
             local, local_sd = local_of(chosen)
             parts = self._without_nuisances(local, local_sd)
-            index = np.concatenate([np.arange(self._at[id(h)].start, self._at[id(h)].stop) for h in chosen] or [[]])
-            sd = np.concatenate([h.sd for h in chosen] or [[]])
-            least = np.concatenate([h.least for h in chosen] or [[]])
+            index = np.concatenate(
+                [np.zeros(0), *(np.arange(self._at[id(h)].start, self._at[id(h)].stop) for h in chosen)]
+            )
+            sd = np.concatenate([np.zeros(0), *(h.sd for h in chosen)])
+            least = np.concatenate([np.zeros(0), *(h.least for h in chosen)])
             found, worst = np.empty(self.n_levels), np.empty(self.n_levels)
-            _evidences(*parts, index.astype(np.int64), sd, least, found, worst)
+            evidences(*parts, index.astype(np.int64), sd, least, found, worst)
             self._memo[key] = found, worst
         found, worst = self._memo[key]
         if not with_constraints or not np.any(worst < -1e-9):
@@ -146,7 +151,7 @@ class Evidence:
         found: list[tuple[float, Set]] = []
         for at, (bound, i) in enumerate(free):
             best = sorted((value for value, _ in found), reverse=True)
-            if len(best) >= enough and best[enough - 1] >= bound or at > 4 * enough:
+            if (len(best) >= enough and best[enough - 1] >= bound) or at > 4 * enough:
                 break
             if np.isfinite(bound):
                 found.append((self.total(sets[i], with_constraints=True) - price * len(sets[i]), sets[i]))
@@ -205,14 +210,14 @@ class Evidence:
     def optimum(self, chosen: Set, level: int, own_bounds: bool = True) -> Optimum:
         """Most probable coefficients within the constraints, and within the set's own bounds."""
         H, sd, runs, own = self.system(chosen, level)
-        A = sum(L for L, _, _ in runs) + np.diag(sd**-2.0)
-        b = sum(e for _, e, _ in runs)
+        A = np.sum([L for L, _, _ in runs], axis=0) + np.diag(sd**-2.0)
+        b: Array = np.sum([e for _, e, _ in runs], axis=0)
         bounds, low = self.nuisance.bounds
         at = self.nuisance.sd.size
         bounds = np.hstack([bounds, np.zeros((len(bounds), sd.size - at))])
         G, least = [self.nuisance.constraints @ H, bounds], [self.nuisance.least, low]
         if own_bounds:
-            lower = np.concatenate([h.least for h in chosen] or [[]])
+            lower = np.concatenate([np.zeros(0), *(h.least for h in chosen)])
             rows = np.flatnonzero(np.isfinite(lower))
             bound = np.zeros((rows.size, sd.size))
             bound[np.arange(rows.size), at + rows] = 1.0
@@ -228,8 +233,8 @@ class Evidence:
     def by_run(self, chosen: Set, level: int) -> Array:
         """Log predictive density of each run given the others, (runs,): leave-one-run-out."""
         _, sd, runs, _ = self.system(chosen, level)
-        A = sum(L for L, _, _ in runs) + np.diag(sd**-2.0)
-        b = sum(e for _, e, _ in runs)
+        A = np.sum([L for L, _, _ in runs], axis=0) + np.diag(sd**-2.0)
+        b: Array = np.sum([e for _, e, _ in runs], axis=0)
         whole = _half_form(A, b)
         return np.array([c + whole - _half_form(A - L, b - e) for L, e, c in runs])
 
@@ -262,102 +267,3 @@ def logsum(values: Array) -> float:
     """log sum exp."""
     top = float(np.max(values))
     return top + float(np.log(np.sum(np.exp(values - top)))) if np.isfinite(top) else -np.inf
-
-
-def bounded_minimum(A: Array, b: Array, G: Array, least: Array) -> tuple[Array, float]:
-    """argmin of x'Ax / 2 - b'x with G x >= least by an active set, and by how much the bounds raise the minimum."""
-    free = np.linalg.solve(A, b)
-    Y = np.linalg.solve(A, G.T)
-    active: list[int] = []
-    x = free
-    for _ in range(3 * len(G)):
-        slack = G @ x - least
-        slack[active] = 0.0
-        worst = int(np.argmin(slack)) if slack.size else -1
-        if worst < 0 or slack[worst] > -1e-9:
-            break
-        active.append(worst)
-        while active:
-            inner = G[active] @ Y[:, active]
-            forces = np.linalg.lstsq(inner, least[active] - G[active] @ free, rcond=1e-10)[0]
-            if forces.min() >= 0:
-                break
-            active.pop(int(np.argmin(forces)))
-        x = free + Y[:, active] @ forces if active else free
-    away = x - free
-    return x, float(0.5 * away @ A @ away)
-
-
-@numba.njit(cache=True)
-def _log_normal(z: float) -> float:
-    """Log of the standard normal distribution function."""
-    if z < -8.0:
-        return -0.5 * z * z - math.log(-z * math.sqrt(2 * math.pi))
-    return math.log(0.5 * math.erfc(-z / math.sqrt(2.0)))
-
-
-@numba.njit(cache=True)
-def _evidences(L, e, c, G, g, index, sd, least, found, worst):
-    """Log-evidence of the coefficients ``index`` at every level, their bounds by their marginals.
-
-    worst: least value of the constraints g + G a >= 0 at the optimum, by level.
-    """
-    n = index.size
-    A, z, x = np.empty((n, n)), np.empty(n), np.empty(n)
-    for level in range(c.size):
-        value, good = c[level], True
-        for i in range(n):
-            for j in range(i + 1):
-                A[i, j] = L[level, index[i], index[j]]
-            A[i, i] += 1.0 / (sd[i] * sd[i])
-        for j in range(n):
-            t = A[j, j]
-            for k in range(j):
-                t -= A[j, k] * A[j, k]
-            if not t > 0.0:
-                good = False
-                break
-            A[j, j] = math.sqrt(t)
-            value -= math.log(A[j, j] * sd[j])
-            for i in range(j + 1, n):
-                t = A[i, j]
-                for k in range(j):
-                    t -= A[i, k] * A[j, k]
-                A[i, j] = t / A[j, j]
-        if not good:
-            found[level], worst[level] = -np.inf, 0.0
-            continue
-        for i in range(n):
-            t = e[level, index[i]]
-            for k in range(i):
-                t -= A[i, k] * z[k]
-            z[i] = t / A[i, i]
-            value += 0.5 * z[i] * z[i]
-        for i in range(n - 1, -1, -1):
-            t = z[i]
-            for k in range(i + 1, n):
-                t -= A[k, i] * z[k]
-            z[i] = t / A[i, i]
-        for p in range(n):
-            if least[p] > -1e300:
-                variance = 0.0
-                for i in range(p, n):
-                    t = 1.0 if i == p else 0.0
-                    for k in range(p, i):
-                        t -= A[i, k] * x[k]
-                    x[i] = t / A[i, i]
-                    variance += x[i] * x[i]
-                value += _log_normal((z[p] - least[p]) / math.sqrt(variance)) - _log_normal(-least[p] / sd[p])
-        found[level] = value
-        low = np.inf
-        for m in range(G.shape[1]):
-            t = g[level, m]
-            for i in range(n):
-                t += G[level, m, index[i]] * z[i]
-            low = min(low, t)
-        worst[level] = low
-
-
-def log_normal(z: float) -> float:
-    """Log of the standard normal distribution function."""
-    return -0.5 * z * z - log(-z * sqrt(2 * math.pi)) if z < -8 else log(0.5 * erfc(-z / sqrt(2)))

@@ -51,4 +51,4 @@ def model_of(problem: Problem, state: State, key: Key, model: Model) -> Model:
 
 def _within(name: str, value: Array) -> Array:
     spec = PARAMETERS[name]
-    return np.clip(np.asarray(value, dtype=float), spec.lower, spec.upper)
+    return np.asarray(np.clip(np.asarray(value, dtype=float), spec.lower, spec.upper))

@@ -1,13 +1,13 @@
-"""The torque that a set of effects leaves missing, joint by joint: its size by expectation-maximisation, and its course."""
+"""The torque that a set of effects leaves missing: its size by expectation-maximisation, and its course."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.discovery.gauss_newton import smoothed_runs
 from continuum.discovery.problem import Problem
 from continuum.discovery.search import Found
-from continuum.estimation.augmented_filter import smoothed
 
 _ITERATIONS = 4  # of expectation-maximisation: sizes have settled to some percent
 
@@ -17,16 +17,11 @@ def missing_torque(problem: Problem, found: Found) -> tuple[Array, tuple[Array, 
     lin, n = found.lin, problem.structure.n
     level = lin.evidence.best_level(found.chosen)
     best = lin.evidence.optimum(found.chosen, level)
-    sigma = np.full(n, float(np.mean(problem.noise.sigma)) * problem.levels[lin.levels[level]])
+    sigma = problem.noise.sigma * problem.levels[lin.levels[level]]
     courses: list[Array] = []
     for _ in range(_ITERATIONS):
         squares, count, courses = np.zeros(n), 0, []
-        for r, (run, way, one) in enumerate(zip(problem.runs, lin.state.ways, lin.runs, strict=True)):
-            theta = best.theta - lin.theta[r]
-            if best.local_columns.size:
-                theta[best.local_columns] += best.local[r]
-            added = one.columns[0] @ theta, one.columns[1] @ theta
-            states, variances, _ = smoothed(run, way, one.step, one.seen, added, problem.noise.at(sigma))
+        for states, variances in smoothed_runs(lin, best, sigma):
             squares += np.sum(states[:, 3 * n :] ** 2 + variances[:, 3 * n :], axis=0)
             count += len(states)
             courses.append(states[:, 3 * n :])

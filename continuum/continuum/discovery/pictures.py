@@ -76,7 +76,9 @@ def overview(result: Diagnosis) -> Figure:
         ):
             if label == "extended" and not result.is_extended:
                 continue
-            axes[0, joint].plot(run.times, np.rad2deg(simulated.angles[worst][:, joint]), color=color, lw=0.9, label=label)
+            axes[0, joint].plot(
+                run.times, np.rad2deg(simulated.angles[worst][:, joint]), color=color, lw=0.9, label=label
+            )
             axes[1, joint].plot(run.times, 1e3 * missing[worst][:, joint], color=color, lw=0.9)
         axes[0, joint].set_title(f"joint {joint + 1}", fontsize=8)
         axes[1, joint].set_xlabel("time [s]", fontsize=7)

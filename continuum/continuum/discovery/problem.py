@@ -9,11 +9,12 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.coordinates import Coordinates
-from continuum.discovery.evidence import Evidence, Nuisance, Set
-from continuum.discovery.hypotheses import Library
-from continuum.estimation.augmented_filter import Measurement, run_likelihood, smoothed
-from continuum.estimation.columns import FreeForm, Scene, assembled, to_states
-from continuum.estimation.friction_modes import FrictionModes, friction_modes
+from continuum.discovery.evidence import Evidence, Nuisance
+from continuum.discovery.library import Library
+from continuum.estimation.augmented_filter import Measurement, RunLikelihood, run_likelihood
+from continuum.estimation.columns import Scene, assembled, to_states
+from continuum.estimation.free_form import FreeForm
+from continuum.estimation.friction_modes import FrictionModes
 from continuum.estimation.run import Run, Trajectory, substep_motion
 from continuum.estimation.sensor_noise import NoiseModel
 from continuum.estimation.structure import Point, Structure, absent_values
@@ -182,7 +183,7 @@ def linearise(
     return Linearised(problem, state, library, evidence, runs, theta, chosen)
 
 
-def _likelihood(problem: Problem, run: Run, way: Trajectory, lin: _Run, theta: Array, level: float):  # type: ignore[no-untyped-def]
+def _likelihood(problem: Problem, run: Run, way: Trajectory, lin: _Run, theta: Array, level: float) -> RunLikelihood:
     """A run's likelihood about theta = 0, where the linearisation is about ``theta``."""
     noise = problem.noise.at(level * problem.noise.sigma)
     found = run_likelihood(run, way, lin.step, lin.seen, lin.columns, noise)
@@ -197,81 +198,3 @@ def _theta(library: Library, shared: Values, own: Values, held: Mapping[str, flo
         if (column := library.at.get(key)) is not None:
             theta[column] += value
     return theta
-
-
-def moved(lin: Linearised, chosen: Set, level: int, sigma_index: int) -> State:
-    """One Gauss-Newton step to the most probable values of a set, trajectories smoothed there.
-
-    Args:
-        lin: linearised state.
-        chosen: the set.
-        level: index among the evidence's levels.
-        sigma_index: index among the problem's levels.
-    """
-    problem, state, library = lin.problem, lin.state, lin.library
-    best = lin.evidence.optimum(chosen, level)
-    noise = problem.noise.at(problem.levels[sigma_index] * problem.noise.sigma)
-    ways, sds, n = [], [], problem.structure.n
-    for r, (run, way, one) in enumerate(zip(problem.runs, state.ways, lin.runs, strict=True)):
-        theta = best.theta - lin.theta[r]
-        if best.local_columns.size:
-            theta[best.local_columns] += best.local[r]
-        added = one.columns[0] @ theta, one.columns[1] @ theta
-        by, variance, _ = smoothed(run, way, one.step, one.seen, added, noise)
-        ways.append(way.moved(by))
-        sds.append(np.sqrt(np.maximum(variance[:, n : 2 * n], 0.0)))
-    shared = {key: float(best.theta[column]) for key, column in library.at.items() if best.theta[column] != 0.0}
-    name_of = {column: key for key, column in library.at.items()}
-    own = tuple(
-        {name_of[int(c)]: float(v) for c, v in zip(best.local_columns, values, strict=True)} for values in best.local
-    )
-    held = {name: float(best.theta[column]) for name, column in library.torque_only.items()}
-    active = library.stepped(chosen, best.values)
-    _take_shapes(problem.structure, chosen, best.values, active, shared)
-    return replace(state, shared=shared, own=own, held=held, active=active, ways=tuple(ways), rate_sd=tuple(sds))
-
-
-def _take_shapes(
-    s: Structure, chosen: Set, values: Array, active: dict[str, dict[str, Array]], shared: dict[tuple[str, str, int], float]
-) -> None:
-    """Effects without states that were found at one of several shapes: from now on the shape is a value too."""
-    at = 0
-    for hypothesis in chosen:
-        mine = values[at : at + len(hypothesis.coefficients)]
-        at += mine.size
-        if hypothesis.effect in s.stateful or hypothesis.start is None or hypothesis.effect in {e.name for e in s.late}:
-            continue
-        effect = next(e for e in s.offered if e.name == hypothesis.effect)
-        for c, value in zip(hypothesis.coefficients, mine, strict=True):
-            for joint in c.joints or (-1,):
-                shared[(effect.name, c.parameter, joint)] = float(value)
-        for name, shape in hypothesis.start.items():
-            shared[(effect.name, name, -1)] = float(shape[0]) - (effect.parameters[name].default or 0.0)
-        active[effect.name] = {}
-
-
-def innovations(lin: Linearised, chosen: Set, level: int, sigma_index: int) -> list[Array]:
-    """Whitened innovations of every run at a set's optimum, (n_times, n_readings) each."""
-    problem, state = lin.problem, lin.state
-    best = lin.evidence.optimum(chosen, level)
-    noise = problem.noise.at(problem.levels[sigma_index] * problem.noise.sigma)
-    found = []
-    for r, (run, way, one) in enumerate(zip(problem.runs, state.ways, lin.runs, strict=True)):
-        theta = best.theta - lin.theta[r]
-        if best.local_columns.size:
-            theta[best.local_columns] += best.local[r]
-        added = one.columns[0] @ theta, one.columns[1] @ theta
-        found.append(smoothed(run, way, one.step, one.seen, added, noise)[2])
-    return found
-
-
-def modes_along(problem: Problem, state: State) -> tuple[FrictionModes, ...]:
-    """Friction's modes along the state's trajectories."""
-    s = problem.structure
-    p = point_of(problem, state).values
-    stribeck = p[s.slots["coulomb_friction"]] * p[s.slots["stribeck_gain"]]
-    known = state.rate_sd or (None,) * len(problem.runs)
-    return tuple(
-        friction_modes(run, way, stribeck, sd) for run, way, sd in zip(problem.runs, state.ways, known, strict=True)
-    )
-

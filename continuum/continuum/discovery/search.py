@@ -14,8 +14,9 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery.decision import MODEL_ERROR, PRICE
 from continuum.discovery.evidence import Evidence, Set
+from continuum.discovery.gauss_newton import moved
 from continuum.discovery.hypotheses import UNKNOWN, Hypothesis
-from continuum.discovery.problem import Linearised, Problem, State, innovations, linearise, moved
+from continuum.discovery.problem import Linearised, Problem, State, linearise
 
 MOST = 2
 """Effects that are named together at most: three would need more runs than a laboratory makes."""
@@ -33,7 +34,6 @@ RUNNER_UP = 0.6
 """Part of the best single effect's gain from which another is refined too: screening ranks to within a third."""
 _NEAR = 40.0  # log-evidence below the best single effect: hypotheses beyond are not followed (e^-40 is no chance)
 _EXCHANGES = 3  # times that a second effect is added, or one of two exchanged
-_WRONG, _MANY = 5.0, 0.02  # deviations that no interval misses by chance, and part of them that may be freed
 
 type Progress = Callable[[str, float], None]
 
@@ -95,7 +95,7 @@ def find(problem: Problem, start: State, progress: Progress) -> Found:
         log.append(f"refined {label(found.chosen)}: {found.lin.evidence.total(found.chosen) - base:.0f}")
         tried.append(found)
         stages.append(found)
-    for found in sorted(tried, key=_score, reverse=True)[:1 if any(map(_explains, tried)) else 2]:
+    for found in sorted(tried, key=_score, reverse=True)[: 1 if any(map(_explains, tried)) else 2]:
         grown = _with_second(problem, found, live, log, base, stages)
         if _score(grown) > best_score:
             best, best_score = grown, _score(grown)
@@ -216,33 +216,10 @@ def compatible(chosen: Set) -> bool:
         for other in chosen[:i]:
             if one is other:
                 return False
-            if one.effect == other.effect and (one.joints is None or other.joints is None or set(one.joints) & set(other.joints)):
+            if one.effect == other.effect and (
+                one.joints is None or other.joints is None or set(one.joints) & set(other.joints)
+            ):
                 return False
             if set(one.local) & set(other.local):
                 return False
     return True
-
-
-def freed(problem: Problem, found: Found) -> State | None:
-    """The state with friction unknown where nothing explains what was measured; None where that is nowhere.
-
-    A joint's friction was taken for known there. No more than a small part of the intervals is freed: what is freed is
-    not explained.
-    """
-    level = found.lin.evidence.best_level(found.chosen)
-    misses = innovations(found.lin, found.chosen, level, found.lin.levels[level])
-    marks, count, total = [], 0, 0
-    for z in misses:
-        wrong = np.flatnonzero(np.max(np.abs(z), axis=1) > _WRONG)
-        wrong = wrong[wrong > 2]
-        marks.append(wrong)
-        count, total = count + wrong.size, total + len(z)
-    if not count or count > _MANY * total:
-        return None
-    modes = []
-    for mode, wrong in zip(found.lin.state.modes, marks, strict=True):
-        free = np.zeros(len(mode.sign), dtype=bool)
-        for row in wrong:
-            free[max(row - 2, 0) : row] = True
-        modes.append(mode.released(free))
-    return replace(found.lin.state, modes=tuple(modes))

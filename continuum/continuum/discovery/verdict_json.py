@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, nrmse
+from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_named, nrmse
 from continuum.whole_file import write_whole
 
 
@@ -32,17 +32,16 @@ def write_json(result: Diagnosis, path: str | Path, made: Mapping[str, object]) 
 def as_mapping(result: Diagnosis) -> dict[str, Any]:
     """Numbers, strings, lists and mappings; joints count from 1, units are SI."""
     verdict = result.verdict
-    sets = [
-        {"probability": p, "effects": [_cause(cause) for cause in causes]}
-        for causes, p in zip(result.sets, verdict.probabilities or (1.0,) * len(result.sets), strict=True)
-    ]
-    named = verdict.kind in (Kind.CAUSE, Kind.AMBIGUOUS)
+    effects = [[_cause(cause) for cause in causes] for causes in result.sets]
+    probabilities = verdict.probabilities if is_named(verdict.kind) else (1.0,) * len(effects)
+    sets = [{"probability": p, "effects": one} for one, p in zip(effects, probabilities, strict=True)]
+    named = is_named(verdict.kind)
     return {
         "verdict": verdict.kind.value,
-        "complete": verdict.complete,
+        "complete": bool(verdict.complete),
         "sets": sets if named else [],
-        "causes": sets[0]["effects"] if named and sets else [],
-        "alternatives": [cause for one in sets[1:] for cause in one["effects"]] if named else [],
+        "causes": effects[0] if named and effects else [],
+        "alternatives": [cause for one in effects[1:] for cause in one] if named else [],
         "helps": [_cause(cause) for cause in result.causes] if verdict.kind is Kind.UNKNOWN else [],
         "shares": {name: _share(share) for name, share in result.shares.items()},
         "closed": _share(result.closed),

@@ -127,7 +127,9 @@ def _rest(result: Diagnosis) -> str:
 
 def _error(result: Diagnosis) -> str:
     worst = np.degrees(np.nanmax(result.before.errors))
-    return f"Left to itself it stays within {worst:.2f} degrees of the measured angles (root mean square of a recording)."
+    return (
+        f"Left to itself it stays within {worst:.2f} degrees of the measured angles (root mean square of a recording)."
+    )
 
 
 def _experiment(result: Diagnosis) -> str:

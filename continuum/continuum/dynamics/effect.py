@@ -101,7 +101,7 @@ class Effect:
         return np.zeros(self.n_states(theta.size))
 
     def torque_along(self, motion: Array, slip: Array, length: Array, own: Own, p: Parameters) -> Array | None:
-        """Torque along a measured motion, as `torque`, (rows, n) [N m], of an effect whose states are too stiff for that.
+        """`torque` along a measured motion, (rows, n) [N m], of an effect whose states are too stiff for that.
 
         A measured motion errs by more than the width of a stop. Such an effect gives here what its equations tend to
         as its stops harden; others give None, and their states are integrated.

@@ -68,7 +68,7 @@ class Backlash(Effect):
         return np.concatenate([y_rate - moving, ball])
 
     def torque_along(self, motion: Array, slip: Array, length: Array, own: Own, p: Parameters) -> Array:
-        """With hard stops and a ball without inertia: T is that of spring and friction while a stop takes the ball along.
+        """With hard stops and a ball without inertia, T is that of spring and friction while a stop moves the ball.
 
         Between the stops the ball rests by its dry friction, or yields to its spring against the viscous one.
         """

@@ -2,7 +2,8 @@
 
 State x = (theta, theta', b, d) of n joints: angles [rad], rates [rad/s], slow sensor error [rad], missing torque [N m].
 
-    M(theta) theta'' = tau(theta, theta', u; p) + d,    d' = -d / T_d + noise,    b' = -b / T_b + noise,    y = h(theta) + b + e
+    M(theta) theta'' = tau(theta, theta', u; p) + d,    d' = -d / T_d + noise,
+    b' = -b / T_b + noise,                              y = h(theta) + b + e
 
 Friction is not integrated: from the smoothed trajectory each joint is known to slip, to stick, or to reverse
 (`friction_modes`). The model is linearised along that trajectory (`transition`), its derivatives by all parameters

@@ -10,7 +10,9 @@ for any theta, so that one pass serves every hypothesis.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numba
 import numpy as np
@@ -19,6 +21,8 @@ from continuum.arrays import Array
 from continuum.estimation.run import Run, Trajectory
 from continuum.estimation.sensor_noise import NoiseModel
 from continuum.estimation.transition import Transition
+
+compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
 
 
 @dataclass(frozen=True)
@@ -78,7 +82,9 @@ def smoothed(
         added: sum of the columns at given coefficients: (n_times - 1, 2 n) and (n_times, n_readings).
         noise: of sensors and torque.
     """
-    return _smooth(*_given(run, way, step, seen, noise), np.ascontiguousarray(added[0]), np.ascontiguousarray(added[1]))
+    torque, reading = (np.ascontiguousarray(part) for part in added)
+    found: tuple[Array, Array, Array] = _smooth(*_given(run, way, step, seen, noise), torque, reading)
+    return found
 
 
 def _given(run: Run, way: Trajectory, step: Transition, seen: Measurement, noise: NoiseModel):  # type: ignore[no-untyped-def]
@@ -91,8 +97,8 @@ def _given(run: Run, way: Trajectory, step: Transition, seen: Measurement, noise
     )  # fmt: skip
 
 
-@numba.njit(cache=True)
-def _update(P, H, white, live, L, G):
+@compiled
+def _update(P, H, white, live, L, G):  # type: ignore[no-untyped-def]
     """Innovation's Cholesky factor L and gain times it, G = P H' L^-T, for readings H x + b on the angles."""
     n, size = H.shape[1] // 2, H.shape[0]
     PH = np.ascontiguousarray(P[:, : 2 * n]) @ H.T
@@ -128,8 +134,8 @@ def _update(P, H, white, live, L, G):
             G[i, j] = t / L[j, j]
 
 
-@numba.njit(cache=True)
-def _predict(P, Ft, noise, start, keep_b, keep_d):
+@compiled
+def _predict(P, Ft, noise, start, keep_b, keep_d):  # type: ignore[no-untyped-def]
     n = start.size // 4
     P = Ft @ P @ Ft.T
     P[: 2 * n, : 2 * n] += noise
@@ -140,8 +146,8 @@ def _predict(P, Ft, noise, start, keep_b, keep_d):
     return 0.5 * (P + P.T)
 
 
-@numba.njit(cache=True)
-def _transition(F, D, keep_b, keep_d):
+@compiled
+def _transition(F, D, keep_b, keep_d):  # type: ignore[no-untyped-def]
     n = D.shape[1]
     Ft = np.zeros((4 * n, 4 * n))
     Ft[: 2 * n, : 2 * n] = F
@@ -152,8 +158,8 @@ def _transition(F, D, keep_b, keep_d):
     return Ft
 
 
-@numba.njit(cache=True)
-def _defect(k, q, w, d, end, D):
+@compiled
+def _defect(k, q, w, d, end, D):  # type: ignore[no-untyped-def]
     """Where the model's interval ends, seen from the trajectory's next row, for d = 0, (2 n,)."""
     n = q.shape[1]
     out = end[k].copy()
@@ -164,8 +170,8 @@ def _defect(k, q, w, d, end, D):
     return out
 
 
-@numba.njit(cache=True)
-def _filter(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d, B, C, L_out, e_out):
+@compiled
+def _filter(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d, B, C, L_out, e_out):  # type: ignore[no-untyped-def]
     rows, size = y.shape
     n, n4, P = q.shape[1], 4 * q.shape[1], B.shape[2]
     cov = np.diag(start * start)
@@ -205,8 +211,8 @@ def _filter(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d,
     return z @ z, log_det
 
 
-@numba.njit(cache=True)
-def _smooth(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d, Bt, Ct):
+@compiled
+def _smooth(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d, Bt, Ct):  # type: ignore[no-untyped-def]
     """Filter, then the smoother of Bryson and Frazier, which inverts no covariance of states."""
     rows, size = y.shape
     n, n4 = q.shape[1], 4 * q.shape[1]

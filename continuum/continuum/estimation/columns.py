@@ -6,9 +6,9 @@ in its size, and the effect's whole torque at a given size where it has states o
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 import numba
 import numpy as np
@@ -18,6 +18,8 @@ from continuum.estimation.effect_states import SubstepMotion
 from continuum.estimation.motion_equations import evaluate, packed, torques
 from continuum.estimation.run import Run, Trajectory
 from continuum.estimation.structure import Point, Structure
+
+compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
 
 _DIFFERENCE = 1e-5  # of a sensor's parameter: readings are linear in most of them
 
@@ -75,7 +77,9 @@ class Scene:
 class Column(Protocol):
     """One or several columns of torque, or of readings."""
 
-    width: int
+    @property
+    def width(self) -> int:
+        """Number of columns."""
 
     def torque(self, scene: Scene) -> Array | None:
         """(rows, n, width) [N m per unit], None where it only changes readings."""
@@ -98,14 +102,14 @@ class Slope:
 
     @property
     def width(self) -> int:
-        return self.directions.shape[1]
+        return int(self.directions.shape[1])
 
     def torque(self, scene: Scene) -> Array | None:
         by_p = scene.by_parameters(self.changed)
         used = np.flatnonzero(np.any(self.directions != 0, axis=1))
-        return np.einsum("rpn,pk->rnk", by_p[:, used], self.directions[used], optimize=True)
+        return np.asarray(np.einsum("rpn,pk->rnk", by_p[:, used], self.directions[used], optimize=True))
 
-    def reading(self, scene: Scene) -> Array | None:
+    def reading(self, scene: Scene) -> Array | None:  # noqa: ARG002
         return None
 
 
@@ -126,7 +130,7 @@ class Change:
             there[scene.structure.slots[name]] *= factor
         return (scene.torque(there) - scene.nominal())[:, :, None]
 
-    def reading(self, scene: Scene) -> Array | None:
+    def reading(self, scene: Scene) -> Array | None:  # noqa: ARG002
         return None
 
 
@@ -157,7 +161,7 @@ class StatefulTorque:
             out[:, j, k] = added[:, j]
         return out
 
-    def reading(self, scene: Scene) -> Array | None:
+    def reading(self, scene: Scene) -> Array | None:  # noqa: ARG002
         return None
 
 
@@ -184,7 +188,7 @@ class Difference:
         above, below = self.above.torque(scene), self.below.torque(scene)
         return None if above is None or below is None else (above - below) / 2
 
-    def reading(self, scene: Scene) -> Array | None:
+    def reading(self, scene: Scene) -> Array | None:  # noqa: ARG002
         return None
 
 
@@ -198,7 +202,7 @@ class LateInputs:
     def torque(self, scene: Scene) -> Array | None:
         return late_torque(scene, self.delay)[:, :, None]
 
-    def reading(self, scene: Scene) -> Array | None:
+    def reading(self, scene: Scene) -> Array | None:  # noqa: ARG002
         return None
 
 
@@ -223,7 +227,7 @@ class SensorSlope:
     def width(self) -> int:
         return self.size
 
-    def torque(self, scene: Scene) -> Array | None:
+    def torque(self, scene: Scene) -> Array | None:  # noqa: ARG002
         return None
 
     def reading(self, scene: Scene) -> Array | None:
@@ -236,46 +240,6 @@ class SensorSlope:
             moved[self.effect][self.parameter][j] += _DIFFERENCE
             out[:, :, j] = (s.readings(scene.run, scene.way.q, scene.way.w, moved) - here) / _DIFFERENCE
         return out
-
-
-@dataclass(frozen=True)
-class FreeForm:
-    """A torque of any form at each joint: bumps over its angle, dry friction over its angle, dry friction over its rate.
-
-    Attributes:
-        centers: of the bumps over the angle and of those of friction, (n, bumps) each [rad].
-        widths: (n,) each [rad].
-        rates: of the friction over the rate [rad/s].
-    """
-
-    centers: tuple[Array, Array]
-    widths: tuple[Array, Array]
-    rates: tuple[float, ...]
-
-    @property
-    def per_joint(self) -> int:
-        """Columns of a joint."""
-        return self.centers[0].shape[1] + self.centers[1].shape[1] + len(self.rates)
-
-    @property
-    def width(self) -> int:
-        return len(self.centers[0]) * self.per_joint
-
-    def torque(self, scene: Scene) -> Array | None:
-        q, w = scene.along.motion[:, 0], scene.along.motion[:, 1]
-        sign = np.repeat(scene.sign, np.diff(scene.run.first), axis=0)
-        n = q.shape[1]
-        out = np.zeros((len(q), n, n, self.per_joint))
-        for j in range(n):
-            bumps = np.exp(-0.5 * ((q[:, j, None] - self.centers[0][j]) / self.widths[0][j]) ** 2)
-            rubbing = np.exp(-0.5 * ((q[:, j, None] - self.centers[1][j]) / self.widths[1][j]) ** 2)
-            slow = np.stack([np.exp(-((w[:, j] / rate) ** 2)) for rate in self.rates], axis=1)
-            parts = [bumps * (sign[:, j, None] != 0), -sign[:, j, None] * rubbing, -sign[:, j, None] * slow]
-            out[:, j, j] = np.hstack(parts)
-        return out.reshape(len(q), n, -1)
-
-    def reading(self, scene: Scene) -> Array | None:
-        return None
 
 
 def assembled(columns: Sequence[Column], scene: Scene) -> tuple[Array, Array]:
@@ -294,7 +258,7 @@ def assembled(columns: Sequence[Column], scene: Scene) -> tuple[Array, Array]:
     return torque, reading
 
 
-@numba.njit(cache=True)
+@compiled
 def to_states(W: Array, torque: Array, first: Array) -> Array:
     """From torque in the substeps to the state at the interval's end, (n_times - 1, 2 n, P)."""
     out = np.zeros((first.size - 1, W.shape[1], torque.shape[2]))

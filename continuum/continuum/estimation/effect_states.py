@@ -6,9 +6,10 @@ converge is halved.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numba
 import numpy as np
@@ -20,6 +21,8 @@ from continuum.dynamics.integration.call_at import call_at
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.values import with_vector
 from continuum.estimation.motion_equations import MotionEquations, packed, torques
+
+compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
 
 _ITERATIONS = 25  # of Newton's method in a step
 _PARTS = 256  # at most, into which a step is cut
@@ -85,7 +88,7 @@ class EffectAlongMotion:
         return torques(self._with, rows, n) - without
 
 
-@numba.njit(cache=True)
+@compiled
 def _states(address: int, rows: Array, length: Array, z0: Array, n: int) -> tuple[Array, Array]:
     """States and their rates at every row, (rows, n_states) each; row 0 is reached from ``z0``."""
     size = z0.size
@@ -114,7 +117,7 @@ def _states(address: int, rows: Array, length: Array, z0: Array, n: int) -> tupl
     return z_out, rate_out
 
 
-@numba.njit(cache=True)
+@compiled
 def _newton(address: int, given: Array, z: Array, at: int, at_rate: int, step: float) -> bool:
     """One implicit Euler step of the states ``z``, changed in place where it converges."""
     size = z.size
@@ -148,7 +151,7 @@ def _newton(address: int, given: Array, z: Array, at: int, at_rate: int, step: f
     return False
 
 
-@numba.njit(cache=True)
+@compiled
 def _evaluated(
     address: int, given: Array, z: Array, before: Array, at: int, at_rate: int, step: float, out: Array
 ) -> None:

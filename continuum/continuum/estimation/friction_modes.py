@@ -1,7 +1,7 @@
 """What each joint's friction does in each interval, read off the smoothed trajectory: it slips, sticks, or reverses.
 
 A slipping joint's dry friction has a known sign. One that sticks or reverses has whatever friction it takes: its
-acceleration is given, none or that of its rates, with small or large process noise, and its friction is not asked. So no
+acceleration is given, none or that of its rates, with small or large process noise; its friction is not asked. So no
 step of a sign is integrated, and stiction needs no torque to be explained. Modes stay as they are while hypotheses are
 compared: they are part of the likelihood.
 """

@@ -6,6 +6,7 @@ along a given motion friction's sign is known. So nothing stiff is differentiate
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -21,6 +22,8 @@ from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance, Traced
 from continuum.dynamics.integration.call_at import call_at
 from continuum.dynamics.model import Model
 from continuum.dynamics.values import parameter_vector
+
+compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
 
 
 @dataclass(frozen=True)
@@ -96,7 +99,9 @@ class MotionEquations(SymbolicBalance):
         return compile_function(casadi.Function("state_step", [packed], [casadi.densify(wanted)]))
 
 
-def packed(motion: Array, u: Array, slip: Array, p: Array, z: Array | None = None, z_rate: Array | None = None) -> Array:
+def packed(
+    motion: Array, u: Array, slip: Array, p: Array, z: Array | None = None, z_rate: Array | None = None
+) -> Array:
     """Rows for the compiled functions, (rows, size).
 
     Args:
@@ -120,7 +125,7 @@ def evaluate(function: Any, given: Array, size: int) -> Array:
     return out
 
 
-@numba.njit(cache=True)
+@compiled
 def _evaluate(address: int, given: Array, out: Array) -> None:
     for k in range(given.shape[0]):
         call_at(address, given[k], out[k])

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.estimation.effect_states import SubstepMotion
@@ -59,7 +60,7 @@ class Run:
     @property
     def has_rates(self) -> bool:
         """Whether rates are among the readings."""
-        return self.readings.shape[1] > self.n
+        return bool(self.readings.shape[1] > self.n)
 
     @cached_property
     def intervals(self) -> Array:
@@ -67,7 +68,7 @@ class Run:
         return np.diff(self.times)
 
     @cached_property
-    def first(self) -> Array:
+    def first(self) -> NDArray[np.int64]:
         """First substep of each interval, and their number, (n_times,)."""
         return substeps(self.times)
 
@@ -139,7 +140,7 @@ class Run:
         return replace(self, held=held)
 
 
-def substeps(times: Array) -> Array:
+def substeps(times: Array) -> NDArray[np.int64]:
     """First substep of each interval, and their number, (n_times,)."""
     counts = np.maximum(np.ceil(np.diff(times) / _SUBSTEP - 1e-6), 1).astype(np.int64)
     return np.concatenate([[0], np.cumsum(counts)])

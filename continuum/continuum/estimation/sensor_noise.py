@@ -1,4 +1,4 @@
-"""How the sensors err: white noise of a row, and an error that stays alike for a while; and how torque may be missing."""
+"""How the sensors err, by white noise and an error that stays alike for a while; and how torque may be missing."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.estimation.run import Run
@@ -80,6 +81,6 @@ def _smooth_rates(run: Run) -> Array:
     return np.stack([np.convolve(column, window, "same") for column in w.T], axis=1)
 
 
-def _all_four(rows: Array) -> Array:
+def _all_four(rows: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Whether something holds in four rows that follow each other, (n_times - 3, n)."""
     return np.asarray(rows[:-3] & rows[1:-2] & rows[2:-1] & rows[3:])

@@ -7,7 +7,9 @@ acts through the inertia of the reference model: how large it is must not depend
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numba
 import numpy as np
@@ -19,10 +21,12 @@ from continuum.estimation.friction_modes import FrictionModes, slip_rates
 from continuum.estimation.motion_equations import MotionEquations
 from continuum.estimation.run import Run, Trajectory
 
+compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
+
 
 @dataclass(frozen=True)
 class Transition:
-    """x_(k+1) = end_k + F_k (x_k - way_k) + D_k (d_k - way's d_k) + sum over the interval's substeps of W_r tau_r + noise.
+    """x_(k+1) = end_k + F_k (x_k - way_k) + D_k (d_k - d of way_k) + sum of W_r tau_r over substeps r + noise.
 
     Attributes:
         end: where the interval ends by the model, (n_times - 1, 2 n) [rad, rad/s].
@@ -44,7 +48,13 @@ class Transition:
 
 
 def transition(
-    equations: MotionEquations, run: Run, way: Trajectory, modes: FrictionModes, values: Array, reference: Array, held: Array
+    equations: MotionEquations,
+    run: Run,
+    way: Trajectory,
+    modes: FrictionModes,
+    values: Array,
+    reference: Array,
+    held: Array,
 ) -> Transition:
     """Linearise a run along a trajectory.
 
@@ -71,8 +81,8 @@ def transition(
     return out
 
 
-@numba.njit(cache=True)
-def _linearise(
+@compiled
+def _linearise(  # type: ignore[no-untyped-def]
     linear, inertia, q, w, d, q_mid, w_mid, sign, rate_noise, torque_noise, prescribed_all, first, length, inputs, slip,
     values, reference, held, end, F, D, W, noise, acceleration,
 ):  # fmt: skip
@@ -185,8 +195,8 @@ def _linearise(
             noise[k, i, i] += (rate_noise[k, i] * h) ** 2 / 12
 
 
-@numba.njit(cache=True)
-def _constrain(M, sign):
+@compiled
+def _constrain(M, sign):  # type: ignore[no-untyped-def]
     """Rows and columns of joints whose acceleration is given become those of the identity."""
     for i in range(sign.size):
         if sign[i] == 0.0:
@@ -196,8 +206,8 @@ def _constrain(M, sign):
             M[i, i] = 1.0
 
 
-@numba.njit(cache=True)
-def _solve(M, R):
+@compiled
+def _solve(M, R):  # type: ignore[no-untyped-def]
     """M X = R in place, M symmetric and positive definite, by its Cholesky factor, which takes M's place."""
     n = M.shape[0]
     for j in range(n):
@@ -224,8 +234,8 @@ def _solve(M, R):
             R[i, c] = t / M[i, i]
 
 
-@numba.njit(cache=True)
-def _exponential(A, h, E, S):
+@compiled
+def _exponential(A, h, E, S):  # type: ignore[no-untyped-def]
     """E = exp(h A), S = integral of exp(t A) from 0 to h: Taylor series of a scaled matrix, then doubling."""
     n = A.shape[0] // 2
     norm = 0.0

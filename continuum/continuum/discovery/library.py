@@ -1,0 +1,313 @@
+"""The columns and hypotheses of all effects about one point of linearisation."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.hypotheses import (
+    FREE_TORQUE,
+    GRID,
+    ORDINARY,
+    TOLERANCE,
+    UNKNOWN,
+    Coefficient,
+    Hypothesis,
+    fitted_parameters,
+    grid,
+    only,
+    prior_sd,
+    shape_variants,
+    sizes_and_shapes,
+    within,
+)
+from continuum.dynamics.effect import Effect
+from continuum.estimation.columns import Column, Difference, LateInputs, SensorSlope, Slope, StatefulTorque
+from continuum.estimation.free_form import FreeForm
+from continuum.estimation.structure import Structure, absent_values, overrides
+
+
+class Library:
+    """All columns and hypotheses about one point of linearisation.
+
+    Args:
+        structure: of the model.
+        active: values of the effects with states that are in the model, and of those whose shape is fitted.
+        ratio: by which their values are changed for differences.
+        baseline: columns that every hypothesis has, by name.
+        free_form: torque of any form, a hypothesis like others; left out without.
+        torque: of the arm, root mean square [N m].
+        live: effects that have hypotheses; all without.
+        simulable: whether nuisances that the equations do not have, as another shape of a friction curve, are left out.
+    """
+
+    def __init__(
+        self,
+        structure: Structure,
+        active: Mapping[str, Mapping[str, Array]],
+        ratio: float,
+        baseline: Sequence[tuple[str, Column]],
+        free_form: FreeForm | None,
+        torque: float,
+        live: Collection[str] | None = None,
+        simulable: bool = False,
+    ) -> None:
+        self.structure, self.active, self.ratio, self.torque = structure, active, ratio, torque
+        self.columns: list[Column] = []
+        self.width = 0
+        self.hypotheses: list[Hypothesis] = []
+        self.at: dict[tuple[str, str, int], int] = {}  # columns of values, by effect, parameter and joint
+        self.torque_only: dict[str, int] = {}  # columns of torque that no value holds, by name
+        self.held: list[int] = []  # columns of effects with states that are in the nominal motion
+        self.ordinary: list[tuple[int, float]] = []  # columns by which parts of one batch differ, and by how much
+        self._simulable = simulable
+        for name, column in baseline:
+            if simulable and not isinstance(column, Slope):
+                continue
+            at = self._add(column)
+            if isinstance(column, Slope):
+                self.at[("", name, -1)] = at
+            else:
+                self.torque_only[name] = at
+        self._baseline, self._live = list(range(self.width)), live
+        n = structure.n
+        for effect in structure.offered:
+            if live is not None and effect.name not in live and not any(p.ordinary for p in effect.parameters.values()):
+                continue
+            if overrides(effect, "measure"):
+                self._sensor(effect)
+            elif overrides(effect, "late"):
+                self._late(effect)
+            elif effect.n_states(n):
+                self._stateful(effect)
+            else:
+                self._plain(effect)
+        if free_form is not None:
+            self._free_form(free_form)
+
+    def _add(self, column: Column) -> int:
+        """Append columns; the first one's index."""
+        self.columns.append(column)
+        self.width += column.width
+        return self.width - column.width
+
+    # ---- effects without states
+    def _plain(self, effect: Effect) -> None:
+        spec = effect.parameters
+        sizes, shapes = sizes_and_shapes(effect)
+        is_active = effect.name in self.active
+        variants = [{}] if is_active or not shapes else list(shape_variants(effect, shapes))
+        first = variants[0]
+        for changed in variants:
+            named = {f"{effect.name}.{name}": np.array([value]) for name, value in changed.items()}
+            at: dict[str, int] = {}
+            for name in (*sizes, *(shapes if is_active else ())):
+                slot = self.structure.slots[f"{effect.name}.{name}"]
+                directions = np.zeros((self.structure.equations.n_p, slot.stop - slot.start))
+                directions[slot, :] = np.eye(slot.stop - slot.start)
+                at[name] = self._add(Slope(directions, named))
+                if is_active or not changed or changed == first:
+                    for k in range(directions.shape[1]):
+                        self.at[(effect.name, name, k if spec[name].per_joint else -1)] = at[name] + k
+                if spec[name].ordinary and (not changed or changed == first):
+                    self.ordinary += [(at[name] + k, spec[name].ordinary) for k in range(directions.shape[1])]
+            self._placed(effect, at, changed)
+
+    def _placed(self, effect: Effect, at: Mapping[str, int], changed: Mapping[str, float]) -> None:
+        """Hypotheses of an effect that is linear in its sizes: at each joint, and at all alike."""
+        n, spec = self.structure.n, effect.parameters
+        start = {name: np.array([value]) for name, value in changed.items()} or None
+        of_joints = [name for name in at if spec[name].per_joint]
+        if any(spec[name].per_recording for name in at):
+            self._local(effect, at, of_joints)
+            return
+        if not of_joints:
+            self._one(effect, None, [((at[name],), name, ()) for name in at], start)
+            return
+        if effect.directions:
+            self._along_directions(effect, at)
+            return
+        for j in range(n):
+            self._one(effect, (j,), [((at[name] + j,), name, (j,)) for name in of_joints], start)
+        everywhere = tuple(range(n))
+        if n > 1 and not overrides(effect, "measure"):  # one gain of all sensors would be a unit
+            alike = [(tuple(at[name] + j for j in everywhere), name, everywhere) for name in of_joints]
+            self._one(effect, everywhere, alike, start)
+
+    def _along_directions(self, effect: Effect, at: Mapping[str, int]) -> None:
+        """Of an effect whose sizes go together, a coefficient for each combination, at each joint and at all alike."""
+        n = self.structure.n
+        for joints in [(j,) for j in range(n)] + [tuple(range(n))] * (n > 1):
+            for direction in effect.directions:
+                first = next(iter(direction))
+                spec = effect.parameters[first]
+                columns = tuple(at[name] + j for name in direction for j in joints)
+                weights = tuple(factor for factor in direction.values() for _ in joints)
+                least = max(effect.parameters[name].lower / factor for name, factor in direction.items())
+                self.hypotheses.append(
+                    Hypothesis(
+                        effect.name, joints, (columns,), (Coefficient("slot", effect.name, first, joints),),
+                        np.array([prior_sd(spec)]), np.array([least]), weights=(weights,),
+                    )
+                )  # fmt: skip
+
+    def _one(
+        self,
+        effect: Effect,
+        joints: tuple[int, ...] | None,
+        parts: Sequence[tuple[tuple[int, ...], str, tuple[int, ...]]],
+        start: Mapping[str, Array] | None,
+    ) -> None:
+        spec = effect.parameters
+        self.hypotheses.append(
+            Hypothesis(
+                effect.name,
+                joints,
+                tuple(columns for columns, _, _ in parts),
+                tuple(Coefficient("slot", effect.name, name, where) for _, name, where in parts),
+                np.array([prior_sd(spec[name]) for _, name, _ in parts]),
+                np.array([spec[name].lower - (spec[name].default or 0.0) for _, name, _ in parts]),
+                start=start,
+            )
+        )
+
+    def _local(self, effect: Effect, at: Mapping[str, int], of_joints: Sequence[str]) -> None:
+        """Of an effect that every recording has a value of its own for."""
+        spec, nothing = effect.parameters, np.zeros(0)
+        if not of_joints:
+            (name,) = at
+            places: list[tuple[tuple[int, ...] | None, tuple[int, ...]]] = [(None, (at[name],))]
+        else:
+            (name,) = of_joints
+            every = tuple(range(self.structure.n))
+            places = [((j,), (at[name] + j,)) for j in every]
+            places += [(every, tuple(at[name] + j for j in every))] if len(every) > 1 else []
+        for joints, columns in places:
+            sd = np.full(len(columns), prior_sd(spec[name]))
+            self.hypotheses.append(Hypothesis(effect.name, joints, (), (), nothing, nothing, columns, sd))
+        if not effect.alike_in_all_runs:
+            for joints, columns in places[: self.structure.n]:
+                self._one(effect, joints, [((c,), name, joints or ()) for c in columns], None)
+
+    def _sensor(self, effect: Effect) -> None:
+        n = self.structure.n
+        at = {
+            name: self._add(SensorSlope(effect.name, name, n if spec.per_joint else 1))
+            for name, spec in effect.parameters.items()
+        }
+        for name, spec in effect.parameters.items():
+            for j in range(n if spec.per_joint else 1):
+                self.at[(effect.name, name, j if spec.per_joint else -1)] = at[name] + j
+        self._placed(effect, at, {})
+
+    # ---- effects that are not linear in their size
+    def _late(self, effect: Effect) -> None:
+        (name,) = effect.parameters
+        spec = effect.parameters[name]
+        if effect.name in self.active:
+            delay = float(self.active[effect.name][name][0])
+            value = self._add(LateInputs(delay))
+            self.held.append(value)
+            log = self._add(Difference(LateInputs(delay * self.ratio), LateInputs(delay / self.ratio)))
+            self._nonlinear(effect, None, value, [(log, name, ())], self.active[effect.name])
+            return
+        for size in GRID:
+            delay = size * (spec.typical or 1.0)
+            value = self._add(LateInputs(delay))
+            self._nonlinear(effect, None, value, [], {name: np.array([delay])})
+
+    def _stateful(self, effect: Effect) -> None:
+        n = self.structure.n
+        of_joints = [name for name, spec in effect.parameters.items() if spec.per_joint]
+        own = self.active.get(effect.name)
+        first, spec = next(iter(effect.parameters.items()))
+        if spec.ordinary and not self._simulable:
+            absent = absent_values(effect, n)
+            usual = {**absent, first: np.full_like(absent[first], spec.ordinary)}
+            at = self.torque_only[f"ordinary {effect.name}"] = self._add(StatefulTorque(effect.name, usual))
+            self.ordinary.append((at, ORDINARY))
+            if self._live is not None and effect.name not in self._live:
+                return
+        if own is not None:
+            self._active(effect, own, of_joints)
+        if own is None or of_joints:
+            taken = {j for name in of_joints for j in np.flatnonzero(own[name])} if own is not None else set()
+            for values in grid(effect, n):
+                joints = tuple(range(n)) if of_joints else ()
+                value = self._add(StatefulTorque(effect.name, values, joints))
+                for j in joints:
+                    if j not in taken:
+                        start = {name: only(v, j) if name in of_joints else v for name, v in values.items()}
+                        self._nonlinear(effect, (j,), value + j, [], start)
+                if not joints:
+                    self._nonlinear(effect, None, value, [], values)
+
+    def _active(self, effect: Effect, own: Mapping[str, Array], of_joints: Sequence[str]) -> None:
+        """The effect's torque at its values, and how it changes with each of those that the data may tell."""
+        joints = tuple(int(j) for j in np.flatnonzero(own[of_joints[0]])) if of_joints else ()
+        value = self._add(StatefulTorque(effect.name, own, joints))
+        logs = []
+        for name in fitted_parameters(effect):
+            above, below = (
+                StatefulTorque(effect.name, {**own, name: within(effect.parameters[name], own[name] * factor)}, joints)
+                for factor in (self.ratio, 1 / self.ratio)
+            )
+            logs.append((self._add(Difference(above, below)), name))
+        for k in range(max(len(joints), 1)):
+            self.held.append(value + k)
+            where = (joints[k],) if joints else ()
+            self._nonlinear(
+                effect, where or None, value + k, [(at + k, name, where) for at, name in logs], own
+            )  # fmt: skip
+
+    def _nonlinear(
+        self,
+        effect: Effect,
+        joints: tuple[int, ...] | None,
+        value: int,
+        logs: Sequence[tuple[int, str, tuple[int, ...]]],
+        start: Mapping[str, Array],
+    ) -> None:
+        name = next(iter(effect.parameters))
+        self.hypotheses.append(
+            Hypothesis(
+                effect.name,
+                joints,
+                ((value,), *((at,) for at, _, _ in logs)),
+                (
+                    Coefficient("value", effect.name, name, joints or ()),
+                    *(Coefficient("log", effect.name, which, where) for _, which, where in logs),
+                ),
+                np.ones(1 + len(logs)),
+                np.array([0.0, *(-np.inf for _ in logs)]),
+                start=dict(start),
+            )
+        )
+
+    def _free_form(self, column: FreeForm) -> None:
+        at = self._add(column)
+        n, k = self.structure.n, column.per_joint
+        for joints in [(j,) for j in range(n)] + [tuple(range(n))] * (n > 1):
+            used = tuple((at + j * k + i,) for j in joints for i in range(k))
+            meanings = tuple(Coefficient("free", UNKNOWN, str(i), ()) for i in range(len(used)))
+            size = np.full(len(used), FREE_TORQUE * self.torque)
+            self.hypotheses.append(Hypothesis(UNKNOWN, joints, used, meanings, size, np.full(len(used), -np.inf)))
+
+    # ---- what a search needs
+    def held_vector(self, held: Mapping[str, float]) -> Array:
+        """Coefficients of the columns of torque that are in the nominal motion, (P,)."""
+        out = np.zeros(self.width)
+        out[self.held] = 1.0
+        for name, value in held.items():
+            if name in self.torque_only:
+                out[self.torque_only[name]] = value
+        return out
+
+    def nuisances(self, baseline_sd: Array) -> tuple[Array, Array, Array]:
+        """Columns that every hypothesis has, with the prior standard deviations and largest sizes of coefficients."""
+        columns = [*self._baseline, *(at for at, _ in self.ordinary)]
+        sd = np.array([sd for _, sd in self.ordinary])
+        most = np.concatenate([np.full(len(self._baseline), np.inf), TOLERANCE * sd])
+        return np.array(columns), np.concatenate([baseline_sd, sd]), most
