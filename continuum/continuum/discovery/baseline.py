@@ -69,12 +69,15 @@ def fitted_baseline(problem: Problem) -> tuple[Problem, State]:
         state = replace(state, modes=modes_along(problem, state))
     problem = _with_likelier_inputs(problem, state)
     before = -np.inf
-    for _ in range(_MOST_ITERATIONS):
+    for iteration in range(_MOST_ITERATIONS):
         lin = linearise(problem, state, None, live=())
         after, level = lin.evidence.total(()), lin.evidence.best_level(())
         if abs(after - before) < _SETTLED:
             break
         before, state = after, moved(lin, (), level, level)
+        if iteration == 0:  # rates are known better now; from here on modes are part of the likelihood
+            state = replace(state, modes=modes_along(problem, state))
+            before = -np.inf
     return problem, state
 
 

@@ -86,35 +86,46 @@ def decide(
     def margin(one: Candidate) -> float:
         return max(ODDS, MODEL_ERROR * max(one.log_evidence - baseline.log_evidence, 0.0))
 
-    possible = sorted((one for one in [baseline, *others] if explains(one)), key=score, reverse=True)
-    complete = bool(possible)
+    def without_needless(best: Candidate, among: Sequence[Candidate]) -> Candidate:
+        # a further effect has to be worth more than what evidence errs by
+        for part in among:
+            if is_part(part, best) and not adds(baseline, part, best, margin(best), floor, rng):
+                best = part
+        return best
+
+    # what a part of a set simulates better than the whole, the whole explains by smoothing only
+    others = [one for one in others if not any(is_part(two, one) and nearer(one, two, rng) for two in others)]
+    ranked = sorted([baseline, *others], key=score, reverse=True)
+    best = without_needless(ranked[0], ranked)
+    sets = [one for one in ranked if score(one) > score(best) - margin(best) and not is_part(best, one)]
+    complete = any(explains(one) for one in sets)
     if not complete:  # nothing explains all: what explains most, as open-loop runs confirm it
-        possible = [
-            one
-            for one in others
-            if closed(baseline, one, floor, rng)[1] > LEAST_SHARE
-            and one.free_form < FREE_PART * (one.log_evidence - baseline.log_evidence)
-        ]
-        possible.sort(key=lambda one: closed(baseline, one, floor, rng)[0], reverse=True)
-        if not possible:
-            small = baseline.completed and float(np.sqrt(np.mean(baseline.errors**2))) < tolerance
-            helps = max(others, key=score, default=baseline)
-            kind = Kind.ADEQUATE if small else Kind.UNKNOWN
-            return Verdict(kind, (), (), small, helps.effects if score(helps) > ODDS and not small else ())
-    best = possible[0]
-    for part in possible:  # a second effect has to be worth more than what the first one's evidence errs by
-        if set(part.effects) < set(best.effects) and not adds(baseline, part, best, margin(best), floor, rng):
-            best = part
-    rivals = [one for one in possible if not set(one.effects) >= set(best.effects) or one is best]
-    if complete:
-        sets = [one for one in rivals if score(one) > score(best) - margin(best)]
-    else:
-        sets = [one for one in rivals if not further(best, one, rng)]
+        most = [one for one in others if explains_most(baseline, one, floor, rng)]
+        best = max(most, key=lambda one: closed(baseline, one, floor, rng)[0], default=baseline)
+        best = without_needless(best, most)
+        sets = [one for one in most if not nearer(one, best, rng) and not is_part(best, one)]
+    if not sets:
+        adequate = baseline.completed and float(np.sqrt(np.mean(baseline.errors**2))) < tolerance
+        if adequate:
+            return Verdict(Kind.ADEQUATE, ((),), (1.0,), False)
+        helps = max(others, key=score, default=baseline)
+        return Verdict(Kind.UNKNOWN, (), (), False, helps.effects if score(helps) > ODDS else ())
     sets.sort(key=lambda one: (one is not best, -score(one)))
     weights = np.array([exp(max(score(one) - score(best), -30.0) / max(margin(best) / ODDS, 1.0)) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
     kind = Kind.AMBIGUOUS if len(sets) > 1 else Kind.ADEQUATE if best is baseline else Kind.CAUSE
     return Verdict(kind, tuple(one.effects for one in sets), probabilities, complete)
+
+
+def explains_most(baseline: Candidate, one: Candidate, floor: float, rng: Generator) -> bool:
+    """Whether a set closes a clear share, and a torque of free form finds little besides."""
+    gained = one.log_evidence - baseline.log_evidence
+    return closed(baseline, one, floor, rng)[1] > LEAST_SHARE and one.free_form < FREE_PART * gained
+
+
+def is_part(one: Candidate, other: Candidate) -> bool:
+    """Whether a set is a part of another."""
+    return set(one.effects) < set(other.effects)
 
 
 def adds(baseline: Candidate, part: Candidate, whole: Candidate, margin: float, floor: float, rng: Generator) -> bool:
@@ -130,11 +141,6 @@ def adds(baseline: Candidate, part: Candidate, whole: Candidate, margin: float, 
 def nearer(one: Candidate, other: Candidate, rng: Generator) -> bool:
     """Whether open-loop errors fall from one to the other, by the 95 % interval over resampled runs."""
     return bool(np.quantile(_resampled(one.errors - other.errors, rng), 0.05) > 0)
-
-
-def further(one: Candidate, other: Candidate, rng: Generator) -> bool:
-    """Whether the other's open-loop errors are larger, by the 95 % interval over resampled runs."""
-    return nearer(other, one, rng)
 
 
 def closed(baseline: Candidate, one: Candidate, floor: float, rng: Generator) -> tuple[float, float, float]:

@@ -18,7 +18,7 @@ from continuum.estimation.run import Run, Trajectory
 SLIPPING = 0.3
 """Rate [rad/s] above which the direction of motion is known: Stribeck's rate of greased joints, below which friction is
 least alike; more where smoothed rates err by much."""
-_SURE = 4.0  # standard deviations of a smoothed rate from which its direction is known
+_SURE = 3.0  # standard deviations of a smoothed rate from which its direction is known
 _STUCK, _REVERSING = 0.05, 3.0  # rad/s by which a rate may change within a sample of 1/120 s, one standard deviation
 _SAMPLE = 1 / 120  # s
 _WHITE = 2e-4  # N m sqrt(s): white torque of a slipping joint, 2 mN m over a sample
