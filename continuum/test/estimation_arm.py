@@ -1,4 +1,4 @@
-"""One compiled structure with all effects for the laws of the estimation, and Eq. 12 in numbers with a slip rate given."""
+"""One compiled structure with all effects for laws of the estimation, and Eq. 12 in numbers at a given slip rate."""
 
 from __future__ import annotations
 
@@ -65,9 +65,7 @@ class Sliding(Motion):
         return self.slip + (self.theta_rate - self.joint_rates)
 
 
-def left_side(
-    model: Model, x: np.ndarray, v: np.ndarray, u: np.ndarray, slip: np.ndarray
-) -> np.ndarray:
+def left_side(model: Model, x: np.ndarray, v: np.ndarray, u: np.ndarray, slip: np.ndarray) -> np.ndarray:
     """What is left of the equations, in numbers."""
     n, still = model.n_joints, np.zeros(1)
     return balance(model, x, v, u, Sliding(x[:n], x[n : 2 * n], v[:n], still, still, still, slip, x[n : 2 * n]))

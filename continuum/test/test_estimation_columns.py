@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from continuum_laws.differences import assert_same_slopes, differences
+from continuum_laws.differences import differences
 from continuum_laws.strategies import LAW
 from estimation_arm import N, drawn_motion, drawn_own, drawn_values, missing, run_over, scene_along, structure
 from hypothesis import given
@@ -13,17 +13,13 @@ from hypothesis import strategies as st
 from continuum.dynamics.reading import Reading
 from continuum.estimation.columns import (
     Change,
-    Difference,
     LateInputs,
-    Scene,
     SensorSlope,
     Slope,
-    StatefulTorque,
     assembled,
     to_states,
 )
 from continuum.estimation.run import Run, Trajectory
-from continuum.estimation.structure import Point
 
 SEEDS = st.integers(0, 10**6)
 NAMES = list(structure().slots)

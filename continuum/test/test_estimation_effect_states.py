@@ -77,7 +77,7 @@ def torques_of(name: str, own: dict[str, np.ndarray], values: np.ndarray, step: 
 def test_torque_along_a_motion_is_what_a_simulation_with_the_effect_had(name: str) -> None:
     """As substeps shrink: implicit Euler steps err in proportion to their length.
 
-    Without dry friction where the base gives way: its least error turns the friction of a joint that sticks to it round.
+    Without dry friction where the base gives way: the least error turns that of a joint that sticks to it round.
     """
     values = prototype(**({"coulomb_friction": 0.0} if name == "base_compliance" else {}))
     missed = []
@@ -119,9 +119,9 @@ def test_joints_have_columns_of_their_own_that_add_up(name: str) -> None:
     np.testing.assert_array_equal(one[:, :, 0], apart[:, :, 1])
 
 
-@pytest.mark.parametrize("name", INTEGRATED)
+@pytest.mark.parametrize("name", ["actuator_lag", "elastic_cable"])
 def test_half_the_difference_of_neighbours_tends_to_the_slope_by_the_logarithm(name: str) -> None:
-    """What a Gauss-Newton step is made of."""
+    """Off by the square of their distance: what a Gauss-Newton step is made of, where states have no corners."""
     scene = scene_along(simulated(name, values_of(name, 1.0), prototype(), 2e-3), prototype())
     size = next(iter(structure().stateful[name].effect.parameters))
     own = values_of(name, 1.0)
@@ -130,8 +130,7 @@ def test_half_the_difference_of_neighbours_tends_to_the_slope_by_the_logarithm(n
         near = [StatefulTorque(name, {**own, size: own[size] * factor}) for factor in (ratio, 1 / ratio)]
         return Difference(*near).torque(scene) / np.log(ratio)
 
-    narrow, near, far = slope(1.002), slope(1.01), slope(1.3)
-    scale = np.linalg.norm(narrow)
-    assert scale > 0
-    assert np.linalg.norm(near - narrow) < 0.15 * scale
-    assert np.linalg.norm(near - narrow) < np.linalg.norm(far - narrow) / 2
+    exact = slope(1.01)
+    near, far = (np.linalg.norm(slope(ratio) - exact) / np.linalg.norm(exact) for ratio in (1.1, 1.21))
+    assert near < 0.05
+    np.testing.assert_allclose(far, 4 * near, rtol=0.2)

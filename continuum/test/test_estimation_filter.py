@@ -3,14 +3,13 @@
 from dataclasses import replace
 
 import numpy as np
+from continuum_laws.strategies import LAW
 from hypothesis import given
 from hypothesis import strategies as st
 from linear_gaussian import COLUMNS, Dense, LinearRun
 
 from continuum.estimation.augmented_filter import RunLikelihood, run_likelihood, smoothed
 from continuum.estimation.sensor_noise import NoiseModel
-
-from continuum_laws.strategies import LAW
 
 RUNS = st.builds(LinearRun.drawn, st.integers(0, 10**6), st.integers(1, 3), st.booleans(), st.integers(2, 12))
 SEEDS = st.integers(0, 10**6)

@@ -1,6 +1,7 @@
 """Inputs amid the substeps: means of a signal over each, whenever it begins."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from continuum_laws.strategies import LAW
@@ -35,11 +36,11 @@ def test_inputs_are_means_over_the_substeps(seed: int, delay: float, held: bool)
     run = drawn(seed, held)
     told, ends = Tensions(run.signal[0] + delay, run.signal[1], held), edges(run)
     found = run.inputs_later(delay)
-    for k, (begin, end) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
+    for k, (begin, end) in enumerate(pairwise(ends)):
         inside = told.times[(told.times > begin) & (told.times < end)]
         pieces = np.concatenate([[begin], inside, [end]])
         total = np.zeros(2)
-        for a, b in zip(pieces[:-1], pieces[1:], strict=True):
+        for a, b in pairwise(pieces):
             moments = a + (b - a) * (np.arange(20) + 0.5) / 20  # the middles of parts: exact for a straight line
             total += (b - a) * told.over(moments).mean(axis=0)
         np.testing.assert_allclose(found[k], total / (end - begin), rtol=1e-7, atol=1e-7)
@@ -82,7 +83,7 @@ def test_inputs_that_never_change_are_the_same_at_any_time(seed: int, delay: flo
 def test_substeps_fill_the_intervals(seed: int, held: bool) -> None:
     """Each interval by equal ones."""
     run = drawn(seed, held)
-    for k, (a, b) in enumerate(zip(run.first[:-1], run.first[1:], strict=True)):
+    for k, (a, b) in enumerate(pairwise(run.first)):
         np.testing.assert_allclose(run.length[a:b], run.intervals[k] / (b - a), rtol=1e-12)
     np.testing.assert_allclose(edges(run)[run.first], run.times, rtol=0, atol=1e-12)
 

@@ -1,12 +1,14 @@
 """One interval of Eq. 12 against simulations, differences, and the exponential of a linear arm."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 import pytest
 import scipy.linalg
+from arm_interval import LONG, SHORT, SMOOTH, Arm, linear_arm, relative
 from continuum_laws.differences import differences
+from continuum_laws.strategies import LAW
 from estimation_arm import N, constrained, drawn_values, left_side, run_over, slipping, structure
 from hypothesis import given
 from hypothesis import strategies as st
@@ -17,91 +19,15 @@ from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.values import with_vector
 from continuum.estimation.friction_modes import FrictionModes
-from continuum.estimation.run import Run, Trajectory
-from continuum.estimation.transition import Transition, transition
-
-from continuum_laws.strategies import LAW
+from continuum.estimation.run import Trajectory
+from continuum.estimation.transition import transition
 
 SEEDS = st.integers(0, 10**6)
-SMOOTH = {
-    "coulomb_friction": 0.0, "capstan_friction": 0.0, "capstan.friction": 0.0, "load_friction.radius": 0.0,
-    "sensor_cable.dry": 0.0,
-}  # fmt: skip
-"""An arm whose friction has no sign: what it does is the same, whatever rate dry friction is told."""
-SHORT = 1e-3  # s: one substep
-LONG = 0.02  # s: several
-
-
-@dataclass(frozen=True)
-class Arm:
-    """A random arm somewhere, and intervals that begin there.
-
-    Attributes:
-        values: parameters.
-        x: angles and rates.
-        u: tensions.
-        d: missing torque.
-    """
-
-    values: np.ndarray
-    x: np.ndarray
-    u: np.ndarray
-    d: np.ndarray
-
-    @classmethod
-    def drawn(cls, seed: int, with_effects: bool = True, **changed: float) -> "Arm":
-        random = np.random.default_rng(seed)
-        values = drawn_values(random, with_effects, **changed)
-        rate = random.choice([-1.0, 1.0], N) * random.uniform(0.5, 2, N)
-        x = np.concatenate([random.uniform(-0.5, 0.5, N), rate])
-        return cls(values, x, random.uniform(0.5, 6, 2), random.normal(0, 0.05, N))
-
-    def interval(self, length: float) -> Run:
-        return run_over(np.array([0.0, length]), self.u)
-
-    def substeps(self, length: float) -> int:
-        return int(self.interval(length).first[-1])
-
-    @property
-    def slips(self) -> FrictionModes:
-        return slipping(np.sign(self.x[N:])[None])
-
-    def over(
-        self,
-        length: float,
-        modes: FrictionModes | None = None,
-        x: np.ndarray | None = None,
-        d: np.ndarray | None = None,
-        held: np.ndarray | None = None,
-        gained: np.ndarray | float = 0.0,
-        reference: np.ndarray | None = None,
-    ) -> Transition:
-        """One interval from a state, its own without, along a trajectory whose rates gain so much."""
-        x, d = self.x if x is None else x, self.d if d is None else d
-        q, w = np.stack([x[:N], x[:N] + length * x[N:]]), np.stack([x[N:], x[N:] + gained])
-        held = np.zeros((self.substeps(length), N)) if held is None else held
-        values, way = self.values, Trajectory(q, w, np.zeros((2, N)), np.stack([d, d]))
-        reference = values if reference is None else reference
-        return transition(
-            structure().equations, self.interval(length), way, modes or self.slips, values, reference, held
-        )
-
-    def gained(self, length: float) -> np.ndarray:
-        """By how much the rates change over an interval, by the interval itself."""
-        gained = np.zeros(N)
-        for _ in range(4):
-            gained = self.over(length, gained=gained).end[0, N:] - self.x[N:]
-        return gained
 
 
 @lru_cache
 def exact() -> Simulator:
     return Simulator(structure().model, Tolerances(1e-10, 1e-11, 1e-3), fourth_order())
-
-
-def relative(found: np.ndarray, expected: np.ndarray, scale: np.ndarray | None = None) -> float:
-    """Largest error by the largest entry."""
-    return float(np.max(np.abs(found - expected)) / np.max(np.abs(expected if scale is None else scale)))
 
 
 def missed_by_simulation(arm: Arm, rows: int) -> tuple[float, float]:
@@ -199,6 +125,18 @@ def test_process_noise_is_a_covariance(seed: int, sign: list[float], length: flo
 
 
 @LAW
+@given(SEEDS, st.floats(1e-8, 1e-6))
+def test_the_noise_of_rates_is_that_of_white_torque(seed: int, short: float) -> None:
+    """Whose variance grows in proportion to time."""
+    arm, random = Arm.drawn(seed), np.random.default_rng(seed)
+    intensity = random.uniform(1e-4, 1e-2, N)
+    found = arm.over(short, replace(arm.slips, torque_noise=intensity[None]))
+    by_torque = found.D[0, N:] / (short)
+    white = by_torque @ np.diag(intensity**2) @ by_torque.T * short
+    np.testing.assert_allclose(found.noise[0, N:, N:], white, rtol=1e-2, atol=1e-6 * np.abs(white).max())
+
+
+@LAW
 @given(SEEDS, st.integers(0, N - 1), st.sampled_from([SHORT, LONG]), st.floats(-50, 50), st.floats(0, 5))
 def test_a_constrained_joint_follows_its_acceleration(
     seed: int, joint: int, length: float, acceleration: float, rate_noise: float
@@ -240,13 +178,22 @@ def test_accelerations_amid_the_substeps_balance_the_equations(seed: int, given_
         np.testing.assert_array_equal(acceleration[~slips], wanted[~slips])
 
 
-def linear_arm(seed: int) -> Arm:
-    """Links without weight: inertia that does not depend on the posture, springs and viscous friction, some very stiff."""
-    random = np.random.default_rng(seed)
-    arm = Arm.drawn(seed, False, mass=1e-9, stribeck_gain=0.0, friction_slope=1e4)
-    for name in ("stiffness", "viscous_friction"):
-        arm.values[structure().slots[name]] *= 10 ** random.uniform(-1, 2, N)
-    return replace(arm, u=np.zeros(2))
+@LAW
+@given(SEEDS, st.integers(0, N - 1), st.sampled_from([SHORT, LONG]), st.floats(0.1, 5))
+def test_the_noise_of_a_given_rate_moves_the_other_joints(
+    seed: int, joint: int, length: float, rate_noise: float
+) -> None:
+    """As another acceleration of that joint does, over the whole interval."""
+    arm = linear_arm(seed)
+
+    def by_acceleration(acceleration: np.ndarray) -> np.ndarray:
+        return arm.over(length, constrained(arm.slips, joint, acceleration[0])).end[0]
+
+    way = differences(by_acceleration, np.zeros(1), 1.0)[:, 0] * rate_noise / length
+    quiet = replace(arm.slips, torque_noise=np.zeros((1, N)))
+    found, expected = arm.over(length, constrained(quiet, joint, 0.0, rate_noise)).noise[0], np.outer(way, way)
+    found[joint, joint] = expected[joint, joint]  # white within the interval, too
+    np.testing.assert_allclose(found, expected, rtol=1e-5, atol=1e-7 * np.abs(expected).max())
 
 
 @LAW

@@ -1,0 +1,137 @@
+"""Evidence by linear algebra against integrals over the coefficients."""
+
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+import scipy.special
+import scipy.stats
+from continuum_laws.strategies import LAW
+from drawn_evidence import NUISANCES, WIDTH, Drawn, hypothesis, log_integral, without
+from hypothesis import given
+from hypothesis import strategies as st
+
+from continuum.discovery.evidence import Evidence
+
+SEEDS = st.integers(0, 10**6)
+
+
+@LAW
+@given(SEEDS)
+def test_evidence_is_the_integral_over_all_coefficients(seed: int) -> None:
+    """Of the hypothesis and the nuisances; levels are alike beforehand."""
+    drawn = Drawn.by(seed)
+    evidence = drawn.evidence(drawn.pair)
+    expected = [log_integral(*without(*drawn.quadratic(k, [drawn.pair]), [0]), np.full(3, -np.inf)) for k in (0, 1)]
+    np.testing.assert_allclose(evidence.by_level((drawn.pair,)), expected, rtol=1e-6)
+    np.testing.assert_allclose(evidence.total((drawn.pair,)), scipy.special.logsumexp(expected) - np.log(2), rtol=1e-6)
+    assert evidence.best_level((drawn.pair,)) == int(np.argmax(expected))
+    alone = [log_integral(*drawn.quadratic(k, []), np.full(2, -np.inf)) for k in (0, 1)]
+    np.testing.assert_allclose(evidence.by_level(()), alone, rtol=1e-6)
+
+
+@LAW
+@given(SEEDS, st.floats(-3, 3))
+def test_a_bound_cuts_likelihood_and_prior_alike(seed: int, bound: float) -> None:
+    """Evidence is that of a prior above the bound; likely or far from what the data say."""
+    drawn = Drawn.by(seed)
+    cut = replace(drawn.pair, least=np.array([bound * drawn.pair.sd[0], -np.inf]))
+    A, b, c = without(*drawn.quadratic(0, [cut]), [0, 1, 3])
+    expected = log_integral(A, b, c, cut.least[:1]) - scipy.stats.norm.logsf(bound)
+    np.testing.assert_allclose(drawn.evidence(cut).by_level((cut,))[0], expected, atol=0.02)
+
+
+@LAW
+@given(SEEDS, st.floats(-2, 2), st.floats(-2, 2))
+def test_bounds_count_by_each_coefficient_s_own_distribution(seed: int, one: float, other: float) -> None:
+    """Which is all that there is to them where they are not correlated."""
+    drawn = Drawn.by(seed)
+    A, b, c = without(*drawn.quadratic(0, [drawn.pair]), [0, 1])
+    least = np.array([one, other]) * drawn.pair.sd
+    cut = replace(drawn.pair, least=least)
+    expected = log_integral(A, b, c, np.full(2, -np.inf))
+    for k in (0, 1):
+        single = without(A, b, c, [1 - k])
+        expected += log_integral(*single, least[k : k + 1]) - log_integral(*single, np.full(1, -np.inf))
+    expected -= np.sum(scipy.stats.norm.logsf([one, other]))
+    np.testing.assert_allclose(drawn.evidence(cut).by_level((cut,))[0], expected, atol=0.04)
+
+
+@LAW
+@given(SEEDS)
+def test_what_each_run_has_for_itself_is_integrated_run_by_run(seed: int) -> None:
+    """By quadrature over all runs' own coefficients, nuisances in closed form; alone and beside another effect."""
+    drawn = Drawn.by(seed)
+    evidence = drawn.evidence(drawn.own, drawn.pair)
+    for chosen, rest in (((drawn.own,), [0, 1]), ((drawn.pair, drawn.own), [0, 1, 2, 3])):
+        expected = [log_integral(*without(*drawn.quadratic(k, chosen), rest), np.full(3, -np.inf)) for k in (0, 1)]
+        np.testing.assert_allclose(evidence.by_level(chosen), expected, rtol=1e-6)
+
+
+@LAW
+@given(SEEDS)
+def test_the_order_of_runs_and_of_hypotheses_does_not_matter(seed: int) -> None:
+    drawn, order = Drawn.by(seed), np.random.default_rng(seed).permutation(3)
+    chosen = drawn.pair, drawn.own
+    first = drawn.evidence(*chosen)
+    again = drawn.evidence(drawn.own, drawn.pair, runs=[[at[k] for k in order] for at in drawn.runs])
+    np.testing.assert_allclose(again.by_level(chosen[::-1]), first.by_level(chosen), rtol=1e-9)
+    np.testing.assert_allclose(again.by_run(chosen, 0), first.by_run(chosen, 0)[order], rtol=1e-7, atol=1e-9)
+    np.testing.assert_allclose(again.optimum(chosen, 0).local, first.optimum(chosen, 0).local[order], atol=1e-7)
+
+
+@LAW
+@given(SEEDS)
+def test_a_run_s_share_is_the_evidence_with_it_less_that_without(seed: int) -> None:
+    drawn = Drawn.by(seed)
+    for chosen in ((), (drawn.pair,), (drawn.own,), (drawn.pair, drawn.own)):
+        whole = drawn.evidence(*chosen)
+        for level in (0, 1):
+            shares = whole.by_run(chosen, level)
+            for r in range(3):
+                others = [at[:r] + at[r + 1 :] for at in drawn.runs]
+                left = drawn.evidence(*chosen, runs=others).by_level(chosen)[level]
+                np.testing.assert_allclose(shares[r], whole.by_level(chosen)[level] - left, rtol=1e-7, atol=1e-7)
+
+
+@LAW
+@given(SEEDS, st.floats(1e-3, 1e3), st.floats(1e-3, 1e3))
+def test_units_of_a_coefficient_do_not_matter(seed: int, unit: float, unit_of_own: float) -> None:
+    """A column per another unit, its prior and its bound in it: the same evidence, the same effect on theta."""
+    drawn, scale = Drawn.by(seed), np.ones(WIDTH)
+    scale[5], scale[3], scale[4] = unit, unit_of_own, unit
+    runs = [[replace(one, L=one.L * np.outer(scale, scale), e=one.e * scale) for one in at] for at in drawn.runs]
+    nuisance = replace(drawn.nuisance, sd=drawn.nuisance.sd / scale[NUISANCES])
+    pair = replace(drawn.pair, least=np.array([-1.0, 0.1]))
+    chosen = pair, drawn.own
+    rescaled = (
+        replace(pair, sd=pair.sd / [1, unit], least=pair.least / [1, unit]),
+        replace(drawn.own, local_sd=drawn.own.local_sd / unit_of_own),
+    )
+    one = Evidence(drawn.runs, drawn.nuisance, chosen, WIDTH, 2)
+    other = Evidence(runs, nuisance, rescaled, WIDTH, 2)
+    np.testing.assert_allclose(other.by_level(rescaled), one.by_level(chosen), rtol=1e-7, atol=1e-7)
+    np.testing.assert_allclose(other.by_run(rescaled, 0), one.by_run(chosen, 0), rtol=1e-6, atol=1e-6)
+    best = one.optimum(chosen, 0)
+    np.testing.assert_allclose(other.optimum(rescaled, 0).theta * scale, best.theta, rtol=1e-5, atol=1e-7)
+    np.testing.assert_allclose(other.optimum(rescaled, 0).sd * [1, unit], best.sd, rtol=1e-6)
+
+
+@LAW
+@given(SEEDS, st.floats(0, 5))
+def test_ranked_sets_are_the_best_of_all(seed: int, price: float) -> None:
+    """By evidence with constraints, less a price for every effect."""
+    drawn, random = Drawn.by(seed), np.random.default_rng(seed)
+    nuisance = replace(drawn.nuisance, constraints=random.normal(0, 1, (2, WIDTH)), least=random.normal(0, 1, 2))
+    singles = [
+        hypothesis([(column,)], random.uniform(0.3, 2, 1), np.array([least]))
+        for column, least in zip((0, 2, 3, 5), (0.0, -0.3, -np.inf, -np.inf), strict=True)
+    ]
+    sets = [(), *((one,) for one in singles), *combinations(singles, 2)]
+    evidence = Evidence(drawn.runs, nuisance, singles, WIDTH, 2)
+    worth = sorted((evidence.total(s, with_constraints=True) - price * len(s) for s in sets), reverse=True)
+    found = evidence.ranked(sets, price, 3)
+    np.testing.assert_allclose([value for value, _ in found[:3]], worth[:3], rtol=1e-9)
+    for value, chosen in found:
+        assert value == pytest.approx(evidence.total(chosen, with_constraints=True) - price * len(chosen))
