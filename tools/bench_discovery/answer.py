@@ -4,80 +4,77 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from enum import Enum
-from typing import Any
+from typing import Any, Final
 
-_ALL_JOINTS = [1, 2, 3, 4, 5]  # of the plant's arms
+_ALL_JOINTS: Final = (1, 2, 3, 4, 5)  # of the plants' arms
 
 
 class Answer(Enum):
-    """From the worst to the best."""
+    """From the best to the worst."""
 
-    WRONG_CAUSE = "wrong cause"
-    WRONG_JOINT = "right effect at a wrong joint"
-    OTHER_SET = "ambiguous without it"
-    UNKNOWN = "unknown"
-    ADEQUATE = "missed: adequate"
-    FAILED = "no verdict"
-    PART = "in part"
-    SET = "in an ambiguous set"
     RIGHT = "right"
+    SET = "in a set"
+    PART = "part"
+    UNKNOWN = "unknown"
+    ADEQUATE = "missed"
+    FAILED = "failed"
+    WRONG_SET = "wrong set"
+    WRONG_CAUSE = "wrong cause"
 
 
 type Entry = Mapping[str, Any]
-"""A hidden effect (`name`, `joint`), or a named one (`effect`, `joint`, ..)."""
+"""A hidden effect (`name`, `joint`), or a named one (`effect`, `joints`)."""
 
 
 def answer(hidden: Sequence[Entry], verdict: Mapping[str, Any] | None) -> Answer:
     """Judge a verdict.
 
-    Right is `cause` with every hidden effect and no other, each at its joint where it belongs to one and else at all;
-    in part it is with one of two effects, or at some of the joints; right is also `unknown` where an effect outside of
-    the library is hidden, and `adequate` where nothing is.
+    Right is `cause` with the hidden effects and no other, each at its joint, or at all where it belongs to the whole
+    arm. A wrong cause is one that names anything else, alone or beside what is hidden. Where an effect outside of the
+    library is hidden, right is `unknown`, or whatever says of itself that it is not complete; where nothing is,
+    `adequate`.
 
     Args:
-        hidden: effects as the plant tells them.
-        verdict: as `continuum diagnose --json` writes it.
+        hidden: effects as the plants tell them.
+        verdict: as `continuum diagnose --json` writes it; None where there is none.
     """
     if verdict is None:
         return Answer.FAILED
-    outside = any(not effect["in_a_library"] for effect in hidden)
-    match verdict["verdict"]:
-        case "adequate":
-            return Answer.ADEQUATE if hidden else Answer.RIGHT
-        case "unknown":
-            return Answer.RIGHT if outside else Answer.UNKNOWN
-        case "ambiguous":
-            named = [*verdict["causes"], *verdict["alternatives"]]
-            found = bool(hidden) and all(any(is_it(effect, entry) for entry in named) for effect in hidden)
-            return Answer.SET if found else Answer.OTHER_SET
-        case "cause":
-            return _of_causes(hidden, verdict["causes"])
-    raise ValueError(f"verdict is {verdict['verdict']!r}; allowed: adequate, cause, ambiguous, unknown")
+    kind = verdict["verdict"]
+    if kind not in ("adequate", "cause", "ambiguous", "unknown"):
+        raise ValueError(f"verdict is {kind!r}; allowed: adequate, cause, ambiguous, unknown")
+    if any(not effect["in_a_library"] for effect in hidden) and (kind == "unknown" or not verdict["complete"]):
+        return Answer.RIGHT
+    if kind == "unknown":
+        return Answer.UNKNOWN
+    if kind == "adequate":
+        return Answer.ADEQUATE if hidden else Answer.RIGHT
+    sets = [one["effects"] for one in verdict["sets"]]
+    if any(is_exactly(hidden, one) for one in sets):
+        return Answer.RIGHT if kind == "cause" else Answer.SET
+    if all(one and all(_is_part(hidden, cause) for cause in one) for one in sets):
+        return Answer.PART
+    return Answer.WRONG_CAUSE if kind == "cause" else Answer.WRONG_SET
+
+
+def is_exactly(hidden: Sequence[Entry], named: Sequence[Entry]) -> bool:
+    """Whether a set names every hidden effect at its joints, and nothing else."""
+    return len(hidden) == len(named) and all(any(is_it(effect, cause) for cause in named) for effect in hidden)
 
 
 def is_it(effect: Entry, named: Entry) -> bool:
-    """Whether a named effect is the hidden one, at its joint; of the whole arm's one joint is enough."""
-    return bool(effect["name"] == named["effect"] and effect["joint"] in (None, named["joint"]))
+    """Whether a named effect is the hidden one at its joint, or at all joints."""
+    joints = None if named["joints"] is None else tuple(named["joints"])
+    wanted = (None, _ALL_JOINTS) if effect["joint"] is None else ((effect["joint"],),)
+    return bool(effect["name"] == named["effect"]) and joints in wanted
 
 
-def _is_whole(effect: Entry, named: Entry) -> bool:
-    """Whether it is named at all joints where it is hidden."""
-    return is_it(effect, named) and (effect["joint"] is not None or named["joints"] in (None, _ALL_JOINTS))
+def _is_part(hidden: Sequence[Entry], named: Entry) -> bool:
+    """Whether it is one of the hidden effects, perhaps at some only of its joints."""
+    return any(is_it(e, named) or (e["name"] == named["effect"] and e["joint"] is None) for e in hidden)
 
 
-def _of_causes(hidden: Sequence[Entry], causes: Sequence[Entry]) -> Answer:
-    if not {cause["effect"] for cause in causes} <= {effect["name"] for effect in hidden}:
-        return Answer.WRONG_CAUSE
-    if not all(any(is_it(effect, cause) for effect in hidden) for cause in causes):
-        return Answer.WRONG_JOINT
-    all_named = all(any(_is_whole(effect, cause) for cause in causes) for effect in hidden)
-    return Answer.RIGHT if all_named else Answer.PART
-
-
-def label(verdict: Mapping[str, Any] | None) -> str:
-    """Column of the confusion matrix: the effect that is named alone, or the kind of the verdict."""
-    if verdict is None:
-        return "no verdict"
-    if verdict["verdict"] != "cause":
-        return str(verdict["verdict"])
-    return str(verdict["causes"][0]["effect"]) if len(verdict["causes"]) == 1 else "several"
+def label(causes: Sequence[Entry]) -> str:
+    """Effects and joints of a set."""
+    at = ("" if (joints := cause["joints"]) is None else "@" + ",".join(map(str, joints)) for cause in causes)
+    return " + ".join(cause["effect"] + where for cause, where in zip(causes, at, strict=True)) or "nothing"

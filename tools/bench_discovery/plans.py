@@ -1,91 +1,138 @@
 """What a campaign hides, case by case, in an order of which every beginning is balanced.
 
-A round holds every effect of the library at each size, arms without any, effects outside of the library, and pairs;
-every round has other arms, and moves datasets and noises on by one place. Where an effect begins is drawn by the
-campaign's seed: the first rounds of several campaigns do not hide it in the same dataset each time.
+A round hides every effect of the library at each size once, and has arms without any, effects outside of the library,
+and pairs. Plant, regime, noise and number of recordings of a case are those that its likes had least often so far
+(minimisation: Pocock and Simon, Biometrics 31, 1975, 103-115).
 """
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
-from blind.plant import EFFECTS, LIBRARY, OUTSIDE, SIZES, Plan
-from blind.plant.regimes import kinds
+from blind.plant import EFFECTS, LIBRARY, OUTSIDE, SIZES
+from blind.plant.effect import DRIVEN, RELEASE
 
-DATASETS = ("releases", "mixed", "driven", "slow", "fast")
-EIGHT = "eight_releases"
-NOISES = ("ordinary", "low", "ordinary", "high")
-CLEAN_IN_A_ROUND = 2 * len(DATASETS)
-PAIRS_IN_A_ROUND = len(DATASETS)
-_PLACES = 60  # in turns of all lengths that occur
-_MOST_IN_A_ROUND = _MOST_ROUNDS = 1000
+PLANTS: Final = ("mujoco", "moreau")
+NOISES: Final = ("low", "ordinary", "high")
+REGIMES: Final = {
+    "releases": (RELEASE,) * 8,
+    "mixed": (RELEASE, RELEASE, "multisine", "hold_and_release", RELEASE, RELEASE, "steps", "reversals"),
+    "driven": ("multisine", "hold_and_release", "steps", "reversals") * 2,
+    "slow": ("ramp", "reversals", "ramp", "cocontraction") * 2,
+    "fast": ("chirp", "steps", "multisine", "chirp") * 2,
+}
+"""Recordings of a dataset; a small one has the first four."""
+KINDS: Final = ("one", "clean", "outside", "pairs")
+HALVES: Final = ("development", "held-out")
+ROUNDS: Final = 6
+"""Of each half."""
+CHOICES: Final = (*KINDS, *PLANTS, *SIZES, *REGIMES, *LIBRARY, *OUTSIDE)
+"""What a run may be narrowed to."""
+_CLEAN, _OUTSIDE, _PAIRS = 26, 10, 10
+_RUNS = {8: 3.0, 4: 1.0}  # how often each is wanted
+_SEED = 3_000_000
+_IN_A_ROUND = 1000  # seeds
 
-CHOICES = ("clean", "one", "pairs", "outside", *LIBRARY, *OUTSIDE)
-"""What a campaign may be narrowed to."""
+
+@dataclass(frozen=True)
+class Plan:
+    """One case: plant, hidden effects and their size, regime, number of recordings, noise, and the seed of the rest."""
+
+    plant: str
+    effects: tuple[str, ...]
+    size: str
+    regime: str
+    runs: int
+    noise: str
+    seed: int
+
+    @property
+    def kind(self) -> str:
+        """Of KINDS."""
+        if any(name in OUTSIDE for name in self.effects):
+            return "outside"
+        return ("clean", "one", "pairs")[len(self.effects)]
+
+    @property
+    def half(self) -> str:
+        """Of HALVES."""
+        return HALVES[(self.seed - _SEED) // _IN_A_ROUND % 2]
+
+    @property
+    def recordings(self) -> tuple[str, ...]:
+        """Their regimes, as the plants know them."""
+        return REGIMES[self.regime][: self.runs]
+
+    def __str__(self) -> str:
+        return f"{self.plant}, {self.size}, {self.runs} {self.regime}, noise {self.noise}, seed {self.seed}"
 
 
-def campaign(seed: int, rounds: int) -> Iterator[Plan]:
-    """Plans of so many rounds; no two have the same seed."""
+def campaign(half: str, rounds: int = ROUNDS) -> Iterator[Plan]:
+    """Plans of one half; no two of any half have the same seed."""
+    which = HALVES.index(half)
+    rng, had = np.random.default_rng([_SEED, which]), Counter[tuple[object, ...]]()
     for number in range(rounds):
-        seeds = itertools.count(_MOST_IN_A_ROUND * (_MOST_ROUNDS * seed + number))
-        yield from (Plan(*hidden, next(seeds), noise) for *hidden, noise in one_round(number, seed))
-
-
-def campaign_of(plan: Plan) -> int:
-    """Seed of the campaign that a plan is of."""
-    return plan.seed // (_MOST_IN_A_ROUND * _MOST_ROUNDS)
-
-
-def one_round(number: int, seed: int = 0) -> Iterator[tuple[tuple[str, ...], str, str, str]]:
-    """Effects, size, dataset and noise of every case of a round, the number of which counts from 0."""
-    begin = dict(zip(EFFECTS, np.random.default_rng(seed).integers(_PLACES, size=len(EFFECTS)).tolist(), strict=True))
-    medium, large, small = (_every_effect(LIBRARY, size, number, begin) for size in ("medium", "large", "small"))
-    yield from medium
-    for i in range(CLEAN_IN_A_ROUND):
-        yield (), "medium", DATASETS[i % len(DATASETS)], _turn(NOISES, i // len(DATASETS) + i + number)
-    for name in OUTSIDE:
-        yield from _every_effect([name], _turn(SIZES, begin[name] + number), number, begin)
-    yield from large
-    for i, dataset in enumerate(DATASETS):
-        pair = _pair(dataset, np.random.default_rng([seed, number, i]))
-        yield pair, _turn(("medium", "large"), number + i), dataset, _turn(NOISES, number + i)
-    yield from small
-    after_release = [name for name in LIBRARY if EFFECTS[name].seen_in & kinds(EIGHT)]
-    yield (_turn(after_release, 5 * number),), "medium", EIGHT, "ordinary"
+        seeds = itertools.count(_SEED + _IN_A_ROUND * (2 * number + which))
+        for effects, size in _hidden(number, rng):
+            yield _least_had(effects, size, next(seeds), had, rng)
 
 
 def narrowed(plans: Iterable[Plan], only: Sequence[str]) -> Iterator[Plan]:
-    """Those of some of CHOICES; all where none is named."""
-    return (plan for plan in plans if not only or {kind_of(plan.effects), *_alone(plan)} & set(only))
+    """Those of some kinds, plants, sizes, regimes, or effects hidden alone; of a sort of which none is named, all."""
+    sorts = [set(only) & set(sort) for sort in (KINDS, PLANTS, SIZES, REGIMES, EFFECTS)]
+    for plan in plans:
+        alone = plan.effects[0] if len(plan.effects) == 1 else ""
+        is_of = zip(sorts, (plan.kind, plan.plant, plan.size, plan.regime, alone), strict=True)
+        if all(not wanted or mine in wanted for wanted, mine in is_of):
+            yield plan
 
 
-def kind_of(effects: Sequence[str]) -> str:
-    """`clean`, `one`, `pairs` or `outside`."""
-    if any(name in OUTSIDE for name in effects):
-        return "outside"
-    return ("clean", "one", "pairs")[len(effects)]
+def shown_in(effects: Sequence[str]) -> list[str]:
+    """Regimes that can show all of some effects."""
+    kinds = {regime: {RELEASE if run == RELEASE else DRIVEN for run in runs} for regime, runs in REGIMES.items()}
+    return [regime for regime in REGIMES if all(EFFECTS[name].seen_in & kinds[regime] for name in effects)]
 
 
-def _alone(plan: Plan) -> tuple[str, ...]:
-    return plan.effects if len(plan.effects) == 1 else ()
+def _hidden(number: int, rng: np.random.Generator) -> list[tuple[tuple[str, ...], str]]:
+    """Effects and size of every case of a round, all kinds evenly spread over it."""
+    order = [str(name) for name in rng.permutation(LIBRARY)]
+    outside = [((name,), SIZES[(i + turn) % 3]) for turn in range(3) for i, name in enumerate(OUTSIDE)]
+    deck = [str(name) for _ in range(_PAIRS) for name in rng.choice(LIBRARY, 2, replace=False)]
+    kinds: list[list[tuple[tuple[str, ...], str]]] = [
+        [((name,), SIZES[(i + turn + number) % 3]) for turn in range(3) for i, name in enumerate(order)],
+        [((), "medium")] * _CLEAN,
+        [outside[(_OUTSIDE * number + i) % len(outside)] for i in range(_OUTSIDE)],
+        [((deck[2 * i], deck[2 * i + 1]), SIZES[1 + (i + number) % 2]) for i in range(_PAIRS)],
+    ]
+    places = [((i + 0.5) / len(kind), one) for kind in kinds for i, one in enumerate(kind)]
+    return [one for _, one in sorted(places, key=lambda place: place[0])]
 
 
-def _every_effect(
-    names: Sequence[str], size: str, number: int, begin: Mapping[str, int]
-) -> Iterator[tuple[tuple[str, ...], str, str, str]]:
-    """Each where it can be seen; the noise moves on when all datasets were had."""
-    for name in names:
-        shown = [dataset for dataset in DATASETS if EFFECTS[name].seen_in & kinds(dataset)]
-        place = begin[name] + SIZES.index(size)
-        yield (name,), size, _turn(shown, place + number), _turn(NOISES, place + number // len(shown))
+def _least_had(
+    effects: tuple[str, ...], size: str, seed: int, had: Counter[tuple[object, ...]], rng: np.random.Generator
+) -> Plan:
+    """The plan whose levels its likes had least often so far."""
+    levels = itertools.product(PLANTS, shown_in(effects), sorted(_RUNS), NOISES)
+    options = [Plan(plant, effects, size, regime, runs, noise, seed) for plant, regime, runs, noise in levels]
+    costs = np.array([sum(w * (had[mark] + 1) for mark, w in _marks(plan).items()) for plan in options])
+    chosen = options[int(rng.choice(np.flatnonzero(costs < costs.min() + 1e-9)))]
+    had.update(_marks(chosen).keys())
+    return chosen
 
 
-def _pair(dataset: str, rng: np.random.Generator) -> tuple[str, ...]:
-    shown = [name for name in LIBRARY if EFFECTS[name].seen_in & kinds(dataset)]
-    return tuple(str(name) for name in rng.choice(shown, 2, replace=False))
+def _marks(plan: Plan) -> dict[tuple[object, ...], float]:
+    """What is counted of a plan: its levels among the same effects, the same kind and size, and all; and their worth.
 
-
-def _turn[T](values: Sequence[T], place: int) -> T:
-    return values[place % len(values)]
+    A level that is wanted more often counts less.
+    """
+    levels = ("plant", plan.plant), ("regime", plan.regime), ("noise", plan.noise), ("runs", plan.runs)
+    groups = {("effects", plan.effects): 3.0, (plan.kind, plan.size): 1.0, ("all",): 1.0}
+    marks: dict[tuple[object, ...], float] = {(*g, *level): w for g, w in groups.items() for level in levels}
+    marks[plan.effects, plan.size, plan.plant] = 6.0
+    marks |= {(plan.kind, *a, *b): 1.0 for a, b in itertools.combinations(levels, 2)}
+    return {mark: w / _RUNS[plan.runs] if plan.runs in mark else w for mark, w in marks.items()}

@@ -1,0 +1,106 @@
+"""Figures and the page of results that are made by hand."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import pytest
+
+from tools.bench_discovery.figures import Rate, bins, closed_shares, estimates, expected_error, quantile
+from tools.bench_discovery.goals import MET, MISSED, NONE, goals
+from tools.bench_discovery.page import page
+from tools.bench_discovery.result import Result
+from tools.bench_discovery.test.results_by_hand import effect, named, result, verdict
+
+DELAY, TILT, MAGNET = effect("sensor_delay", amount=0.02), effect("base_tilt"), effect("magnet", 3, 0.2)
+IS_DELAY, IS_TILT = [named("sensor_delay", delay=(0.021, 0.019, 0.023))], [named("base_tilt", angle=(0.2, 0.19, 0.21))]
+FOUND = result([DELAY], verdict("cause", IS_DELAY))
+UNSURE = result([DELAY], verdict("ambiguous", [named("actuator_lag")], IS_DELAY, p=(0.6, 0.4)))
+WRONG = result([TILT], verdict("cause", [named("rest_angle", 1)], closed=0.5), size="small")
+CLEAN = result([], verdict("adequate"))
+ALARM = result([], verdict("unknown", complete=False))
+STRANGE = result([MAGNET], verdict("unknown", complete=False), seconds=60.0)
+BOTH = result([DELAY, TILT], verdict("cause", IS_TILT + IS_DELAY))
+FAILED = result([TILT], None)
+ALL = [FOUND, UNSURE, WRONG, CLEAN, ALARM, STRANGE, BOTH, FAILED]
+
+
+def test_rates_have_wilsons_intervals() -> None:
+    assert str(Rate(8, 10)) == "80.0 % (49.0 to 94.3)"
+    assert str(Rate(0, 0)) == "-"
+    assert Rate.of([True, False, True]) == Rate(2, 3)
+
+
+def test_quantiles() -> None:
+    assert [quantile([3.0, 1.0, 2.0, 4.0, math.nan], part) for part in (0.0, 0.5, 0.75, 1.0)] == [1.0, 2.0, 3.0, 4.0]
+    assert math.isnan(quantile([], 0.5))
+
+
+def test_estimates_of_what_was_named() -> None:
+    assert [(one.parameter, one.truth, one.is_covered) for one in estimates(ALL)] == [
+        ("sensor_delay.delay", 0.02, True),
+        ("base_tilt.angle", 0.1, False),
+        ("sensor_delay.delay", 0.02, True),
+    ]
+    far = result([effect("tension_scale", amount=0.1)], verdict("cause", [named("tension_scale", gain_2=(0.05, 0, 1))]))
+    assert [one.truth for one in estimates([far])] == [0.05]
+    elsewhere = result([effect("rest_angle", 4)], verdict("cause", [named("rest_angle", 3, angle=(0.1, 0.0, 0.2))]))
+    assert estimates([elsewhere]) == []
+
+
+def test_probabilities_are_judged_by_what_is_there() -> None:
+    assert bins(ALL) == [(0.4, Rate(1, 1)), (0.6, Rate(0, 1)), (1.0, Rate(2, 3))]
+    assert expected_error(bins(ALL)) == pytest.approx((0.6 + 0.6 + 1) / 5)
+    assert math.isnan(expected_error([]))
+
+
+def test_closed_shares_are_of_causes() -> None:
+    assert closed_shares(ALL) == [0.95, 0.5, 0.95]
+
+
+def test_goals() -> None:
+    found = {goal.what: goal for goal in goals(ALL)}
+    status = {what: (goal.figure.partition(" (")[0], goal.n, goal.status) for what, goal in found.items()}
+    assert status["one diagnosis of eight recordings: processor time, median"] == ("6 s", 8, MET)
+    assert status["one diagnosis of eight recordings: processor time, of 99 %"] == ("60 s", 8, MISSED)
+    assert status["one diagnosis of eight recordings: memory, the most"] == ("0.488 GiB", 8, MET)
+    assert status["one effect, medium or large: named or in a true set"] == ("66.7 %", 3, MISSED)
+    assert status["of these, the least often found effect: `base_tilt`"] == ("0.0 %", 1, MISSED)
+    assert status["of these, `backlash`"] == ("-", 0, NONE)
+    assert status["one effect, small: named or in a true set"] == ("0.0 %", 1, MISSED)
+    assert status["a wrong cause or joint is named, whatever is hidden"] == ("12.5 %", 8, MISSED)
+    assert status["nothing hidden: anything but adequate"] == ("50.0 %", 2, MISSED)
+    assert status["outside of the library: unknown, or not complete"] == ("100.0 %", 1, MET)
+    assert status["two effects: exactly these"] == ("100.0 %", 1, MET)
+    assert [goal.status for goal in goals(ALL)] == sorted(
+        (goal.status for goal in goals(ALL)), key=(MISSED, MET, NONE).index
+    )
+
+
+def test_the_page() -> None:
+    text = page(ALL)
+    assert "from 8 cases" in text
+    assert "Development half only" in text
+    assert "| wrong cause | base_tilt 0.1 rad | rest_angle@1 (1.00) | moreau, small, 8 mixed," in text
+    assert "ValueError: no / verdict" in text
+    assert re.search(r"\| sensor_delay \|.*\| 1\+1/2 \|", text)
+    assert "| nothing | 2 | 1 | 0 | unknown 1 |" in text
+    for table in re.findall(r"(?:^\|.*\|\n)+", text, re.MULTILINE):
+        assert len({line.count("|") for line in table.splitlines()}) == 1
+    assert max(map(len, (line for line in text.splitlines() if not line.startswith("|")))) <= 120
+
+
+def test_the_page_is_of_the_held_out_half_where_there_is_one() -> None:
+    held_out = result([DELAY], verdict("cause", IS_DELAY), half="held-out")
+    text = page([*ALL, held_out], earlier=2)
+    assert "from 1 cases" in text
+    assert "Development half only" not in text
+    assert "2 earlier versions" in text
+    assert "n 4; wrong causes 12.5 %" in " ".join(text.split())
+
+
+@pytest.mark.parametrize("one", ALL, ids=lambda one: f"{one.plan.kind}, {one.answer.value}")
+def test_the_page_of_a_single_case(one: Result) -> None:
+    assert "nan" not in page([one])
+    assert len(page([one]).splitlines()) < 150
