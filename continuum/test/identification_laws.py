@@ -13,7 +13,6 @@ from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.measuring import lateness, readings
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
-from continuum.identification.noise import Channel, Noise
 from continuum.recordings.recording import Recording
 
 N = 2
@@ -35,13 +34,6 @@ def small_simulator(effect: str | None = None, tolerances: Tolerances = FINE) ->
     return Simulator(model if effect is None else extended(model, effect), tolerances)
 
 
-def white_noise(angle: float = ANGLE_NOISE, rate: float | None = RATE_NOISE, n_joints: int = N) -> Noise:
-    """What sensors err by that have white noise alone."""
-    channels = [None if s is None else Channel(s**2 * np.eye(n_joints), 0.0, 1.0) for s in (angle, rate)]
-    assert channels[0] is not None
-    return Noise(channels[0], channels[1])
-
-
 def recorded(
     simulator: Simulator,
     bend: tuple[float, ...] = BENDS[0],
@@ -52,7 +44,7 @@ def recorded(
     rates: bool = True,
     name: str = "run",
 ) -> Recording:
-    """A release, or a run pulled by cables, seen through sensors with `white_noise`, or without noise.
+    """A release, or a run pulled by cables, seen through sensors with white noise, or without.
 
     Args:
         simulator: of the model.

@@ -29,12 +29,17 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 def test_it_is_found_and_acts_on_the_arm(environment: dict[str, str], tmp_path: Path) -> None:
     script = """
 from continuum.cli import main
-from continuum.discovery.candidate import Addition, extended
-from continuum.dynamics.effect_lookup import effect_names
+from dataclasses import replace
+
+from continuum.dynamics.effect_lookup import effect_named, effect_names
+from continuum.dynamics.model import ActiveEffect
 from continuum.dynamics.model_file import load_model, save_model
 
 assert "foam_sleeve" in effect_names()
-model = extended(load_model("lamecc_prototype.yaml"), [Addition("foam_sleeve")])
+model = load_model("lamecc_prototype.yaml")
+effect = effect_named("foam_sleeve")
+absent = {name: spec.array(spec.default, model.n_joints, name) for name, spec in effect.parameters.items()}
+model = replace(model, effects=(*model.effects, ActiveEffect(effect, absent)))
 save_model(model.with_values({"foam_sleeve.fifth": 20.0}), "sleeved.yaml")
 for name, out in (("lamecc_prototype.yaml", "bare.csv"), ("sleeved.yaml", "sleeved.csv")):
     main(["simulate", "--model", name, "--release", "150", "--duration", "0.3", "--csv", out])

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from identification_laws import recorded, releases, small_simulator
 
-from continuum.discovery.trial import TOLERANCES
+from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.free import Free, FreeSpace
@@ -121,7 +121,7 @@ def rate_error(simulator: Simulator, run: Recording, values: np.ndarray) -> floa
 
 
 def test_the_swarm_identifies_and_counts_its_simulations() -> None:
-    simulator = small_simulator(None, TOLERANCES)
+    simulator = small_simulator(None, Tolerances(1e-3, 1e-4, 0.01))
     runs = releases(2, simulator, 11, TRUTH)
     space = FreeSpace(simulator.model, FREE)
     settings = SwarmSettings(particles=8, iterations=6)

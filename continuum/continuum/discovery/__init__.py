@@ -1,6 +1,6 @@
 """Which effect explains what a simulation gets wrong: hypotheses, their evidence, search, confirmation, decision."""
 
-from continuum.discovery.diagnose import diagnose
+from continuum.discovery.diagnosis import diagnose
 from continuum.discovery.result import Diagnosis
 
 __all__ = ["Diagnosis", "diagnose"]

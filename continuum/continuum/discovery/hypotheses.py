@@ -94,6 +94,24 @@ class Hypothesis:
         return H
 
 
+def free_form_hypotheses(first: int, per_joint: int, n: int, size: float) -> list[Hypothesis]:
+    """Of a torque of any form at each joint, and at all.
+
+    Args:
+        first: index of its first column.
+        per_joint: columns of a joint.
+        n: number of joints.
+        size: prior standard deviation of a coefficient [N m].
+    """
+    found = []
+    for joints in [(j,) for j in range(n)] + [tuple(range(n))] * (n > 1):
+        used = tuple((first + j * per_joint + i,) for j in joints for i in range(per_joint))
+        meanings = tuple(Coefficient("free", UNKNOWN, str(i)) for i in range(len(used)))
+        sd = np.full(len(used), size)
+        found.append(Hypothesis(UNKNOWN, joints, used, meanings, sd, np.full(len(used), -np.inf)))
+    return found
+
+
 def sizes_and_shapes(effect: Effect) -> tuple[list[str], list[str]]:
     """Parameters by which an effect is linear and absent at 0, and those that only say what it looks like."""
     shapes = [name for name, spec in effect.parameters.items() if spec.default or spec.shape]

@@ -12,10 +12,10 @@ from continuum.discovery.hypotheses import (
     GRID,
     ORDINARY,
     TOLERANCE,
-    UNKNOWN,
     Coefficient,
     Hypothesis,
     fitted_parameters,
+    free_form_hypotheses,
     grid,
     only,
     prior_sd,
@@ -85,7 +85,7 @@ class Library:
             else:
                 self._plain(effect)
         if free_form is not None:
-            self._free_form(free_form)
+            self.hypotheses += free_form_hypotheses(self._add(free_form), free_form.per_joint, n, FREE_TORQUE * torque)
 
     def _add(self, column: Column) -> int:
         """Append columns; the first one's index."""
@@ -285,15 +285,6 @@ class Library:
                 start=dict(start),
             )
         )
-
-    def _free_form(self, column: FreeForm) -> None:
-        at = self._add(column)
-        n, k = self.structure.n, column.per_joint
-        for joints in [(j,) for j in range(n)] + [tuple(range(n))] * (n > 1):
-            used = tuple((at + j * k + i,) for j in joints for i in range(k))
-            meanings = tuple(Coefficient("free", UNKNOWN, str(i), ()) for i in range(len(used)))
-            size = np.full(len(used), FREE_TORQUE * self.torque)
-            self.hypotheses.append(Hypothesis(UNKNOWN, joints, used, meanings, size, np.full(len(used), -np.inf)))
 
     # ---- what a search needs
     def held_vector(self, held: Mapping[str, float]) -> Array:

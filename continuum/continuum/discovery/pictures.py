@@ -3,17 +3,34 @@
 from __future__ import annotations
 
 import io
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from continuum.discovery.result import Diagnosis
+from continuum.arrays import Array
+from continuum.discovery.confirmation import OpenLoop
+from continuum.recordings.recording import Recording
 
 MEASURED, REFITTED, EXTENDED = "#222222", "#d1802b", "#1f6fb4"
 
 
-def angles(result: Diagnosis) -> Figure:
+class Simulated(Protocol):
+    """What pictures need of a diagnosis: recordings, open-loop simulations, missing torque; before and after."""
+
+    @property
+    def recordings(self) -> tuple[Recording, ...]: ...
+    @property
+    def before(self) -> OpenLoop: ...
+    @property
+    def after(self) -> OpenLoop: ...
+    @property
+    def missing(self) -> tuple[tuple[Array, ...], tuple[Array, ...]]: ...
+    @property
+    def is_extended(self) -> bool: ...
+
+
+def angles(result: Simulated) -> Figure:
     """Joint angles of every recording: measured, and simulated open loop by the refitted and the extended model."""
     n, runs = result.recordings[0].n_joints, result.recordings
     figure = Figure(figsize=(2.3 * n, 1.7 * len(runs) + 0.3), layout="constrained")
@@ -35,7 +52,7 @@ def angles(result: Diagnosis) -> Figure:
     return figure
 
 
-def torques(result: Diagnosis) -> Figure:
+def torques(result: Simulated) -> Figure:
     """Missing torque at every joint over its angle and over time, before and after."""
     n = result.recordings[0].n_joints
     figure = Figure(figsize=(2.3 * n, 4.0), layout="constrained")
@@ -62,7 +79,7 @@ def torques(result: Diagnosis) -> Figure:
     return figure
 
 
-def overview(result: Diagnosis) -> Figure:
+def overview(result: Simulated) -> Figure:
     """Angles of the recording that the refitted model simulates worst, above the missing torque there."""
     worst = int(np.nanargmax(result.before.errors))
     run, n = result.recordings[worst], result.recordings[0].n_joints

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from continuum.discovery.diagnose import diagnose
+from continuum.discovery.diagnosis import diagnose
 from continuum.dynamics.compiled.equations import CompiledEquations
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import ActiveEffect, Model

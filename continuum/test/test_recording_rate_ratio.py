@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from identification_laws import N
 
-from continuum.identification.rate_ratio import odd_rates, rate_ratio
+from continuum.recordings.rate_ratio import odd_rates, rate_ratio
 from continuum.recordings.recording import Recording
 
 
