@@ -43,7 +43,7 @@ bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/
 bench-identification: setup ## compare the fit with the thesis's swarm (10 minutes); overwrites docs/identification.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_identification $(ARGS)
 
-bench-discovery: setup ## hide effects and see what is found; ARGS="--minutes 60" stops it; overwrites docs/discovery-benchmark.md
+bench-discovery: setup ## hide effects and see what is found; ARGS="--half held-out --minutes 60"; overwrites docs/discovery-benchmark.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_discovery $(ARGS)
 
 fuzz: setup ## damaged and made-up bytes through the bench protocol's parsers (6 minutes); overwrites docs/bench-fuzzing.md
