@@ -55,14 +55,12 @@ class Library:
         simulable: bool = False,
     ) -> None:
         self.structure, self.active, self.ratio, self.torque = structure, active, ratio, torque
-        self.columns: list[Column] = []
-        self.width = 0
+        self.columns, self.width = list[Column](), 0
         self.hypotheses: list[Hypothesis] = []
         self.at: dict[tuple[str, str, int], int] = {}  # columns of values, by effect, parameter and joint
         self.torque_only: dict[str, int] = {}  # columns of torque that no value holds, by name
         self.held: list[int] = []  # columns of effects with states that are in the nominal motion
         self.ordinary: list[tuple[int, float]] = []  # columns by which parts of one batch differ, and by how much
-        self._simulable = simulable
         for name, column in baseline:
             if simulable and not isinstance(column, Slope):
                 continue
@@ -71,8 +69,7 @@ class Library:
                 self.at[("", name, -1)] = at
             else:
                 self.torque_only[name] = at
-        self._baseline, self._live = list(range(self.width)), live
-        n = structure.n
+        self._baseline, self._live, self._simulable = list(range(self.width)), live, simulable
         for effect in structure.offered:
             if live is not None and effect.name not in live and not any(p.ordinary for p in effect.parameters.values()):
                 continue
@@ -80,12 +77,14 @@ class Library:
                 self._sensor(effect)
             elif overrides(effect, "late"):
                 self._late(effect)
-            elif effect.n_states(n):
+            elif effect.n_states(structure.n):
                 self._stateful(effect)
             else:
                 self._plain(effect)
         if free_form is not None:
-            self.hypotheses += free_form_hypotheses(self._add(free_form), free_form.per_joint, n, FREE_TORQUE * torque)
+            self.hypotheses += free_form_hypotheses(
+                self._add(free_form), free_form.per_joint, structure.n, FREE_TORQUE * torque
+            )
 
     def _add(self, column: Column) -> int:
         """Append columns; the first one's index."""
@@ -93,7 +92,6 @@ class Library:
         self.width += column.width
         return self.width - column.width
 
-    # ---- effects without states
     def _plain(self, effect: Effect) -> None:
         spec = effect.parameters
         sizes, shapes = sizes_and_shapes(effect)
@@ -202,7 +200,6 @@ class Library:
                 self.at[(effect.name, name, j if spec.per_joint else -1)] = at[name] + j
         self._placed(effect, at, {})
 
-    # ---- effects that are not linear in their size
     def _late(self, effect: Effect) -> None:
         (name,) = effect.parameters
         spec = effect.parameters[name]
@@ -286,7 +283,6 @@ class Library:
             )
         )
 
-    # ---- what a search needs
     def held_vector(self, held: Mapping[str, float]) -> Array:
         """Coefficients of the columns of torque that are in the nominal motion, (P,)."""
         out = np.zeros(self.width)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.decision import MODEL_ERROR, PRICE
+from continuum.discovery.decision import MODEL_ERROR, NEGLIGIBLE, PRICE
 from continuum.discovery.evidence import Evidence, Set
 from continuum.discovery.gauss_newton import moved
 from continuum.discovery.hypotheses import UNKNOWN, Hypothesis
@@ -24,15 +24,12 @@ RATIO = (1.6, 1.25, 1.1)
 """By which values of effects that are not linear are changed for differences, iteration by iteration."""
 ITERATIONS = 6
 """Gauss-Newton steps of one set, at most."""
-EXPLAINED = 2
-"""Levels of missing torque that are no more than any model's: up to a hundredth of the arm's torque."""
 FAMILIES = 6
 """Effects that are refined at most."""
 LONG_SHOT = 0.2
 """Part of the best single effect's gain from which others are refined while none explains the data."""
 RUNNER_UP = 0.6
 """Part of the best single effect's gain from which another is refined too: screening ranks to within a third."""
-_NEAR = 40.0  # log-evidence below the best single effect: hypotheses beyond are not followed (e^-40 is no chance)
 _EXCHANGES = 3  # times that a second effect is added, or one of two exchanged
 
 type Progress = Callable[[str, float], None]
@@ -80,7 +77,7 @@ def find(problem: Problem, start: State, progress: Progress) -> Found:
     log = ["singles: " + ", ".join(f"{h.label} {e - base:.0f}" for e, h in ranked[:6])]
     best = Found(first, (), log)
     best_score = base
-    live = {h.effect for e, h in ranked if e > ranked[0][0] - max(_NEAR, 0.5 * (ranked[0][0] - base))}
+    live = {h.effect for e, h in ranked if e - base > LONG_SHOT * (ranked[0][0] - base) - PRICE}
     tried: list[Found] = []
     stages: list[Found] = []
     for number, (e, h) in enumerate(_by_family(ranked)[:FAMILIES]):
@@ -107,8 +104,9 @@ def _score(found: Found) -> float:
 
 
 def _explains(found: Found) -> bool:
-    """Whether missing torque is at its lowest levels."""
-    return bool(np.sum(posterior_of_levels(found.lin.evidence, found.chosen)[:EXPLAINED]) > 0.95)
+    """Whether missing torque is negligible, more probably than not."""
+    levels = found.lin.problem.levels[list(found.lin.levels)]
+    return bool(np.sum(posterior_of_levels(found.lin.evidence, found.chosen)[levels <= NEGLIGIBLE]) > 0.5)
 
 
 def posterior_of_levels(evidence: Evidence, chosen: Set) -> Array:
