@@ -70,14 +70,14 @@ def test_a_diagnosis_is_told_and_written(tmp_path: Path, model: Path, capsys: Ca
     files = releases(tmp_path, stiffness=1.3)
     out = {name: tmp_path / f"out.{name}" for name in ("json", "html", "yaml")}
     words = ["--json", str(out["json"]), "--report", str(out["html"]), "--extended", str(out["yaml"])]
-    code = main(["diagnose", *files, "--model", str(model), *words, "--seed", "3"])
+    code = main(["diagnose", *files, "--model", str(model), *words])
     told = json.loads(out["json"].read_text(encoding="utf-8"))
     assert code == EXIT_CODES[told["verdict"]]
     assert capsys.readouterr().out.startswith(told["verdict"].upper() + "\n")
     made = told["made"]
-    assert (made["recordings"], made["model"], made["seed"]) == (["run_1.csv", "run_2.csv"], "small.yaml", 3)
+    assert (made["recordings"], made["model"]) == (["run_1.csv", "run_2.csv"], "small.yaml")
     page = unescape(out["html"].read_text(encoding="utf-8"))
-    assert "of run_1.csv, run_2.csv; model small.yaml, seed 3." in page
+    assert "of run_1.csv, run_2.csv; model small.yaml." in page
     assert "data:image/png;base64," in page
     assert load_model(out["yaml"]).n_joints == N
 

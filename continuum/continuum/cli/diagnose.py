@@ -41,7 +41,6 @@ def add_to(commands: Any) -> None:
         metavar="OUT.yaml",
         help="write the extended model, for `simulate`, `diagnose` and the node `dynamics`",
     )
-    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the intervals; default %(default)s")
     parser.add_argument(
         "--tolerance", metavar="DEG", type=float,
         help="open-loop error of an adequate model, root mean square; default three times the angles' noise",
@@ -69,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
 
     tolerance = None if options.tolerance is None else math.radians(options.tolerance)
     with told() as tell:
-        result = diagnose(recordings, model, tolerance=tolerance, seed=options.seed, progress=tell)
+        result = diagnose(recordings, model, tolerance=tolerance, progress=tell)
     show(result)
     if options.json is not None:
         write_json(result, options.json, _made(options))
@@ -88,15 +87,14 @@ def _made(options: argparse.Namespace) -> dict[str, Any]:
         "version": version,
         "recordings": names,
         "model": model,
-        "seed": options.seed,
-        "tolerance": options.tolerance,
+        "tolerance_deg": options.tolerance,
     }
 
 
 def _how(options: argparse.Namespace) -> str:
     """The same in one line, and on which day."""
     made, day = _made(options), datetime.datetime.now().astimezone().date().isoformat()
-    what = f"{', '.join(made['recordings'])}; model {made['model']}, seed {made['seed']}"
+    what = f"{', '.join(made['recordings'])}; model {made['model']}"
     return f"Made on {day} by continuum {made['version']} of {what}."
 
 
@@ -123,7 +121,7 @@ def show(result: Diagnosis) -> None:
     print(f"{result.verdict.kind.value.upper()}\n\n{verdict_in_words(result)}\n")
     if result.verdict.kind is Kind.AMBIGUOUS:
         for causes, p in zip(result.sets, result.verdict.probabilities, strict=True):
-            print(f"may be: {' and '.join(cause.label for cause in causes)}   probability {p:.2f}")
+            print(f"may be: {' and '.join(cause.label for cause in causes) or 'nothing'}   probability {p:.2f}")
         print()
     estimates = [*(one for cause in result.causes for one in cause.estimates), *result.estimates]
     print_pairs([("parameter", "value, 95 % interval"), *((str(one), estimate_in_words(one)) for one in estimates)])

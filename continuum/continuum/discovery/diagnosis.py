@@ -35,7 +35,6 @@ def diagnose(
     model: Model,
     effects: Sequence[str] | None = None,
     tolerance: float | None = None,
-    seed: int = 0,
     progress: Progress = silent,
 ) -> Diagnosis:
     """Diagnose a model by measured data.
@@ -45,17 +44,16 @@ def diagnose(
         model: with nominal values.
         effects: names of those to try; all that are installed without.
         tolerance: open-loop error up to which a model is adequate [rad]; TOLERANCE times the noise without.
-        seed: of the resampling of runs for intervals.
         progress: told what is done, and the part of all that is over.
 
     Raises:
         InvalidValueError: no recording, another number of joints or kind of inputs than the model's, a recording twice.
     """
     began = time.process_time()
-    _check(recordings, model, tolerance, seed)
+    _check(recordings, model, tolerance)
     found = examine(recordings, model, effects, progress)
     progress("deciding", 0.9)
-    return _answer(found, recordings, model, tolerance, np.random.default_rng(seed), began)
+    return _answer(found, recordings, model, tolerance, began)
 
 
 def _answer(
@@ -63,7 +61,6 @@ def _answer(
     recordings: Sequence[Recording],
     model: Model,
     tolerance: float | None,
-    rng: np.random.Generator,
     began: float,
 ) -> Diagnosis:
     problem, base = found.problem, found.baseline
@@ -76,15 +73,15 @@ def _answer(
     others = [candidates[id(one)] for one in found.others]
     floor = base.open_loop.floor
     accepted = TOLERANCE * floor if tolerance is None else tolerance
-    verdict = decide(baseline, others, problem.coordinates.torque, floor, accepted, rng)
+    verdict = decide(baseline, others, problem.coordinates.torque, floor, accepted)
     odd = odd_rates(recordings)
     if odd:  # nothing that is fitted to readings which contradict each other can be trusted
         verdict = Verdict(Kind.UNKNOWN, (), (), False)
     by_key = {frozenset(one.candidate.effects): one for one in (base, *found.others)}
     keys = verdict.sets if is_named(verdict.kind) else ((verdict.helps,) if verdict.helps else ())
-    sets = tuple(_causes(found, by_key[frozenset(key)], baseline, rng) for key in keys)
+    sets = tuple(_causes(found, by_key[frozenset(key)], baseline) for key in keys)
     best = by_key[frozenset(keys[0])] if keys else base
-    share = Share(*closed(baseline, best.candidate, floor, rng))
+    share = Share(*closed(baseline, best.candidate, floor))
     before, after = missing_torque(problem, base.found), missing_torque(problem, best.found)
     return Diagnosis(
         verdict, sets, share, (before[0], after[0]), (before[1], after[1]), baseline_estimates(problem, best),
@@ -94,14 +91,14 @@ def _answer(
     )  # fmt: skip
 
 
-def _causes(found: Examination, one: Examined, baseline: Candidate, rng: np.random.Generator) -> tuple[Cause, ...]:
+def _causes(found: Examination, one: Examined, baseline: Candidate) -> tuple[Cause, ...]:
     """Effects of a set; its closed share is divided in proportion to the evidence that each adds."""
     evidence, chosen = one.found.lin.evidence, one.found.chosen
     whole = evidence.total(chosen, with_constraints=True)
     gains = [
         whole - evidence.total(tuple(h for h in chosen if h is not left), with_constraints=True) for left in chosen
     ]
-    value, low, high = closed(baseline, one.candidate, one.open_loop.floor, rng)
+    value, low, high = closed(baseline, one.candidate, one.open_loop.floor)
     parts: Array = np.maximum(gains, 1e-9) / np.sum(np.maximum(gains, 1e-9))
     return tuple(
         Cause(
@@ -130,13 +127,11 @@ def _notes(recordings: Sequence[Recording], problem: Problem, best: Examined) ->
     return tuple(notes)
 
 
-def _check(recordings: Sequence[Recording], model: Model, tolerance: float | None, seed: int) -> None:
+def _check(recordings: Sequence[Recording], model: Model, tolerance: float | None) -> None:
     if not recordings:
         raise InvalidValueError("recordings", 0, "one or more")
     if tolerance is not None and not 0 < tolerance < np.inf:
         raise InvalidValueError("tolerance", tolerance, "an angle > 0")
-    if seed < 0:
-        raise InvalidValueError("seed", seed, "0 or more")
     for number, one in enumerate(recordings):
         one.inputs_for(model)
         refuse_swapped_cables(one)

@@ -74,7 +74,7 @@ def _title(result: Diagnosis) -> str:
 
 
 def _label(causes: Sequence[Cause]) -> str:
-    return " and ".join(cause.label for cause in causes)
+    return " and ".join(cause.label for cause in causes) or "nothing"
 
 
 def _rows(estimates: Sequence[Estimate]) -> list[tuple[str, str, str]]:

@@ -26,7 +26,7 @@ def verdict_in_words(result: Diagnosis) -> str:
         case Kind.CAUSE:
             return f"{_matters(result.causes)} {_closes(result)} {_rest(result)}"
         case Kind.AMBIGUOUS:
-            names = "; or ".join(" and ".join(in_full(cause) for cause in causes) for causes in result.sets)
+            names = "; or ".join(" and ".join(map(in_full, causes)) or "nothing" for causes in result.sets)
             return (
                 f"Something is missing, but these recordings cannot tell which of these it is: {names}. "
                 f"To tell them apart: {_experiment(result)}"
