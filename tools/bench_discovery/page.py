@@ -92,9 +92,10 @@ def _wrong(results: Sequence[Result]) -> str:
         )
         named = "; ".join(f"{label(one['effects'])} ({one['probability']:.2f})" for one in result.sets[:4])
         failure = "".join(result.failure.strip().splitlines()[-1:]).replace("|", "/")
-        rows.append((result.answer.value, " + ".join(hidden) or "nothing", named or failure, result.plan))
+        closed = "" if result.verdict is None else f"{100 * (result.verdict['closed']['value'] or 0.0):.0f} %"
+        rows.append((result.answer.value, " + ".join(hidden) or "nothing", named or failure, closed, result.plan))
     more = f"\n\nAnd {len(bad) - _MOST_LISTED} more." if len(bad) > _MOST_LISTED else ""
-    return table(("", "hidden", "named (probability)", "case"), rows) + more
+    return table(("", "hidden", "named (probability)", "closed", "case"), rows) + more
 
 
 def _by_effect(results: Sequence[Result]) -> str:

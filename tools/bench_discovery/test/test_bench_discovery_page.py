@@ -82,7 +82,7 @@ def test_the_page() -> None:
     text = page(ALL)
     assert "from 8 cases" in text
     assert "Development half only" in text
-    assert "| wrong cause | base_tilt 0.1 rad | rest_angle@1 (1.00) | moreau, small, 8 mixed," in text
+    assert "| wrong cause | base_tilt 0.1 rad | rest_angle@1 (1.00) | 50 % | moreau, small, 8 mixed," in text
     assert "ValueError: no / verdict" in text
     assert re.search(r"\| sensor_delay \|.*\| 1\+1/2 \|", text)
     assert "| nothing | 2 | 1 | 0 | unknown 1 |" in text
