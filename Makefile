@@ -40,7 +40,7 @@ bench-dynamics: setup ## measure the integrators (6 minutes); overwrites docs/nu
 bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/ik-benchmark.md unless ARGS say otherwise
 	@$(IN_WORKSPACE) python3 -m tools.bench_ik $(ARGS)
 
-bench-identification: setup ## compare the fit with the thesis's swarm (10 minutes); overwrites docs/identification.md
+bench-identification: setup ## compare the estimate with the thesis's swarm (3 minutes); overwrites docs/identification.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_identification $(ARGS)
 
 bench-discovery: setup ## hide effects and see what is found; ARGS="--half held-out --minutes 60"; overwrites docs/discovery-benchmark.md

@@ -1,1 +1,1 @@
-"""How the fit by slopes compares with the thesis's particle swarm, and how long a diagnosis takes."""
+"""How the estimate by smoothing compares with the thesis's particle swarm, and how long a diagnosis takes."""

@@ -1,4 +1,4 @@
-"""`make bench-identification`: the fit against the thesis's swarm, and the time of a diagnosis; docs/identification.md.
+"""`make bench-identification`: smoothing against the thesis's swarm, and a diagnosis's time; docs/identification.md.
 
 Overwrites docs/identification.md, which is under version control, unless `--out` names another file.
 """
@@ -15,7 +15,7 @@ from pathlib import Path
 from continuum.cli.diagnose import EXIT_CODES
 from tools.bench_identification.arms import eight_releases, measured_arm
 from tools.bench_identification.page import Comparison, Diagnosed, goals, page
-from tools.bench_identification.two_ways import by_slopes, by_swarm
+from tools.bench_identification.two_ways import by_smoothing, by_swarm
 
 PAGE = Path("docs/identification.md")
 
@@ -29,7 +29,7 @@ def main() -> None:
     compared = []
     for seed in range(options.seed, options.seed + options.arms):
         arm = measured_arm(seed)
-        compared.append(Comparison(arm, by_slopes(arm), by_swarm(arm, seed)))
+        compared.append(Comparison(arm, by_smoothing(arm), by_swarm(arm, seed)))
         print(_line(compared[-1]), flush=True)
     diagnosed = _diagnosed(options.seed)
     for what, wanted, reached, met in goals(compared, diagnosed):
@@ -39,17 +39,15 @@ def main() -> None:
 
 
 def _line(one: Comparison) -> str:
-    slopes, swarm = one.slopes, one.swarm
     return (
-        f"fit {slopes.simulations} simulations, {slopes.seconds:.1f} s; "
-        f"swarm {swarm.simulations} simulations, {swarm.seconds:.1f} s"
+        f"smoothing {one.smoothing.seconds:.1f} s; swarm {one.swarm.simulations} simulations, {one.swarm.seconds:.1f} s"
     )
 
 
 def _diagnosed(seed: int) -> Diagnosed:
     with eight_releases(seed) as files, tempfile.TemporaryDirectory() as folder:
         verdict = Path(folder) / "verdict.json"
-        command = ["continuum", "diagnose", "--processes", "2", "--json", str(verdict), *map(str, files)]
+        command = ["continuum", "diagnose", "--json", str(verdict), *map(str, files)]
         began = time.perf_counter()
         code = subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode
         seconds = time.perf_counter() - began
