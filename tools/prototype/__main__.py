@@ -9,6 +9,7 @@ import argparse
 from pathlib import Path
 
 from continuum.cli.progress import told
+from continuum.discovery.words import verdict_in_words
 from tools.prototype.account import account
 from tools.prototype.page import page
 from tools.prototype.picture import draw
@@ -20,17 +21,15 @@ def main() -> None:
     parser.add_argument(
         "--out", type=Path, default=Path("docs"), help="folder of page and picture; default %(default)s"
     )
-    parser.add_argument("--processes", type=int, help="that work at once; default one for each core")
-    parser.add_argument("--seed", type=int, default=0, help="of intervals and swarm; default %(default)s")
     options = parser.parse_args()
     with told() as tell:
-        found = account(tell, options.processes, options.seed)
+        found = account(tell)
     picture = options.out / "pictures" / "prototype.png"
     picture.parent.mkdir(parents=True, exist_ok=True)
     draw(found, picture)
     shrink(picture)
     (options.out / "prototype.md").write_text(page(found), encoding="utf-8")
-    print(f"{found.verdict['verdict'].upper()}\n\n{found.words}\n\nwritten: {options.out / 'prototype.md'}")
+    print(f"{verdict_in_words(found.diagnosis)}\n\nwritten: {options.out / 'prototype.md'}")
 
 
 if __name__ == "__main__":

@@ -14,18 +14,19 @@ _MEASURED, _THESIS, _REFITTED, _EXTENDED = "0.55", "tab:orange", "tab:green", "t
 
 def draw(told: Account, path: Path) -> None:
     """One panel a joint."""
+    result, (run,) = told.diagnosis, told.diagnosis.recordings
     figure = Figure(figsize=(11.0, 3.2), layout="constrained")
-    panels = figure.subplots(1, told.recording.n_joints, sharex=True)
+    panels = figure.subplots(1, run.n_joints, sharex=True)
     lines = [
-        ("measured", told.recording.theta, _MEASURED, 3.0),
-        ("simulated: the thesis's parameters", min(told.thesis, key=lambda one: one.position).theta, _THESIS, 1.2),
-        ("the same parameters, refitted", min(told.refitted, key=lambda one: one.position).theta, _REFITTED, 1.2),
-        ("with what the discovery adds", told.extended.theta if told.extended else None, _EXTENDED, 1.2),
+        ("measured", run.theta, _MEASURED, 3.0),
+        ("simulated: the thesis's parameters", told.thesis, _THESIS, 1.2),
+        ("the same parameters, refitted", result.before.angles[0], _REFITTED, 1.2),
     ]
+    if result.is_extended:
+        lines.append(("with what the discovery adds", result.after.angles[0], _EXTENDED, 1.2))
     for joint, panel in enumerate(panels):
         for name, theta, color, width in lines:
-            if theta is not None:
-                panel.plot(told.recording.times, np.degrees(theta[:, joint]), color=color, linewidth=width, label=name)
+            panel.plot(run.times, np.degrees(theta[:, joint]), color=color, linewidth=width, label=name)
         panel.set_title(f"joint {joint + 1}", fontsize="medium")
         panel.set_xlabel("t [s]")
         panel.grid(alpha=0.3)

@@ -1,52 +1,75 @@
-"""Simulations of a run that the model itself made."""
+"""The end of a run that the model itself made is predicted; the same diagnosis in a process says the same."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from continuum.discovery import Diagnosis, diagnose
+from continuum.discovery.candidates import examine
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
-from continuum.identification.free import Free
-from continuum.identification.noise import Noise, estimate_noise
 from continuum.recordings.recording import Recording
-from tools.prototype.account import at_rest, compared, free, whole
+from continuum.recordings.recording_csv import read_recording_csv
+from tools.prototype.account import THE_GUESS, end_predicted, every_effect_alone, guess_beside, simulated_from
+from tools.prototype.stability import repeated, said
 
 MODEL = load_model("lamecc_prototype.yaml")
-TIMES = np.arange(73) / 120
+TIMES = np.arange(97) / 120
+
+
+def written(folder: Path, theta: np.ndarray) -> Path:
+    head = ",".join(["t_s", *(f"q{joint}_deg" for joint in range(1, 6))])
+    np.savetxt(folder / "run.csv", np.column_stack([TIMES, np.degrees(theta)]), "%.9f", ",", header=head, comments="")
+    return folder / "run.csv"
 
 
 @pytest.fixture(scope="module")
-def run() -> Recording:
-    found = Simulator(MODEL).run(np.radians([12.0, 15.0, 18.0, 21.0, 24.0]), TIMES)
-    return Recording("made", TIMES, found.theta, found.theta_rate)
+def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    theta = Simulator(MODEL).run(np.radians([12.0, 15.0, 18.0, 21.0, 24.0]), TIMES).theta
+    noise = np.radians(0.02) * np.random.default_rng(1).standard_normal(theta.shape)
+    return written(tmp_path_factory.mktemp("run"), theta + noise)
 
 
 @pytest.fixture(scope="module")
-def noise(run: Recording) -> Noise:
-    return estimate_noise([run])
+def run(path: Path) -> Recording:
+    return read_recording_csv(path)
 
 
-def test_what_is_simulated_again_is_met(run: Recording, noise: Noise) -> None:
-    again = free(MODEL, run, noise, "again")
-    assert again.name == "again"
-    assert again.position < 0.02
-    assert at_rest(MODEL, run, "at rest").position < 1e-3
+@pytest.fixture(scope="module")
+def result(run: Recording) -> Diagnosis:
+    return diagnose([run], MODEL)
 
 
-def test_a_stiffness_that_is_wrong_is_seen_and_refitted(run: Recording, noise: Noise) -> None:
-    wrong = MODEL.with_values({"stiffness": 1.1 * float(MODEL.parameters.stiffness[0])})
-    left = free(wrong, run, noise, "wrong").position
-    assert left > 0.05
-    assert whole(wrong, run, noise, "refitted", [Free("stiffness")]).position < left / 2
+def test_the_end_of_what_the_model_made_is_predicted(run: Recording) -> None:
+    _, predicted = end_predicted(run, 58, MODEL)
+    assert [(one.model, one.begins) for one in predicted] == [
+        (model, begins) for model in ("refitted", "extended") for begins in ("smoothed", "measured")
+    ]
+    for one in predicted:
+        assert np.max(one.degrees) < 1.0
 
 
-def test_a_first_state_that_suits_the_whole_run_is_found(run: Recording, noise: Noise) -> None:
-    wrong = MODEL.with_values({"stiffness": 1.1 * float(MODEL.parameters.stiffness[0])})
-    assert whole(wrong, run, noise, "begun elsewhere", ()).position < free(wrong, run, noise, "begun there").position
+def test_a_simulation_begins_where_it_is_told(run: Recording) -> None:
+    found = examine([run], MODEL)
+    q, w = np.full(5, 0.1), np.zeros(5)
+    angles = simulated_from(found.problem, found.baseline.simulable, run.rows(slice(10, None)), q, w)
+    assert angles.shape == (87, 5)
+    np.testing.assert_allclose(angles[0], q)
 
 
-def test_what_cannot_be_simulated_is_infinitely_far(run: Recording) -> None:
-    assert compared(None, replace(run, name="none"), "nothing").position == np.inf
+def test_every_effect_is_weighed_once(run: Recording) -> None:
+    found = examine([run], MODEL)
+    names = [label.partition("@")[0] for label, _, _ in every_effect_alone(found)]
+    assert len(names) == len(set(names))
+    assert THE_GUESS in names
+    where, gain = guess_beside(found, found.baseline)
+    assert where.startswith(THE_GUESS)
+    assert np.isfinite(gain)
+
+
+def test_a_process_with_another_kernel_says_the_same(path: Path, result: Diagnosis) -> None:
+    here, there = said(result), repeated(path, "HASWELL", 0.0, 0.0, 0)
+    assert (there.kind, there.effects) == (here.kind, here.effects)
