@@ -13,8 +13,8 @@ from tools.bench_identification.two_ways import Answer
 from tools.markdown import paragraph, table
 
 _BEFORE = paragraph(
-    "The fit by multiple shooting that the library had before needed 3 to 4 s for the same five arms (seeds 900 to 904)",
-    "and had median errors of 1.3 % (stiffness), 1.2 % (viscous friction), 0.6 % (Coulomb friction), 2.0 %",
+    "The fit by multiple shooting that the library had before needed 3 to 4 s for the same five arms (seeds 900 to",
+    "904) and had median errors of 1.3 % (stiffness), 1.2 % (viscous friction), 0.6 % (Coulomb friction), 2.0 %",
     "(Stribeck gain) and 0.2 % (Stribeck speed).",
 )
 MOST_SECONDS, LONGEST_DIAGNOSIS = 10.0, 120.0
