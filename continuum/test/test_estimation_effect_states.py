@@ -126,11 +126,14 @@ def test_half_the_difference_of_neighbours_tends_to_the_slope_by_the_logarithm(n
     size = next(iter(structure().stateful[name].effect.parameters))
     own = values_of(name, 1.0)
 
-    def slope(ratio: float) -> np.ndarray:
-        near = [StatefulTorque(name, {**own, size: own[size] * factor}) for factor in (ratio, 1 / ratio)]
-        return Difference(*near).torque(scene) / np.log(ratio)
+    def near(ratio: float) -> list[StatefulTorque]:
+        return [StatefulTorque(name, {**own, size: own[size] * factor}) for factor in (ratio, 1 / ratio)]
 
-    exact = slope(1.01)
-    near, far = (np.linalg.norm(slope(ratio) - exact) / np.linalg.norm(exact) for ratio in (1.1, 1.21))
-    assert near < 0.05
-    np.testing.assert_allclose(far, 4 * near, rtol=0.2)
+    above, below = (column.torque(scene) for column in near(1.01))
+    exact = (above - below) / np.log(1.01**2)
+    off, far_off = (
+        np.linalg.norm(Difference(*near(ratio)).torque(scene) / np.log(ratio) - exact) / np.linalg.norm(exact)
+        for ratio in (1.1, 1.21)
+    )
+    assert off < 0.05
+    np.testing.assert_allclose(far_off, 4 * off, rtol=0.2)
