@@ -15,6 +15,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named, effect_names
+from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.values import parameter_slots, parameter_vector
@@ -51,7 +52,12 @@ class Structure:
         n, present = model.n_joints, {active.effect.name for active in model.effects}
         names = effect_names() if effects is None else effects
         offered = [effect_named(name) for name in names if name not in present]
-        self.offered = [effect for effect in offered if with_tension or not effect.needs_tension]
+        drives = model.inputs is InputKind.JOINT_TORQUES
+        self.offered = [
+            effect
+            for effect in offered
+            if (with_tension or not effect.needs_tension) and not (drives and effect.uses_cables)
+        ]
         known = [*(active.effect for active in model.effects), *self.offered]
         values = {active.effect.name: dict(active.values) for active in model.effects}
         plain = [e for e in known if e.n_states(n) == 0 and overrides(e, *_MECHANICAL)]
