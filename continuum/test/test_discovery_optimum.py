@@ -113,3 +113,12 @@ def test_the_optimum_keeps_the_set_s_own_bounds(seed: int) -> None:
     expected = least_of_all(A, b, np.eye(4)[2:], cut.least)
     np.testing.assert_allclose(found.values, expected[2:], rtol=1e-3, atol=1e-4)
     assert drawn.evidence(cut).optimum((cut,), 0, own_bounds=False).values == pytest.approx(free)
+
+
+@LAW
+@given(SEEDS, st.integers(1, 8), st.data())
+def test_the_bounded_minimum_is_the_least_within_any_constraints(
+    seed: int, variables: int, data: st.DataObject
+) -> None:
+    """Also where there are more than can be independent."""
+    assert_solved(*convex(seed, variables, data.draw(st.integers(variables + 1, 3 * variables + 2))))

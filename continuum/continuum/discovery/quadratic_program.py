@@ -1,4 +1,4 @@
-"""A convex quadratic programme: few unknowns, few active bounds."""
+"""A convex quadratic programme: few unknowns, few active constraints."""
 
 from __future__ import annotations
 
@@ -6,26 +6,66 @@ import numpy as np
 
 from continuum.arrays import Array
 
+_SLACK = 1e-9  # by which a constraint may be missed
+_DEPENDENT = 1e-12  # part of a constraint's own curvature below which it depends on the active ones
+
 
 def bounded_minimum(A: Array, b: Array, G: Array, least: Array) -> tuple[Array, float]:
-    """argmin of x'Ax / 2 - b'x with G x >= least by an active set, and by how much the bounds raise the minimum."""
+    """argmin of x'Ax / 2 - b'x with G x >= least, and by how much the constraints raise the minimum.
+
+    Dual active set (Goldfarb and Idnani, Mathematical Programming 27, 1983): from the free minimum, the constraint that
+    is missed most is made active; one whose multiplier would turn negative on the way is dropped. Where no point meets
+    all constraints the last point is returned.
+    """
     free = np.linalg.solve(A, b)
+    if not len(G):
+        return free, 0.0
     Y = np.linalg.solve(A, G.T)
-    active: list[int] = []
-    x = free
-    for _ in range(3 * len(G)):
+    x, active, multipliers = free.copy(), list[int](), np.zeros(0)
+    for _ in range(20 * (len(G) + 1)):
         slack = G @ x - least
-        slack[active] = 0.0
-        worst = int(np.argmin(slack)) if slack.size else -1
-        if worst < 0 or slack[worst] > -1e-9:
+        worst = int(np.argmin(slack))
+        if slack[worst] > -_SLACK:
             break
-        active.append(worst)
-        while active:
-            inner = G[active] @ Y[:, active]
-            forces = np.linalg.lstsq(inner, least[active] - G[active] @ free, rcond=1e-10)[0]
-            if forces.min() >= 0:
+        pushed = 0.0
+        while True:
+            step, release = _directions(G, Y, active, worst)
+            curvature = float(G[worst] @ step)
+            is_free = curvature > _DEPENDENT * float(G[worst] @ Y[:, worst])
+            full = -float(G[worst] @ x - least[worst]) / curvature if is_free else np.inf
+            partial, dropped = _first_to_leave(multipliers, release)
+            length = min(full, partial)
+            if not np.isfinite(length):
+                return x, _rise(A, x - free)
+            if is_free:
+                x = x + length * step
+            multipliers, pushed = multipliers - length * release, pushed + length
+            if full <= partial:
+                active.append(worst)
+                multipliers = np.append(multipliers, pushed)
                 break
-            active.pop(int(np.argmin(forces)))
-        x = free + Y[:, active] @ forces if active else free
-    away = x - free
-    return x, float(0.5 * away @ A @ away)
+            active.pop(dropped)
+            multipliers = np.delete(multipliers, dropped)
+    return x, _rise(A, x - free)
+
+
+def _directions(G: Array, Y: Array, active: list[int], worst: int) -> tuple[Array, Array]:
+    """Step of x that keeps the active constraints, and what it takes off their multipliers, per unit of the new one."""
+    if not active:
+        return Y[:, worst], np.zeros(0)
+    release = np.linalg.lstsq(G[active] @ Y[:, active], G[active] @ Y[:, worst], rcond=_DEPENDENT)[0]
+    return Y[:, worst] - Y[:, active] @ release, release
+
+
+def _first_to_leave(multipliers: Array, release: Array) -> tuple[float, int]:
+    """Length at which the first multiplier reaches zero, and whose; infinite where none does."""
+    falling = np.flatnonzero(release > 1e-14)
+    if not falling.size:
+        return np.inf, -1
+    lengths = multipliers[falling] / release[falling]
+    at = int(np.argmin(lengths))
+    return float(lengths[at]), int(falling[at])
+
+
+def _rise(A: Array, away: Array) -> float:
+    return float(0.5 * away @ A @ away)
