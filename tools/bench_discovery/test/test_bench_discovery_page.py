@@ -84,8 +84,9 @@ def test_the_page() -> None:
     assert "Development half only" in text
     assert "| wrong cause | base_tilt 0.1 rad | rest_angle@1 (1.00) | 50 % | moreau, small, 8 mixed," in text
     assert "ValueError: no / verdict" in text
-    assert re.search(r"\| sensor_delay \|.*\| 1\+1/2 \|", text)
-    assert "| nothing | 2 | 1 | 0 | unknown 1 |" in text
+    assert re.search(r"\| sensor_delay \|.*\| 1\+1/2 \|.*\|  \| 1/1, 5.0 % \|", text)
+    assert re.search(r"\| nothing \|.*\| 1\+0/2 \|.*\| unknown 1 \|", text)
+    assert re.search(r"\| base_tilt \|  \| 0\+0/1! \|", text)
     for table in re.findall(r"(?:^\|.*\|\n)+", text, re.MULTILINE):
         assert len({line.count("|") for line in table.splitlines()}) == 1
     assert max(map(len, (line for line in text.splitlines() if not line.startswith("|")))) <= 120
