@@ -20,6 +20,7 @@ from continuum.estimation.structure import Structure, absent_values
 from continuum.recordings.recording import Recording
 
 _TIMES = np.arange(40) / 120  # s
+_NOISE = 1e-3  # rad, and ten times as much in rad/s
 _BEND = np.radians([4.0, 6.0, 8.0, 6.0, 4.0])
 
 
@@ -30,7 +31,8 @@ def warm_up() -> None:
         structure = Structure(with_dry_friction(model), with_tension=with_tension)
         structure.compile()
         _compile_simulators(structure)
-    diagnose(_recordings(model), model)
+    for recording in _recordings(model):
+        diagnose([recording], model)
 
 
 def _compile_simulators(structure: Structure) -> None:
@@ -44,14 +46,15 @@ def _compile_simulators(structure: Structure) -> None:
         _ = equations.residual, equations.stage
 
 
-def _recordings(model: Model) -> tuple[Recording, ...]:
+def _recordings(model: Model) -> tuple[Recording, Recording]:
     """A release without rates, and a pull with them, of a model whose springs are softer."""
     softer = Simulator(model.with_values({"stiffness": 0.8 * float(model.parameters.stiffness[0])}))
     pull = Tensions(_TIMES, np.stack([20.0 * _TIMES, np.zeros(_TIMES.size)], axis=1))
+    noise = np.random.default_rng(0).standard_normal((2, _TIMES.size, model.n_joints)) * [[[_NOISE]], [[10 * _NOISE]]]
     released, pulled = softer.run(_BEND, _TIMES), softer.run(_BEND, _TIMES, pull)
     return (
-        Recording("released", _TIMES, released.theta),
-        Recording("pulled", _TIMES, pulled.theta, pulled.theta_rate, pull),
+        Recording("released", _TIMES, released.theta + noise[0]),
+        Recording("pulled", _TIMES, pulled.theta + noise[0], pulled.theta_rate + noise[1], pull),
     )
 
 
