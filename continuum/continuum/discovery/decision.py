@@ -92,6 +92,8 @@ def decide(baseline: Candidate, others: Sequence[Candidate], torque: float, floo
 
     # what a part of a set simulates better than the whole, the whole explains by smoothing only
     others = [one for one in others if not any(is_part(two, one) and nearer(one, two) for two in others)]
+    # and what simulates no better than the baseline is no cause, however probable
+    others = [one for one in others if closed(baseline, one, floor)[0] > 0]
     ranked = sorted([baseline, *others], key=score, reverse=True)
     best = without_needless(ranked[0], ranked)
     sets = [one for one in ranked if score(one) > score(best) - margin(best) and not is_part(best, one)]
