@@ -32,20 +32,25 @@ _SLOW = np.deg2rad(0.2)  # rad, slow error of an angle from inertial sensors
 
 def problem_of(structure: Structure, recordings: Sequence[Recording]) -> Problem:
     """All that is fixed before a search."""
-    runs = tuple(run_of(recording, structure.given) for recording in recordings)
+    with_rates = all(recording.theta_rate is not None for recording in recordings)
+    runs = tuple(run_of(recording, structure.given, with_rates) for recording in recordings)
     common = coordinates(structure, runs)
     n = structure.n
     noise = NoiseModel(white_noise(runs), np.full(n, _SLOW), np.full(n, common.torque))
     return Problem(structure, common, runs, noise, np.asarray(LEVELS, dtype=float), _free_form(runs))
 
 
-def run_of(recording: Recording, model: Model) -> Run:
-    """A recording's rows, and inputs of the model's kind."""
+def run_of(recording: Recording, model: Model, with_rates: bool = True) -> Run:
+    """A recording's rows, with its rates where all recordings have them, and inputs of the model's kind."""
     n = recording.n_joints
     if recording.times.size < 8:
         raise InvalidValueError(f"rows of {recording.name}", recording.times.size, "8 or more")
     inputs = recording.inputs_for(model)
-    readings = recording.theta if recording.theta_rate is None else np.hstack([recording.theta, recording.theta_rate])
+    readings = (
+        np.hstack([recording.theta, recording.theta_rate])
+        if with_rates and recording.theta_rate is not None
+        else recording.theta
+    )
     return Run(
         recording.name, recording.times, np.ascontiguousarray(readings), np.ones_like(readings), n,
         (np.asarray(inputs.times, dtype=float), np.asarray(inputs.values, dtype=float)),

@@ -16,7 +16,7 @@ _ENOUGH = 50  # rows at rest that tell the noise
 _ENOUGH_PAIRS = 200  # rows that tell how neighbours' noise is correlated
 _LEAST_CORRELATION = -0.2  # nearer to zero it is taken for none; two joints that share a sensor have -0.5
 _GAUSS = 1.4826  # standard deviation by median absolute deviation
-_FLOOR = 1e-5  # rad or rad/s, below any sensor's noise
+_FLOOR = (3e-4, 1e-3)  # rad, rad/s: no joint's angle or rate is measured better, by encoders, sensors or off a picture
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def white_noise(runs: Sequence[Run]) -> Array:
             quiet = np.abs(thirds[rests[:, j], j])
             moving = np.abs(thirds[live[:, j], j])
             sd[j] = np.median(quiet) if quiet.size > _ENOUGH else np.quantile(moving, 0.25) / 0.47
-        sd = np.maximum(np.full(n, _GAUSS * np.median(sd)), _FLOOR)
+        sd = np.maximum(np.full(n, _GAUSS * np.median(sd)), _FLOOR[begin > 0])
         x = np.clip(thirds / sd, -3, 3)
         both = rests[:, 1:] & rests[:, :-1]
         rho = float(np.mean((x[:, 1:] * x[:, :-1])[both])) if both.sum() > _ENOUGH_PAIRS else 0.0
