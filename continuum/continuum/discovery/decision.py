@@ -28,7 +28,7 @@ cable's geometry are right to a few percent."""
 NEGLIGIBLE = 0.0125
 """Missing torque that no model of an arm does without, as a part of the torque that moves it."""
 LEAST_SHARE = 0.25
-"""Least closed share of a cause that leaves something unknown: what closes less is not most of what is missing."""
+"""Least closed share of a cause: what closes less does not make the simulation another one."""
 SECOND_SHARE = 0.05
 """Least share that a second effect closes of its own: what closes less does not change a simulation's use."""
 FREE_PART = 0.1
@@ -92,8 +92,8 @@ def decide(baseline: Candidate, others: Sequence[Candidate], torque: float, floo
 
     # what a part of a set simulates better than the whole, the whole explains by smoothing only
     others = [one for one in others if not any(is_part(two, one) and nearer(one, two) for two in others)]
-    # and what simulates no better than the baseline is no cause, however probable
-    others = [one for one in others if closed(baseline, one, floor)[0] > 0]
+    # and what closes little is no cause, however probable; several effects must surely close more
+    others = [one for one in others if closed(baseline, one, floor)[len(one.effects) > 1] > LEAST_SHARE]
     ranked = sorted([baseline, *others], key=score, reverse=True)
     best = without_needless(ranked[0], ranked)
     sets = [one for one in ranked if score(one) > score(best) - margin(best) and not is_part(best, one)]
@@ -101,8 +101,12 @@ def decide(baseline: Candidate, others: Sequence[Candidate], torque: float, floo
     if not complete:  # nothing explains all: what explains most, as open-loop runs confirm it
         most = [one for one in ranked if one is not baseline and explains_most(baseline, one, floor)]
         best = max(most, key=lambda one: closed(baseline, one, floor)[0], default=baseline)
-        best = without_needless(best, most)
-        sets = [one for one in most if not nearer(one, best) and not is_part(best, one)]
+        best = without_needless(best, ranked)
+        sets = (
+            [one for one in most if not nearer(one, best) and not is_part(best, one)]
+            if any(one is best for one in most)
+            else []
+        )
     if not sets:
         adequate = baseline.completed and float(np.sqrt(np.mean(baseline.errors**2))) < tolerance
         if adequate:
