@@ -90,6 +90,7 @@ def decide(baseline: Candidate, others: Sequence[Candidate], torque: float, floo
                 best = part
         return best
 
+    most_probable = max(others, key=score, default=baseline)
     # what a part of a set simulates better than the whole, the whole explains by smoothing only
     others = [one for one in others if not any(is_part(two, one) and nearer(one, two) for two in others)]
     # and what closes little is no cause, however probable; several effects must surely close more
@@ -111,8 +112,8 @@ def decide(baseline: Candidate, others: Sequence[Candidate], torque: float, floo
         adequate = baseline.completed and float(np.sqrt(np.mean(baseline.errors**2))) < tolerance
         if adequate:
             return Verdict(Kind.ADEQUATE, ((),), (1.0,), False)
-        helps = max(others, key=score, default=baseline)
-        return Verdict(Kind.UNKNOWN, (), (), False, helps.effects if score(helps) > ODDS else ())
+        helps = most_probable.effects if score(most_probable) > ODDS else ()
+        return Verdict(Kind.UNKNOWN, (), (), False, helps)
     sets.sort(key=lambda one: (one is not best, -score(one)))
     weights = np.array([exp(max(score(one) - score(best), -30.0) / max(margin(best) / ODDS, 1.0)) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
