@@ -9,8 +9,9 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery import Diagnosis
 from continuum.discovery.decision import ODDS, PRICE
-from continuum.discovery.result import is_named, nrmse
+from continuum.discovery.result import is_named
 from continuum.discovery.words import estimate_in_words, lookalikes, shares_in_words, sigma_in_words, verdict_in_words
+from continuum.identification.nrmse import nrmse
 from tools.markdown import paragraph, table
 from tools.prototype.account import FITTED, THE_GUESS, Account
 from tools.prototype.stability import READING, RELATIVE, Said

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,7 @@ from continuum.discovery.confirmation import Confirmation, OpenLoop
 from continuum.discovery.gauss_newton import moved
 from continuum.discovery.hypotheses import UNKNOWN
 from continuum.discovery.problem import Problem, State, linearise
-from continuum.discovery.search import Found, find, matching, posterior_of_levels
+from continuum.discovery.search import Found, Progress, find, matching, posterior_of_levels
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
 from continuum.estimation.structure import Structure
@@ -21,8 +21,6 @@ from continuum.recordings.recording import Recording
 
 SIMULABLE_STEPS = 2
 """Gauss-Newton steps after which a refit without some nuisances has settled."""
-
-type Progress = Callable[[str, float], None]
 
 
 def silent(_what: str, _share: float) -> None:

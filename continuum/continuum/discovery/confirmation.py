@@ -41,11 +41,6 @@ class OpenLoop:
     errors: Array
     floor: float
 
-    @property
-    def completed(self) -> bool:
-        """Whether every simulation ended well."""
-        return bool(np.all(np.isfinite(self.errors)))
-
 
 class Confirmation:
     """Open-loop simulations of the states of one problem.

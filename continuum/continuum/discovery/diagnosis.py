@@ -10,13 +10,14 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Candidate
-from continuum.discovery.candidates import Examination, Examined, Progress, examine, free_form_gain, silent
+from continuum.discovery.candidates import Examination, Examined, examine, free_form_gain, silent
 from continuum.discovery.decision import Kind, Verdict, closed, decide
 from continuum.discovery.estimates import baseline_estimates, estimates_of
 from continuum.discovery.extended import model_of
 from continuum.discovery.missing_torque import missing_torque
 from continuum.discovery.problem import Problem
 from continuum.discovery.result import Cause, Diagnosis, Share, is_named
+from continuum.discovery.search import Progress
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
 from continuum.recordings.cable_sides import refuse_swapped_cables

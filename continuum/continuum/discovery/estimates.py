@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 from continuum.discovery.candidates import Examined
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.problem import Problem, point_of
 from continuum.discovery.result import Estimate
+from continuum.dynamics.effect import Effect
 from continuum.dynamics.parameters import PARAMETERS
 
 _Z = 1.96
@@ -35,67 +38,31 @@ def estimates_of(problem: Problem, one: Examined, hypothesis: Hypothesis) -> tup
         if c.kind == "slot":
             parts = [(c.parameter, 1.0)]
             if effect.directions and hypothesis.weights:
-                parts = _direction(hypothesis, effect.directions, problem.structure.n)
+                parts = _direction(hypothesis, effect.directions)
             for name, factor in parts:
                 origin = spec[name].default or 0.0
-                out.append(
-                    _estimate(
-                        effect.name,
-                        name,
-                        joint,
-                        origin + factor * value,
-                        factor * sd,
-                        spec[name].unit,
-                        spec[name].meaning,
-                    )
-                )
+                out.append(_estimate(effect, name, joint, origin + factor * value, factor * sd))
         elif hypothesis.start is not None:
             own = state.active.get(effect.name, hypothesis.start)
             where = joint or 0
             if c.kind == "log":
                 now = float(np.atleast_1d(own[c.parameter])[where if spec[c.parameter].per_joint else 0])
                 now *= float(np.exp(ratio * np.clip(value / size, -1.5, 1.5)))
-                out.append(
-                    _estimate(
-                        effect.name,
-                        c.parameter,
-                        joint,
-                        now,
-                        now * ratio * sd / size,
-                        spec[c.parameter].unit,
-                        spec[c.parameter].meaning,
-                    )
-                )
+                out.append(_estimate(effect, c.parameter, joint, now, now * ratio * sd / size))
     keys = {column: key for key, column in found.lin.library.at.items()}
     for r, run in enumerate(problem.runs):
         for i, column in enumerate(best.local_columns):
             if int(column) in hypothesis.local and keys.get(int(column), ("",))[0] == effect.name:
                 _, name, j = keys[int(column)]
                 sd = _local_sd(one, r, level, i)
-                out.append(
-                    _estimate(
-                        effect.name,
-                        name,
-                        j if j >= 0 else None,
-                        float(best.local[r, i]),
-                        sd,
-                        spec[name].unit,
-                        spec[name].meaning,
-                        run.name,
-                    )
-                )
+                out.append(_estimate(effect, name, j if j >= 0 else None, float(best.local[r, i]), sd, run.name))
     return tuple(out)
 
 
-def _direction(h: Hypothesis, directions, n: int):  # type: ignore[no-untyped-def]
+def _direction(h: Hypothesis, directions: Sequence[Mapping[str, float]]) -> list[tuple[str, float]]:
     """Parameters and factors of the combination that a hypothesis stands for."""
-    _ = n
-    count = len(h.joints or (0,))
-    factors = tuple(dict.fromkeys(h.weights[0][::count])) if count else ()
-    for direction in directions:
-        if tuple(direction.values()) == h.weights[0][::count]:
-            return list(direction.items())
-    return [(next(iter(directions[0])), factors[0] if factors else 1.0)]
+    factors = h.weights[0][:: len(h.joints or (0,))]
+    return list(next(one for one in directions if tuple(one.values()) == factors).items())
 
 
 def _local_sd(one: Examined, run: int, level: int, i: int) -> float:
@@ -124,8 +91,6 @@ def baseline_estimates(problem: Problem, one: Examined) -> tuple[Estimate, ...]:
     )
 
 
-def _estimate(
-    effect: str, name: str, joint: int | None, value: float, sd: float, unit: str, meaning: str, run: str = ""
-) -> Estimate:
-    sd = abs(sd)
-    return Estimate(f"{effect}.{name}", joint, run, value, value - _Z * sd, value + _Z * sd, unit, meaning)
+def _estimate(effect: Effect, name: str, joint: int | None, value: float, sd: float, run: str = "") -> Estimate:
+    spec, half = effect.parameters[name], _Z * abs(sd)
+    return Estimate(f"{effect.name}.{name}", joint, run, value, value - half, value + half, spec.unit, spec.meaning)

@@ -6,10 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from continuum.arrays import Array
-from continuum.discovery.candidate import Key
 from continuum.discovery.confirmation import OpenLoop
 from continuum.discovery.decision import Kind, Verdict
 from continuum.dynamics.model import Model
@@ -138,18 +135,6 @@ class Diagnosis:
         return overview(self)
 
 
-def label_of(key: Key) -> str:
-    """A set of effects, joints from 1."""
-    parts = [effect + ("" if joints is None else "@" + ",".join(str(j + 1) for j in joints)) for effect, joints in key]
-    return " + ".join(parts) or "nothing"
-
-
 def is_named(kind: Kind) -> bool:
     """Whether a verdict names effects."""
     return kind in (Kind.CAUSE, Kind.AMBIGUOUS)
-
-
-def nrmse(simulated: Array, measured: Array) -> float:
-    """Eq. 19: root mean square error by standard deviation, mean over the joints."""
-    error = np.sqrt(np.mean((simulated - measured) ** 2, axis=0))
-    return float(np.mean(error / np.maximum(np.std(measured, axis=0), 1e-12)))

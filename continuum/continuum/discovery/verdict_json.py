@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_named, nrmse
+from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_named
+from continuum.identification.nrmse import nrmse
 from continuum.whole_file import write_whole
 
 

@@ -8,8 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_named, nrmse
+from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_named
 from continuum.dynamics.effect_lookup import effect_named
+from continuum.identification.nrmse import nrmse
 
 _MORE_RUNS = "Record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
 
