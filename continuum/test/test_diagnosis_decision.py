@@ -128,3 +128,9 @@ def test_what_cannot_be_simulated_closes_nothing() -> None:
     two = Candidate(SPRING, 900.0, MUCH, np.full(8, np.nan), 0.0)
     assert closed(one, two, FLOOR)[0] < 0
     assert verdict(one, two).kind is Kind.UNKNOWN
+
+
+def test_missing_torque_leaves_a_cause_incomplete() -> None:
+    """Though no torque of free form finds anything besides."""
+    found = verdict(candidate(NONE, 0.0, MUCH, 0.03), candidate(SPRING, 800.0, MUCH, 0.008))
+    assert (found.kind, found.sets, found.complete) == (Kind.CAUSE, (SPRING,), False)
