@@ -10,9 +10,9 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.baseline import fitted_baseline, problem_of
-from continuum.discovery.candidates import SIMULABLE_STEPS
-from continuum.discovery.gauss_newton import moved
+from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import linearise, point_of
+from continuum.discovery.search import Found
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model_file import load_model
@@ -49,17 +49,14 @@ class Answer:
 def by_smoothing(arm: MeasuredArm) -> Answer:
     """The library's estimate, as `continuum diagnose` tells it of the refitted model; means over the joints.
 
-    It linearises Eq. 12 along smoothed trajectories and simulates nothing. The last steps leave out what the equations
-    of a simulation do not have.
+    Smoothing along linearised equations first, then a fit by open-loop simulations.
     """
     structure = Structure(with_dry_friction(load_model("lamecc_prototype.yaml")), with_tension=False)
     structure.compile()
     began = time.perf_counter()
     problem, state = fitted_baseline(problem_of(structure, arm.runs))
-    for _ in range(SIMULABLE_STEPS):
-        lin = linearise(problem, state, live=(), simulable=True)
-        level = lin.evidence.best_level(())
-        state = moved(lin, (), level, level)
+    found = Found(linearise(problem, state, live=()), (), [])
+    state = OutputError(problem, arm.runs).fit(found).state
     seconds = time.perf_counter() - began
     values = point_of(problem, state).values
     return Answer({name: float(np.mean(values[structure.slots[name]])) for name in THESIS_PARAMETERS}, 0, seconds)

@@ -12,8 +12,7 @@ from continuum.arrays import Array
 from continuum.discovery import Diagnosis, diagnose
 from continuum.discovery.baseline import run_of
 from continuum.discovery.candidates import Examination, Examined, examine
-from continuum.discovery.confirmation import Confirmation
-from continuum.discovery.hypotheses import UNKNOWN
+from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.problem import Problem, State, linearise, point_of
 from continuum.discovery.search import compatible, matching, refined
 from continuum.dynamics.model import Model
@@ -92,7 +91,7 @@ def end_predicted(run: Recording, cut: int, model: Model) -> tuple[Diagnosis, li
     first, out = replace(run.rows(slice(0, cut)), name=f"{run.name}, beginning"), []
     result, found = diagnose([first], model), examine([first], model)
     for name, one in (("refitted", found.baseline), ("extended", ended_with(found, result))):
-        problem, state, way = found.problem, one.simulable, one.simulable.ways[0]
+        problem, state, way = found.problem, one.fit.state, one.fit.state.ways[0]
         read = problem.structure.readings(problem.runs[0], way.q, way.w, point_of(problem, state).by_run[0])
         shift = read[-1, : run.n_joints] - way.q[-1]  # what the sensors add, as the beginning tells it
         rate = local_slope(run.times[cut:], run.theta[cut:], 0, degree=3)
@@ -110,15 +109,16 @@ def simulated_from(problem: Problem, state: State, part: Recording, q: Array, w:
     """Other rows of the run by a state's values, from angles and rates (n,), as sensors read it, (n_times, n) [rad]."""
     run, rows = run_of(part, problem.structure.given).with_held(problem.runs[0].held), np.ones((part.times.size, 1))
     way = Trajectory(rows * q, rows * w, 0 * rows * q, 0 * rows * q)
-    there = Confirmation(replace(problem, runs=(run,)), (part,))
-    return there.simulate(replace(state, ways=(way,))).angles[0]
+    there = Simulators(replace(problem, runs=(run,)), (part,))
+    simulation = RunSimulation(there, replace(state, ways=(way,)), 0, [], [])
+    return simulation.segment(slice(0, part.times.size), np.zeros(3 * part.n_joints)).readings
 
 
 def every_effect_alone(found: Examination) -> list[tuple[str, float, float]]:
     """Each effect at the joints where it is most probable, the most probable at its optimum first."""
     lin = found.baseline.found.lin
     gain = {h: lin.evidence.total((h,), True) - lin.evidence.total((), True) for h in lin.library.hypotheses}
-    best = {h.effect: h for h in sorted(gain, key=lambda h: gain[h]) if h.effect != UNKNOWN}
+    best = {h.effect: h for h in sorted(gain, key=lambda h: gain[h])}
     out = []
     for hypothesis in best.values():
         own = refined(found.problem, lin, (hypothesis,))

@@ -8,7 +8,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery import Diagnosis
-from continuum.discovery.decision import ODDS, PRICE
+from continuum.discovery.decision import PRICE
 from continuum.discovery.result import is_named
 from continuum.discovery.words import estimate_in_words, lookalikes, shares_in_words, sigma_in_words, verdict_in_words
 from continuum.identification.nrmse import nrmse
@@ -159,7 +159,7 @@ def _row(again: tuple[str, Said]) -> tuple[str, str, str, str, str]:
 
 
 def _alone(told: Account) -> str:
-    counts, names = PRICE + ODDS, [label.partition("@")[0] for label, _, _ in told.alone]
+    counts, names = PRICE, [label.partition("@")[0] for label, _, _ in told.alone]
     place, (where, gain) = names.index(THE_GUESS), told.beside
     label, _, own = told.alone[place]
     rows = [(f"`{name}`", f"{here:.0f}", f"{there:.0f}") for name, here, there in told.alone]

@@ -7,14 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from continuum.arrays import Array
 from continuum.discovery.coordinates import coordinates
 from continuum.discovery.gauss_newton import modes_along, moved
 from continuum.discovery.problem import Problem, State, linearise
 from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
-from continuum.estimation.free_form import FreeForm
 from continuum.estimation.friction_modes import friction_modes
 from continuum.estimation.run import Run
 from continuum.estimation.sensor_noise import NoiseModel, white_noise
@@ -37,7 +35,7 @@ def problem_of(structure: Structure, recordings: Sequence[Recording]) -> Problem
     common = coordinates(structure, runs)
     n = structure.n
     noise = NoiseModel(white_noise(runs), np.full(n, _SLOW), np.full(n, common.torque))
-    return Problem(structure, common, runs, noise, np.asarray(LEVELS, dtype=float), _free_form(runs))
+    return Problem(structure, common, runs, noise, np.asarray(LEVELS, dtype=float))
 
 
 def run_of(recording: Recording, model: Model, with_rates: bool = True) -> Run:
@@ -92,20 +90,6 @@ def _with_likelier_inputs(problem: Problem, state: State) -> Problem:
     linear = replace(problem, runs=tuple(run.with_held(False) for run in problem.runs))
     held, changing = (linearise(one, state, None, live=()).evidence.total(()) for one in (problem, linear))
     return linear if changing > held else problem
-
-
-def _free_form(runs: Sequence[Run]) -> FreeForm:
-    """Bumps over the range of each joint's angles."""
-    n = runs[0].n
-    q = np.concatenate([run.readings[:, :n] for run in runs])
-    low, high = np.quantile(q, 0.005, axis=0), np.quantile(q, 0.995, axis=0)
-    high = np.maximum(high, low + 1e-3)
-    centers: list[Array] = []
-    widths: list[Array] = []
-    for bumps in (6, 5):
-        centers.append(np.linspace(low, high, bumps).T)
-        widths.append((high - low) / (bumps - 1))
-    return FreeForm((centers[0], centers[1]), (widths[0], widths[1]), (0.15, 0.6))
 
 
 def has_tension(recordings: Sequence[Recording], model: Model) -> bool:

@@ -18,19 +18,18 @@ class Candidate:
 
     Attributes:
         effects: of the set; empty for the refitted baseline.
-        log_evidence: at its own optimum.
-        sigma: standard deviation of the missing torque that stays, root mean square of its posterior [N m].
-        errors: of open-loop simulations, root mean square by run, (runs,) [rad]; NaN where one failed.
-        free_form: by how much a torque of any form at any joint, or at all, raises the log-evidence.
+        errors: of open-loop simulations, root mean square by segment, (segments,) [rad]; NaN where one failed.
     """
 
     effects: Key
-    log_evidence: float
-    sigma: float
     errors: Array
-    free_form: float = 0.0
 
     @property
     def completed(self) -> bool:
         """Whether it can be simulated."""
         return bool(np.all(np.isfinite(self.errors)))
+
+    @property
+    def error(self) -> float:
+        """Mean over the segments [rad]; infinite where a simulation failed."""
+        return float(np.mean(self.errors)) if self.completed else np.inf

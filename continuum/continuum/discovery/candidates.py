@@ -8,19 +8,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of
-from continuum.discovery.candidate import Candidate, Key
-from continuum.discovery.confirmation import Confirmation, OpenLoop
-from continuum.discovery.gauss_newton import moved
-from continuum.discovery.hypotheses import UNKNOWN
-from continuum.discovery.problem import Problem, State, linearise
-from continuum.discovery.search import Found, Progress, find, matching, posterior_of_levels
+from continuum.discovery.candidate import Candidate
+from continuum.discovery.output_error import Fitted, OutputError
+from continuum.discovery.problem import Problem
+from continuum.discovery.search import Found, Progress, find
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
 from continuum.estimation.structure import Structure
 from continuum.recordings.recording import Recording
 
-SIMULABLE_STEPS = 2
-"""Gauss-Newton steps after which a refit without some nuisances has settled."""
+MOST_FITTED = 5
+"""Sets that are fitted by open-loop simulations at most, the most probable first."""
 
 
 def silent(_what: str, _share: float) -> None:
@@ -32,16 +30,17 @@ class Examined:
     """A candidate with where the search left it.
 
     Attributes:
-        candidate: for the decision.
         found: state, library and evidence about it.
-        simulable: the state refitted for simulation.
-        open_loop: its simulations.
+        fit: by open-loop simulations.
     """
 
-    candidate: Candidate
     found: Found
-    simulable: State
-    open_loop: OpenLoop
+    fit: Fitted
+
+    @property
+    def candidate(self) -> Candidate:
+        """For the decision."""
+        return Candidate(tuple(h.key for h in self.found.chosen), self.fit.errors)
 
 
 @dataclass(frozen=True)
@@ -50,12 +49,14 @@ class Examination:
 
     Attributes:
         problem: fixed before the search.
+        judge: what fits were made by.
         baseline: the refitted model alone.
         others: sets of effects, the most probable first.
         log: of the search, for developers.
     """
 
     problem: Problem
+    judge: OutputError
     baseline: Examined
     others: tuple[Examined, ...]
     log: tuple[str, ...]
@@ -75,45 +76,36 @@ def examine(
     progress("baseline", 0.1)
     problem, start = fitted_baseline(problem)
     found = find(problem, start, progress)
-    progress("simulating open loop", 0.85)
-    confirmation = Confirmation(problem, tuple(recordings))
-    base = _examined(problem, confirmation, found.baseline, start)
-    others: dict[frozenset[object], Examined] = {}
-    for stage in found.stages:
-        one = _examined(problem, confirmation, stage, stage.lin.state)
-        key = frozenset(one.candidate.effects)
-        if key not in others or one.candidate.log_evidence > others[key].candidate.log_evidence:
-            others[key] = one
-    ranked = sorted(others.values(), key=lambda one: -one.candidate.log_evidence)
-    return Examination(problem, base, tuple(ranked), tuple(found.log))
+    progress("simulating open loop", 0.6)
+    judge = OutputError(problem, tuple(recordings))
+    ranked = _best_of_each(found.stages)[:MOST_FITTED] or [found.baseline]
+    fits = [judge.fit(ranked[0])]
+    for number, stage in enumerate(ranked[1:]):
+        progress("simulating open loop", 0.7 + 0.05 * number)
+        fits.append(judge.fit(stage, fits[0]))
+    best = fits[int(np.argmin([fit.error for fit in fits]))]
+    parts = [_is_part(stage, ranked[fits.index(best)]) for stage in ranked]
+    fits = [
+        judge.better(fit, stage, best) if part else fit for fit, stage, part in zip(fits, ranked, parts, strict=True)
+    ]
+    base = fits[0] if ranked[0] is found.baseline else judge.fit(found.baseline, best)
+    others = [Examined(stage, fit) for stage, fit in zip(ranked, fits, strict=True) if stage.chosen]
+    return Examination(problem, judge, Examined(found.baseline, base), tuple(others), tuple(found.log))
 
 
-def _examined(problem: Problem, confirmation: Confirmation, found: Found, state: State) -> Examined:
-    evidence, chosen = found.lin.evidence, found.chosen
-    levels = np.asarray(problem.levels)[list(found.lin.levels)] * float(np.mean(problem.noise.sigma))
-    sigma = float(np.sqrt(posterior_of_levels(evidence, chosen) @ levels**2))
-    simulable = _simulable(problem, state, found)
-    simulated = confirmation.simulate(simulable)
-    key: Key = tuple(h.key for h in chosen)
-    candidate = Candidate(key, evidence.total(chosen, with_constraints=True), sigma, simulated.errors)
-    return Examined(candidate, found, simulable, simulated)
+def _is_part(one: Found, whole: Found) -> bool:
+    return {h.key for h in one.chosen} < {h.key for h in whole.chosen}
 
 
-def _simulable(problem: Problem, state: State, found: Found) -> State:
-    """The state refitted without the nuisances that the simulator's equations do not have."""
-    level = found.lin.levels[found.lin.evidence.best_level(found.chosen)]
-    keys = [h.key for h in found.chosen]
-    for _ in range(SIMULABLE_STEPS):
-        lin = linearise(problem, state, [level], {h.effect for h in found.chosen}, simulable=True)
-        state = moved(lin, matching(lin, keys), 0, level)
-    return state
+def _best_of_each(stages: Sequence[Found]) -> list[Found]:
+    """The most probable state of each set of effects, the most probable set first."""
+    best: dict[frozenset[object], tuple[float, Found]] = {}
+    for one in stages:
+        key, evidence = frozenset(h.key for h in one.chosen), _log_evidence(one)
+        if key not in best or evidence > best[key][0]:
+            best[key] = evidence, one
+    return [one for _, one in sorted(best.values(), key=lambda pair: -pair[0])]
 
 
-def free_form_gain(problem: Problem, found: Found) -> float:
-    """By how much a torque of any form, at one joint or at all, raises a set's log-evidence."""
-    lin = linearise(problem, found.lin.state, None, {h.effect for h in found.chosen}, free_form=True)
-    keys = [h.key for h in found.chosen]
-    chosen = tuple(next(h for h in lin.library.hypotheses if h.key == key) for key in keys)
-    alone = lin.evidence.total(chosen, with_constraints=True)
-    forms = [h for h in lin.library.hypotheses if h.effect == UNKNOWN]
-    return max(lin.evidence.total((*chosen, form), with_constraints=True) for form in forms) - alone
+def _log_evidence(found: Found) -> float:
+    return found.lin.evidence.total(found.chosen, with_constraints=True)

@@ -27,6 +27,7 @@ _PRIOR = {"stiffness": 0.5, "viscous": 1.0, "coulomb": 0.6, "stribeck": 1.0, "sp
 _SHAPE_PRIOR = 0.33
 _FAR = 10.0  # times more or less than expected: such a value of a model file is not believed
 _LEAST = 0.02  # part of its reference below which no mass, inertia or spring is a body's
+_SPEED = (-0.8, 4.0)  # least and largest relative change of Stribeck's rate: beyond, its curve is another term
 _RATES = (0.0, 0.5, 1.0, 2.0, 9.0)  # multiples of Stribeck's rate at which dry friction must not be negative
 
 
@@ -61,14 +62,25 @@ class Coordinates:
         p[slots["stiffness"]] += theta.get("stiffness", 0.0) * self.steps["stiffness"]
         p[slots["viscous_friction"]] += theta.get("viscous", 0.0) * self.steps["viscous"]
         coulomb, gain = self.reference[slots["coulomb_friction"]], self.reference[slots["stribeck_gain"]]
-        least = 0.02 * self.steps["coulomb"]
+        least = _LEAST * self.steps["coulomb"]
         changed = np.maximum(coulomb + theta.get("coulomb", 0.0) * self.steps["coulomb"], least)
         rise = np.maximum(coulomb * gain + theta.get("stribeck", 0.0) * self.steps["stribeck"], 0.0)
         p[slots["coulomb_friction"]], p[slots["stribeck_gain"]] = changed, rise / changed
         p[slots["viscous_friction"]] = np.maximum(p[slots["viscous_friction"]], 0.0)
         speed = self.reference[slots["stribeck_speed"]]
-        p[slots["stribeck_speed"]] = np.clip(speed * (1 + theta.get("speed", 0.0)), 0.2 * speed, 5 * speed)
+        p[slots["stribeck_speed"]] = speed * (1 + np.clip(theta.get("speed", 0.0), *_SPEED))
         return p
+
+    def bounds(self) -> list[tuple[float, float]]:
+        """Least and largest value of each coordinate within which `values` is linear and physical."""
+        slots, p = self.structure.slots, self.reference
+        coulomb = p[slots["coulomb_friction"]]
+        now = {
+            "stiffness": p[slots["stiffness"]] * (1 - _LEAST), "viscous": p[slots["viscous_friction"]],
+            "coulomb": coulomb - _LEAST * self.steps["coulomb"], "stribeck": coulomb * p[slots["stribeck_gain"]],
+        }  # fmt: skip
+        least = {name: -float(np.min(here / self.steps[name])) for name, here in now.items() if name in self.names}
+        return [(least[name], np.inf) if name in least else _SPEED for name in self.names]
 
     def columns(self, p: Array) -> list[tuple[str, Column]]:
         """Torque per unit of each coordinate at parameter values p."""
@@ -121,6 +133,7 @@ class Coordinates:
         parts.append(changed.viscous_friction / self.steps["viscous"])
         speed = (p if rates_of is None else rates_of)[self.structure.slots["stribeck_speed"]]
         parts += [dry_friction(factor * speed, changed) / self.steps["coulomb"] for factor in _RATES]
+        parts.append(changed.coulomb_friction * changed.stribeck_gain / self.steps["coulomb"])
         return np.concatenate([np.broadcast_to(part, (self.structure.n,)) for part in parts]).astype(float)
 
 

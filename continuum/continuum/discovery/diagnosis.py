@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.candidate import Candidate
-from continuum.discovery.candidates import Examination, Examined, examine, free_form_gain, silent
+from continuum.discovery.candidates import Examination, Examined, examine, silent
 from continuum.discovery.decision import Kind, Verdict, closed, decide
 from continuum.discovery.estimates import baseline_estimates, estimates_of
 from continuum.discovery.extended import model_of
@@ -27,8 +25,6 @@ from continuum.recordings.recording import Recording
 TOLERANCE = 3.0
 """Open-loop error up to which a model is adequate, where no other is asked for, in units of the angles' noise: an error
 that no single reading shows."""
-_FREE_FORM = 4
-"""Candidates for which a torque of free form is tried, the most probable first."""
 
 
 def diagnose(
@@ -65,49 +61,51 @@ def _answer(
     began: float,
 ) -> Diagnosis:
     problem, base = found.problem, found.baseline
-    tested = [base, *found.others[:_FREE_FORM]]
-    gains = {id(one): free_form_gain(problem, one.found) for one in tested}
-    candidates = {
-        id(one): replace(one.candidate, free_form=gains.get(id(one), np.inf)) for one in (base, *found.others)
-    }
-    baseline = candidates[id(base)]
-    others = [candidates[id(one)] for one in found.others]
-    floor = base.open_loop.floor
+    floor = found.judge.floor
     accepted = TOLERANCE * floor if tolerance is None else tolerance
-    verdict = decide(baseline, others, problem.coordinates.torque, floor, accepted)
+    others = [one.candidate for one in found.others]
+    before = found.judge.whole(base.fit)
+    errors = [before.error(r, run.theta) for r, run in enumerate(recordings)]
+    verdict = decide(base.candidate, others, floor, bool(np.sqrt(np.mean(np.square(errors))) < accepted))
     odd = odd_rates(recordings)
     if odd:  # nothing that is fitted to readings which contradict each other can be trusted
         verdict = Verdict(Kind.UNKNOWN, (), (), False)
     by_key = {frozenset(one.candidate.effects): one for one in (base, *found.others)}
     keys = verdict.sets if is_named(verdict.kind) else ((verdict.helps,) if verdict.helps else ())
-    sets = tuple(_causes(found, by_key[frozenset(key)], baseline) for key in keys)
+    sets = tuple(_causes(found, by_key[frozenset(key)]) for key in keys)
     best = by_key[frozenset(keys[0])] if keys else base
-    share = Share(*closed(baseline, best.candidate, floor))
-    before, after = missing_torque(problem, base.found), missing_torque(problem, best.found)
+    share = _share(found, best)
+    (sigma, torque), (less_sigma, less_torque) = (missing_torque(problem, one.found) for one in (base, best))
+    after = found.judge.whole(best.fit)
     return Diagnosis(
-        verdict, sets, share, (before[0], after[0]), (before[1], after[1]), baseline_estimates(problem, best),
-        base.open_loop, best.open_loop, model_of(problem, base.simulable, (), model),
-        model_of(problem, best.simulable, best.candidate.effects, model), tuple(recordings),
+        verdict, sets, share, (sigma, less_sigma), (torque, less_torque), baseline_estimates(problem, best.fit), before,
+        after, model_of(problem, base.fit.state, (), model),
+        model_of(problem, best.fit.state, best.candidate.effects, model), tuple(recordings),
         (*odd, *_notes(recordings, problem, best)), accepted, time.process_time() - began,
     )  # fmt: skip
 
 
-def _causes(found: Examination, one: Examined, baseline: Candidate) -> tuple[Cause, ...]:
+def _share(found: Examination, one: Examined) -> Share:
+    floor = min(found.judge.floor, *(other.candidate.error for other in (found.baseline, *found.others)))
+    return Share(*closed(found.baseline.candidate, one.candidate, floor))
+
+
+def _causes(found: Examination, one: Examined) -> tuple[Cause, ...]:
     """Effects of a set; its closed share is divided in proportion to the evidence that each adds."""
     evidence, chosen = one.found.lin.evidence, one.found.chosen
     whole = evidence.total(chosen, with_constraints=True)
     gains = [
         whole - evidence.total(tuple(h for h in chosen if h is not left), with_constraints=True) for left in chosen
     ]
-    value, low, high = closed(baseline, one.candidate, one.open_loop.floor)
+    whole_share = _share(found, one)
     parts: Array = np.maximum(gains, 1e-9) / np.sum(np.maximum(gains, 1e-9))
     return tuple(
         Cause(
             h.effect,
             h.joints,
-            Share(value * part, low * part, high * part),
+            Share(whole_share.value * part, whole_share.low * part, whole_share.high * part),
             float(gain),
-            estimates_of(found.problem, one, h),
+            estimates_of(found.problem, one.fit, h),
         )
         for h, part, gain in zip(chosen, parts, gains, strict=True)
     )

@@ -18,7 +18,6 @@ from continuum.dynamics.effect import Effect
 from continuum.dynamics.parameters import Parameter
 from continuum.estimation.structure import absent_values
 
-UNKNOWN = "unknown"
 PRIOR = 3.0
 """Prior standard deviation of an effect's size in units of its typical one: effects that matter are typical or a few
 times that, and evidence changes by the logarithm of this number only."""
@@ -29,8 +28,6 @@ ORDINARY = 0.5
 """Prior standard deviation of the coefficient of an effect with states at its ordinary size."""
 TOLERANCE = 2.5
 """Standard deviations beyond which a part is not an ordinary one: one in eighty is."""
-FREE_TORQUE = 0.15
-"""Prior standard deviation of the free-form torque's bumps, as a part of the arm's own torque."""
 
 
 @dataclass(frozen=True)
@@ -92,24 +89,6 @@ class Hypothesis:
         for k, used in enumerate(self.columns):
             H[list(used), k] = self.weights[k] if self.weights else 1.0
         return H
-
-
-def free_form_hypotheses(first: int, per_joint: int, n: int, size: float) -> list[Hypothesis]:
-    """Of a torque of any form at each joint, and at all.
-
-    Args:
-        first: index of its first column.
-        per_joint: columns of a joint.
-        n: number of joints.
-        size: prior standard deviation of a coefficient [N m].
-    """
-    found = []
-    for joints in [(j,) for j in range(n)] + [tuple(range(n))] * (n > 1):
-        used = tuple((first + j * per_joint + i,) for j in joints for i in range(per_joint))
-        meanings = tuple(Coefficient("free", UNKNOWN, str(i)) for i in range(len(used)))
-        sd = np.full(len(used), size)
-        found.append(Hypothesis(UNKNOWN, joints, used, meanings, sd, np.full(len(used), -np.inf)))
-    return found
 
 
 def sizes_and_shapes(effect: Effect) -> tuple[list[str], list[str]]:

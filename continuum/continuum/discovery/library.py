@@ -8,14 +8,12 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.hypotheses import (
-    FREE_TORQUE,
     GRID,
     ORDINARY,
     TOLERANCE,
     Coefficient,
     Hypothesis,
     fitted_parameters,
-    free_form_hypotheses,
     grid,
     only,
     prior_sd,
@@ -25,7 +23,6 @@ from continuum.discovery.hypotheses import (
 )
 from continuum.dynamics.effect import Effect
 from continuum.estimation.columns import Column, Difference, LateInputs, SensorSlope, Slope, StatefulTorque
-from continuum.estimation.free_form import FreeForm
 from continuum.estimation.structure import Structure, absent_values, overrides
 
 
@@ -37,10 +34,7 @@ class Library:
         active: values of the effects with states that are in the model, and of those whose shape is fitted.
         ratio: by which their values are changed for differences.
         baseline: columns that every hypothesis has, by name.
-        free_form: torque of any form, a hypothesis like others; left out without.
-        torque: of the arm, root mean square [N m].
         live: effects that have hypotheses; all without.
-        simulable: whether nuisances that the equations do not have, as another shape of a friction curve, are left out.
     """
 
     def __init__(
@@ -49,12 +43,9 @@ class Library:
         active: Mapping[str, Mapping[str, Array]],
         ratio: float,
         baseline: Sequence[tuple[str, Column]],
-        free_form: FreeForm | None,
-        torque: float,
         live: Collection[str] | None = None,
-        simulable: bool = False,
     ) -> None:
-        self.structure, self.active, self.ratio, self.torque = structure, active, ratio, torque
+        self.structure, self.active, self.ratio = structure, active, ratio
         self.columns, self.width = list[Column](), 0
         self.hypotheses: list[Hypothesis] = []
         self.at: dict[tuple[str, str, int], int] = {}  # columns of values, by effect, parameter and joint
@@ -62,14 +53,12 @@ class Library:
         self.held: list[int] = []  # columns of effects with states that are in the nominal motion
         self.ordinary: list[tuple[int, float]] = []  # columns by which parts of one batch differ, and by how much
         for name, column in baseline:
-            if simulable and not isinstance(column, Slope):
-                continue
             at = self._add(column)
             if isinstance(column, Slope):
                 self.at[("", name, -1)] = at
             else:
                 self.torque_only[name] = at
-        self._baseline, self._live, self._simulable = list(range(self.width)), live, simulable
+        self._baseline, self._live = list(range(self.width)), live
         for effect in structure.offered:
             if live is not None and effect.name not in live and not any(p.ordinary for p in effect.parameters.values()):
                 continue
@@ -81,10 +70,6 @@ class Library:
                 self._stateful(effect)
             else:
                 self._plain(effect)
-        if free_form is not None:
-            self.hypotheses += free_form_hypotheses(
-                self._add(free_form), free_form.per_joint, structure.n, FREE_TORQUE * torque
-            )
 
     def _add(self, column: Column) -> int:
         """Append columns; the first one's index."""
@@ -220,7 +205,7 @@ class Library:
         of_joints = [name for name, spec in effect.parameters.items() if spec.per_joint]
         own = self.active.get(effect.name)
         first, spec = next(iter(effect.parameters.items()))
-        if spec.ordinary and not self._simulable:
+        if spec.ordinary:
             absent = absent_values(effect, n)
             usual = {**absent, first: np.full_like(absent[first], spec.ordinary)}
             at = self.torque_only[f"ordinary {effect.name}"] = self._add(StatefulTorque(effect.name, usual))

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from continuum.arrays import Array
-from continuum.discovery.confirmation import OpenLoop
+from continuum.discovery.output_error import OpenLoop
 from continuum.recordings.recording import Recording
 
 MEASURED, REFITTED, EXTENDED = "#222222", "#d1802b", "#1f6fb4"
@@ -81,7 +81,7 @@ def torques(result: Simulated) -> Figure:
 
 def overview(result: Simulated) -> Figure:
     """Angles of the recording that the refitted model simulates worst, above the missing torque there."""
-    worst = int(np.nanargmax(result.before.errors))
+    worst = int(np.nanargmax([result.before.error(r, run.theta) for r, run in enumerate(result.recordings)]))
     run, n = result.recordings[worst], result.recordings[0].n_joints
     figure = Figure(figsize=(2.3 * n, 4.0), layout="constrained")
     axes = figure.subplots(2, n, sharex=True, sharey="row", squeeze=False)

@@ -13,7 +13,6 @@ from continuum.discovery.evidence import Evidence, Nuisance
 from continuum.discovery.library import Library
 from continuum.estimation.augmented_filter import Measurement, RunLikelihood, run_likelihood
 from continuum.estimation.columns import Scene, assembled, to_states
-from continuum.estimation.free_form import FreeForm
 from continuum.estimation.friction_modes import FrictionModes
 from continuum.estimation.run import Run, Trajectory, substep_motion
 from continuum.estimation.sensor_noise import NoiseModel
@@ -33,7 +32,6 @@ class Problem:
         runs: recordings.
         noise: of sensors; sigma is the unit of the levels, (n,) [N m].
         levels: multiples of that sigma.
-        free_form: torque of any form.
     """
 
     structure: Structure
@@ -41,7 +39,6 @@ class Problem:
     runs: tuple[Run, ...]
     noise: NoiseModel
     levels: Array
-    free_form: FreeForm
 
 
 @dataclass(frozen=True)
@@ -136,8 +133,6 @@ def linearise(
     state: State,
     levels: Sequence[int] | None = None,
     live: Collection[str] | None = None,
-    free_form: bool = False,
-    simulable: bool = False,
 ) -> Linearised:
     """Linearise about a state, and filter every run at some levels of missing torque.
 
@@ -145,13 +140,11 @@ def linearise(
         problem, state: what, and where.
         levels: indices of those levels; all without.
         live: effects that have hypotheses; all without.
-        free_form: whether a torque of any form is a hypothesis too.
-        simulable: whether nuisances that the equations do not have are left out.
     """
     s, point = problem.structure, point_of(problem, state)
     library = Library(
         s, state.active, state.ratio, problem.coordinates.columns(point.values),
-        problem.free_form if free_form else None, problem.coordinates.torque, live, simulable,
+        live,
     )  # fmt: skip
     theta = np.stack([_theta(library, state.shared, own, state.held) for own in state.own])
     runs = []
@@ -169,7 +162,7 @@ def linearise(
         seen = s.measurement(run, way, point.by_run[r])
         runs.append(_Run(step, seen, (columns, reading)))
     G, g = problem.coordinates.constraints(point.values, library.columns, library.width)
-    columns, sd, most = library.nuisances(problem.coordinates.prior_sd(shapes=not simulable))
+    columns, sd, most = library.nuisances(problem.coordinates.prior_sd())
     nuisance = Nuisance(columns, sd, G, G @ theta.mean(axis=0) - g, most)
     evidence = Evidence(
         [

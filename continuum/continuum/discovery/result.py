@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from continuum.arrays import Array
-from continuum.discovery.confirmation import OpenLoop
 from continuum.discovery.decision import Kind, Verdict
+from continuum.discovery.output_error import OpenLoop
 from continuum.dynamics.model import Model
 from continuum.recordings.recording import Recording
 

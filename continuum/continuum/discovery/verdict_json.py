@@ -62,7 +62,7 @@ def as_mapping(result: Diagnosis) -> dict[str, Any]:
 def _run(result: Diagnosis, r: int) -> dict[str, Any]:
     theta = result.recordings[r].theta
     return {
-        when: {"rms": _number(one.errors[r]), "nrmse": _number(nrmse(one.angles[r], theta))}
+        when: {"rms": _number(one.error(r, theta)), "nrmse": _number(nrmse(one.angles[r], theta))}
         for when, one in (("before", result.before), ("after", result.after))
     }
 

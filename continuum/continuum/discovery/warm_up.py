@@ -36,14 +36,14 @@ def warm_up() -> None:
 
 
 def _compile_simulators(structure: Structure) -> None:
-    """Of open-loop confirmation: without any effect that has states, and with each one."""
+    """Of open-loop fits: without any effect that has states, and with each one."""
     models = [structure.model]
     for along in structure.stateful.values():
         added = ActiveEffect(along.effect, absent_values(along.effect, structure.n))
         models.append(replace(structure.model, effects=(*structure.model.effects, added)))
     for model in models:
         equations = CompiledEquations(model)
-        _ = equations.residual, equations.stage
+        _ = equations.residual, equations.stage, equations.slopes
 
 
 def _recordings(model: Model) -> tuple[Recording, Recording]:

@@ -14,6 +14,9 @@ from continuum.identification.nrmse import nrmse
 
 _MORE_RUNS = "Record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
 
+_NOTHING_MORE = "Nothing in them calls for a further effect."
+_WITHIN_TOLERANCE = "An effect of the library would help, but what is missing is within the tolerance."
+
 
 def verdict_in_words(result: Diagnosis) -> str:
     """Two or three sentences."""
@@ -22,7 +25,7 @@ def verdict_in_words(result: Diagnosis) -> str:
         case Kind.ADEQUATE:
             return (
                 "With springs and friction refitted, the simulation agrees with these recordings. "
-                f"{_error(result)} Nothing in them calls for a further effect."
+                f"{_error(result)} {_NOTHING_MORE if verdict.complete else _WITHIN_TOLERANCE}"
             )
         case Kind.CAUSE:
             return f"{_matters(result.causes)} {_closes(result)} {_rest(result)}"
@@ -79,7 +82,7 @@ def errors_in_words(result: Diagnosis) -> list[tuple[str, str]]:
     rows = []
     for r, run in enumerate(result.recordings):
         models = [result.before, result.after] if result.is_extended else [result.before]
-        degrees = " -> ".join(f"{np.degrees(one.errors[r]):.2f}" for one in models)
+        degrees = " -> ".join(f"{np.degrees(one.error(r, run.theta)):.2f}" for one in models)
         scores = " -> ".join(f"{nrmse(one.angles[r], run.theta):.3f}" for one in models)
         rows.append((run.name, f"{degrees} deg   NRMSE {scores}"))
     return rows
@@ -127,7 +130,7 @@ def _rest(result: Diagnosis) -> str:
 
 
 def _error(result: Diagnosis) -> str:
-    worst = np.degrees(np.nanmax(result.before.errors))
+    worst = np.degrees(max(result.before.error(r, run.theta) for r, run in enumerate(result.recordings)))
     return (
         f"Left to itself it stays within {worst:.2f} degrees of the measured angles (root mean square of a recording)."
     )

@@ -24,6 +24,7 @@ from continuum.estimation.effect_states import EffectAlongMotion
 from continuum.estimation.motion_equations import MotionEquations
 from continuum.estimation.run import Run, Trajectory
 
+_ALL = slice(None)
 _MECHANICAL = ("change_parameters", "move_base", "pull", "torque")
 
 
@@ -101,9 +102,11 @@ class Structure:
         H = np.hstack([(by_angle - nothing)[:n].T, (by_rate - nothing)[:n].T])
         return Measurement(expected, np.ascontiguousarray(H if run.has_rates else H[:n]))
 
-    def readings(self, run: Run, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]]) -> Array:
-        """What the sensors read of a motion, (n_times, n_readings)."""
-        both = self._read(run.times, q, w, own, run.times[0])
+    def readings(
+        self, run: Run, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]], rows: slice = _ALL
+    ) -> Array:
+        """What the sensors read of a motion in some rows of a run, (n_times, n_readings)."""
+        both = self._read(run.times[rows], q, w, own, run.times[0])
         return both if run.has_rates else both[:, : self.n]
 
     def _read(self, times: Array, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]], begun: float) -> Array:

@@ -55,7 +55,7 @@ def test_the_end_of_what_the_model_made_is_predicted(run: Recording) -> None:
 def test_a_simulation_begins_where_it_is_told(run: Recording) -> None:
     found = examine([run], MODEL)
     q, w = np.full(5, 0.1), np.zeros(5)
-    angles = simulated_from(found.problem, found.baseline.simulable, run.rows(slice(10, None)), q, w)
+    angles = simulated_from(found.problem, found.baseline.fit.state, run.rows(slice(10, None)), q, w)
     assert angles.shape == (87, 5)
     np.testing.assert_allclose(angles[0], q)
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from continuum.discovery import Diagnosis
-from continuum.discovery.confirmation import OpenLoop
 from continuum.discovery.decision import Kind, Verdict
+from continuum.discovery.output_error import OpenLoop
 from continuum.discovery.result import Cause, Estimate, Share
 from continuum.dynamics.model_file import load_model
 from continuum.recordings.recording import Recording
@@ -37,7 +37,7 @@ OFFSET, GUESS = cause("angle_offset", (2,), 0.5), cause("inertia", (0, 4), 0.1)
 def diagnosis(kind: Kind, *sets: tuple[Cause, ...]) -> Diagnosis:
     verdict = Verdict(kind, (), (0.7, 0.3)[: len(sets)], False)
     closed = Share(sum(one.share.value for one in sets[0]) if sets else 0.0, 0.4, 0.7)
-    before, after = (OpenLoop((by * THETA,), np.array([0.02]), 1e-4) for by in (1.1, 1.05))
+    before, after = (OpenLoop((by * THETA,), 1e-4) for by in (1.1, 1.05))
     sigma, course = np.full(5, 0.03), (np.zeros((49, 5)),)
     return Diagnosis(
         verdict, sets, closed, (sigma, 0.5 * sigma), (course, course), (), before, after, MODEL, MODEL,

@@ -1,0 +1,209 @@
+"""Normal equations of an output-error fit: unknowns of segments, then of recordings, eliminated by Schur complements.
+
+Residuals of a simulation are alike from row to row. They count as rows (1 - rho) / (1 + rho) independent ones, rho
+their correlation from row to row (Bayley and Hammersley, JRSS suppl. 8, 1946), so that intervals hold model error too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.open_loop import Segment
+from continuum.discovery.quadratic_program import bounded_minimum
+from continuum.discovery.unknowns import Unknown, Unknowns
+
+_MOST_CORRELATION = 0.99
+_AT_BOUND = 1e-9
+
+
+@dataclass(frozen=True)
+class Values:
+    """Values of all unknowns.
+
+    Attributes:
+        common: of all recordings, (k,).
+        own: of each recording.
+        local: of each segment, (3 n,) each.
+    """
+
+    common: Array
+    own: tuple[Array, ...]
+    local: tuple[Array, ...]
+
+
+class Scale:
+    """How residuals of segments count: as much as their root mean square, not its square (Huber 1964).
+
+    A joint that comes to rest elsewhere puts all of its segment off; such a segment must not outweigh all others.
+
+    Args:
+        segments: from which the scale is taken.
+        floor: standard deviation of the sensors' white noise [rad].
+    """
+
+    def __init__(self, segments: Sequence[Segment], floor: float) -> None:
+        self._floor = floor
+        squares = sum(one.square for one in segments)
+        rho = sum(one.product for one in segments) / squares if squares > 0 else 0.0
+        rho = min(max(rho, 0.0), _MOST_CORRELATION) if np.isfinite(rho) else _MOST_CORRELATION
+        self._independent = (1 - rho) / (1 + rho)
+        self._typical = float(np.mean([max(one.error, floor) for one in segments]))
+
+    def weight(self, one: Segment) -> float:
+        """Of a segment's squared residuals [1/rad^2]."""
+        return self._independent / (self._typical * max(one.error, self._floor))
+
+    def cost(self, one: Segment) -> float:
+        """Minus the log-likelihood of a segment, less a constant."""
+        error = one.error
+        if error < self._floor:
+            error = 0.5 * (error**2 / self._floor + self._floor)
+        return self._independent * one.readings.size * error / self._typical
+
+
+def prior_cost(unknowns: Unknowns, values: Values, local_precision: Array) -> float:
+    """Minus the log-prior, less a constant."""
+    of_all = [(values.common, unknowns.common), *zip(values.own, unknowns.own, strict=True)]
+    common = sum(((v - one.mean) / one.sd) ** 2 for x, those in of_all for v, one in zip(x, those, strict=True))
+    return 0.5 * float(common + sum(x @ (local_precision * x) for x in values.local))
+
+
+@dataclass(frozen=True)
+class _Run:
+    """Information of one recording.
+
+    Attributes:
+        A, b: on the common unknowns, the others eliminated, (k, k) and (k,).
+        of_segments: the same on the common unknowns and the recording's own, by segment.
+        own_prior: on these, (k + m, k + m) and (k + m,).
+        own, segments: what gives the recording's own unknowns and its segments' from the common ones.
+        own_covariance: at given common unknowns, (m, m).
+    """
+
+    A: Array
+    b: Array
+    of_segments: tuple[tuple[Array, Array], ...]
+    own_prior: tuple[Array, Array]
+    own: Array
+    segments: tuple[Array, ...]
+    own_covariance: Array
+
+    def without(self, segment: int) -> tuple[Array, Array]:
+        """On the common unknowns, without one segment."""
+        A, b = self.own_prior
+        for i, (more, right) in enumerate(self.of_segments):
+            if i != segment:
+                A, b = A + more, b + right
+        k = len(self.b)
+        solved = _solved(A, b, k)
+        return A[:k, :k] - A[:k, k:] @ solved[:, :-1], b[:k] - A[:k, k:] @ solved[:, -1]
+
+    def rest(self, step: Array) -> tuple[Array, tuple[Array, ...]]:
+        """Steps of the recording's own unknowns and of those of its segments."""
+        own = self.own[:, -1] - self.own[:, :-1] @ step
+        both = np.concatenate([step, own])
+        return own, tuple(part[:, -1] - part[:, :-1] @ both for part in self.segments)
+
+
+class NormalEquations:
+    """About values at which the segments were simulated.
+
+    Args:
+        unknowns, values: where.
+        segments: simulated there.
+        scale: how their residuals count.
+        local_precision: inverse prior variances of a segment's own unknowns, (3 n,).
+    """
+
+    def __init__(
+        self, unknowns: Unknowns, values: Values, segments: Sequence[Segment], scale: Scale, local_precision: Array
+    ) -> None:
+        self._values, self._segments, local = values, segments, iter(values.local)
+        self._runs: list[_Run] = []
+        for r, (own, those) in enumerate(zip(values.own, unknowns.own, strict=True)):
+            k, parts, systems = len(values.common) + len(own), list[Array](), list[tuple[Array, Array]]()
+            for one in self._of(r):
+                G, h = scale.weight(one) * one.gram[:-1, :-1], -scale.weight(one) * one.gram[:-1, -1]
+                S = G[k:, k:] + np.diag(local_precision)
+                part = np.linalg.solve(S, np.column_stack([G[k:, :k], h[k:] - local_precision * next(local)]))
+                systems.append((G[:k, :k] - G[:k, k:] @ part[:, :-1], h[:k] - G[:k, k:] @ part[:, -1]))
+                parts.append(part)
+            self._runs.append(_run(systems, parts, own, those))
+        precision, means = _prior(unknowns.common)
+        self._A = np.sum([one.A for one in self._runs], axis=0) + np.diag(precision)
+        self._b = np.sum([one.b for one in self._runs], axis=0) - precision * (values.common - means)
+        self._low = np.array([one.lower for one in unknowns.common]) - values.common
+        self._high = np.array([one.upper for one in unknowns.common]) - values.common
+        self.covariance: Array = np.linalg.inv(self._A)
+
+    def _of(self, run: int) -> list[Segment]:
+        return [one for one in self._segments if one.run == run]
+
+    def stepped(self, damping: float) -> Values:
+        """Values after a Levenberg-Marquardt step within the bounds."""
+        A, unit = self._A + damping * np.diag(np.diag(self._A)), np.eye(len(self._low))
+        low, high = np.isfinite(self._low), np.isfinite(self._high)
+        G, least = np.concatenate([unit[low], -unit[high]]), np.concatenate([self._low[low], -self._high[high]])
+        step = np.clip(bounded_minimum(A, self._b, G, least)[0], self._low, self._high)
+        rest = [one.rest(step) for one in self._runs]
+        moves = [move for _, of_segments in rest for move in of_segments]
+        return Values(
+            self._values.common + step,
+            tuple(x + own for x, (own, _) in zip(self._values.own, rest, strict=True)),
+            tuple(x + move for x, move in zip(self._values.local, moves, strict=True)),
+        )
+
+    def own_sd(self) -> tuple[Array, ...]:
+        """Standard deviations of each recording's own unknowns."""
+        out = []
+        for one in self._runs:
+            through = one.own[:, :-1]
+            out.append(np.sqrt(np.diag(one.own_covariance + through @ self.covariance @ through.T)))
+        return tuple(out)
+
+    def predicted_errors(self) -> Array:
+        """Root mean square error of each segment with what the others say of the common unknowns, (segments,) [rad].
+
+        One Newton step from the optimum leaves a segment out; what is the segment's or its recording's own is fitted.
+        """
+        held = ((self._low > -_AT_BOUND) & (self._b < 0)) | ((self._high < _AT_BOUND) & (self._b > 0))
+        free, out = ~held, []
+        for r, run in enumerate(self._runs):
+            for i, one in enumerate(self._of(r)):
+                step = np.zeros(len(held))
+                if len(self._segments) > 1 and np.any(free):
+                    A, b = run.without(i)
+                    A, b = self._A - run.A + A, self._b - run.b + b
+                    step[free] = np.linalg.solve(A[np.ix_(free, free)], b[free])
+                own, local = run.rest(step)
+                move = np.concatenate([step, own, local[i], [1.0]])
+                out.append(np.sqrt(max(float(move @ one.gram @ move), 0.0) / one.readings.size))
+        return np.array(out)
+
+
+def _run(systems: Sequence[tuple[Array, Array]], parts: Sequence[Array], values: Array, own: Sequence[Unknown]) -> _Run:
+    """Eliminate a recording's own unknowns, the last of its segments' systems."""
+    precision, means = _prior(own)
+    k = len(systems[0][1]) - len(own)
+    prior = np.zeros_like(systems[0][0]), np.zeros_like(systems[0][1])
+    prior[0][k:, k:], prior[1][k:] = np.diag(precision), -precision * (values - means)
+    A, b = prior[0] + sum(A for A, _ in systems), prior[1] + sum(b for _, b in systems)
+    solved = _solved(A, b, k)
+    return _Run(
+        A[:k, :k] - A[:k, k:] @ solved[:, :-1], b[:k] - A[:k, k:] @ solved[:, -1], tuple(systems), prior, solved,
+        tuple(parts), np.linalg.inv(A[k:, k:]),
+    )  # fmt: skip
+
+
+def _solved(A: Array, b: Array, k: int) -> Array:
+    """What gives the unknowns from the k-th on from those before, (m, k + 1)."""
+    return np.linalg.solve(A[k:, k:], np.column_stack([A[k:, :k], b[k:]]))
+
+
+def _prior(those: Sequence[Unknown]) -> tuple[Array, Array]:
+    """Precisions and means."""
+    return np.array([one.sd for one in those]) ** -2.0, np.array([one.mean for one in those])

@@ -1,0 +1,210 @@
+"""Open-loop simulation of segments of a recording by the exact equations, with derivatives by all unknowns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.problem import Problem, State, point_of
+from continuum.discovery.unknowns import STEP, Unknown
+from continuum.dynamics.input_signal import InputSignal
+from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.trajectory import SimulationStatus
+from continuum.dynamics.values import parameter_vector, with_vector
+from continuum.recordings.recording import Recording
+
+_TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
+_SHORT = 0.25  # part of a segment by which the last one may be longer
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A simulated stretch of a recording.
+
+    Attributes:
+        run, rows: which.
+        readings: as the sensors would read the angles, (rows, n) [rad]; NaN where the simulation failed.
+        slopes: [J r]: residuals r [rad] of all rows and joints, and their derivatives J by the unknowns common to all
+            recordings, by the run's own, and by the segment's own: initial angles, initial rates, zeros of the sensors.
+    """
+
+    run: int
+    rows: slice
+    readings: Array
+    slopes: Array
+
+    @cached_property
+    def gram(self) -> Array:
+        """[J r]' [J r]."""
+        return self.slopes.T @ self.slopes
+
+    @cached_property
+    def product(self) -> float:
+        """Sum of products of residuals one row apart [rad^2]."""
+        r = self.slopes[:, -1].reshape(self.readings.shape)
+        return float(np.sum(r[1:] * r[:-1]))
+
+    @property
+    def square(self) -> float:
+        """Sum of the squared residuals [rad^2]."""
+        return float(self.gram[-1, -1])
+
+    @property
+    def error(self) -> float:
+        """Root mean square of the residuals [rad]."""
+        return float(np.sqrt(self.square / self.readings.size))
+
+
+class Simulators:
+    """Simulators of one problem's models, by the effects with states that are compiled in, and their inputs.
+
+    Args:
+        problem: whose runs are simulated.
+        recordings: with the inputs of the runs.
+        tolerances: of integration.
+    """
+
+    def __init__(
+        self, problem: Problem, recordings: tuple[Recording, ...], tolerances: Tolerances = _TOLERANCES
+    ) -> None:
+        self.problem, self._recordings, self._tolerances = problem, recordings, tolerances
+        self._compiled: dict[tuple[str, ...], Simulator] = {}
+
+    def of(self, model: Model) -> Simulator:
+        """The compiled equations of a model's effects, with its values."""
+        names = tuple(a.effect.name for a in model.effects if a.effect.name in self.problem.structure.stateful)
+        if names not in self._compiled:
+            self._compiled[names] = Simulator(model, self._tolerances)
+        return self._compiled[names].around(model)
+
+    def inputs(self, state: State, run: int) -> InputSignal:
+        """What drives a run, as late as the state says."""
+        s = self.problem.structure
+        delay = sum(float(own[name][0]) for e in s.late if (own := state.active.get(e.name)) for name in e.parameters)
+        inputs = self._recordings[run].inputs_for(s.given)
+        return replace(inputs, held=self.problem.runs[run].held).later(delay)
+
+
+class RunSimulation:
+    """Segments of one run at a state.
+
+    Args:
+        simulators: compiled equations.
+        state: values, and trajectories whose angles and rates segments begin near.
+        run: which, by number.
+        near: states with one unknown changed by STEP each, and that unknown.
+        along: derivative of all values of the model by the first of these, where they are known, (n_p,) each.
+    """
+
+    def __init__(
+        self, simulators: Simulators, state: State, run: int, near: Sequence[tuple[State, Unknown]],
+        along: Sequence[Array],
+    ) -> None:  # fmt: skip
+        self._problem = problem = simulators.problem
+        self._r, self._run, self._way = run, problem.runs[run], state.ways[run]
+        self._model = extended_model(problem, state, run)
+        self._simulator, self._inputs = simulators.of(self._model), simulators.inputs(state, run)
+        self._own = point_of(problem, state).by_run[run]
+        s, p = problem.structure, parameter_vector(self._model)
+        sensors, late = {e.name for e in s.sensors}, {e.name for e in s.late}
+        given = {a.effect.name for a in s.given.effects}
+        self._reads_plainly = not sensors & ({key[0] for key in (*state.shared, *state.own[run])} | given)
+        self._directions = np.zeros((p.size, len(near)))
+        self._sensors: dict[int, Mapping[str, Mapping[str, Array]]] = {}
+        self._late: dict[int, InputSignal] = {}
+        for i, (other, unknown) in enumerate(near):
+            effects = {key[0] for key in unknown.places}
+            if effects & late:
+                self._late[i] = simulators.inputs(other, run)
+            elif effects & sensors:
+                self._sensors[i] = point_of(problem, other).by_run[run]
+            elif i < len(along):
+                self._directions[:, i] = along[i]
+            else:
+                self._directions[:, i] = (parameter_vector(extended_model(problem, other, run)) - p) / STEP
+
+    def segment(self, rows: slice, local: Array) -> Segment:
+        """One segment.
+
+        Args:
+            rows: of the run.
+            local: its own unknowns: what is added to the smoothed angles and rates at its beginning, and zeros of the
+                sensors, (3 n,) [rad, rad/s, rad].
+        """
+        n, run, k = self._problem.structure.n, self._run, self._directions.shape[1]
+        times, zeros = run.times[rows], local[2 * n :]
+        x0, x0_slopes = self._beginning(rows.start, local)
+        free = np.hstack([self._directions, np.zeros((len(self._directions), 2 * n))])
+        found = self._simulator.run(x0, times, self._inputs, free=free, free_initial=x0_slopes)
+        width = k + 3 * n
+        if found.status is not SimulationStatus.COMPLETE:
+            failed = np.full((times.size * n, width + 1), np.nan)
+            return Segment(self._r, rows, np.full((times.size, n), np.nan), failed)
+        q, w = found.theta, found.theta_rate
+        read = self._read(rows, q, w, self._own)
+        J = np.zeros((times.size, n, width + 1))
+        for i in range(k + 2 * n):
+            dq, dw = found.slopes[:, :n, i], found.slopes[:, n : 2 * n, i]
+            J[:, :, i] = dq if self._reads_plainly else self._read(rows, q + dq, w + dw, self._own) - read
+        for i, own in self._sensors.items():
+            J[:, :, i] = (self._read(rows, q, w, own) - read) / STEP
+        for i, inputs in self._late.items():
+            later = self._simulator.run(x0, times, inputs)
+            J[:, :, i] = (self._read(rows, later.theta, later.theta_rate, self._own) - read) / STEP
+        J[:, :, k + 2 * n : width] = np.eye(n)
+        J[:, :, -1] = read + zeros - np.nan_to_num(run.readings[rows, :n])
+        J[run.live[rows, :n] <= 0] = 0.0
+        return Segment(self._r, rows, read + zeros, J.reshape(-1, width + 1))
+
+    def _beginning(self, row: int, local: Array) -> tuple[Array, Array]:
+        """State at a row, (n_x,), and its derivative by all unknowns but the zeros, (n_x, k + 2 n)."""
+        n, k = self._problem.structure.n, self._directions.shape[1]
+        q, w = self._way.q[row] + local[:n], self._way.w[row] + local[n : 2 * n]
+        states = self._effect_states(q, row)
+        slopes = np.zeros((2 * n + states.size, k + 2 * n))
+        slopes[: 2 * n, k:] = np.eye(2 * n)
+        if states.size:
+            for j, step in enumerate(STEP * np.eye(n)):
+                slopes[2 * n :, k + j] = (self._effect_states(q + step, row) - states) / STEP
+        return np.concatenate([q, w, states]), slopes
+
+    def _effect_states(self, q: Array, row: int) -> Array:
+        u, p = self._run.inputs[self._run.first[row]], self._model.changed_parameters
+        found = [
+            np.asarray(a.effect.initial_state(q, u, a.values, p), dtype=float)
+            for a in self._model.effects
+            if a.effect.n_states(q.size)
+        ]
+        return np.concatenate([np.zeros(0), *found])
+
+    def _read(self, rows: slice, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]]) -> Array:
+        """Angles as the sensors read them but for their zeros, (rows, n) [rad]."""
+        if self._reads_plainly and own is self._own:
+            return q
+        return self._problem.structure.readings(self._run, q, w, own, rows)[:, : q.shape[1]]
+
+
+def extended_model(problem: Problem, state: State, run: int) -> Model:
+    """The model with a state's values, in one recording; effects on sensors are left out."""
+    s, point = problem.structure, point_of(problem, state)
+    base = with_vector(s.model, point.values_in(s, run))
+    added = [ActiveEffect(s.stateful[name].effect, own) for name, own in point.stateful.items()]
+    given = [a for a in s.given.effects if a.effect.name in s.stateful and a.effect.name not in point.stateful]
+    return replace(base, effects=(*base.effects, *given, *added))
+
+
+def cut(times: Array, length: float) -> list[slice]:
+    """Rows of segments of about a length [s], two rows or more each."""
+    count = max(1, int(np.ceil((times[-1] - times[0]) / length - _SHORT)))
+    edges = [0]
+    for edge in np.searchsorted(times, np.linspace(times[0], times[-1], count + 1)[1:-1]):
+        if edge - edges[-1] > 1 and len(times) - edge > 1:
+            edges.append(int(edge))
+    return [slice(a, b) for a, b in pairwise([*edges, len(times)])]

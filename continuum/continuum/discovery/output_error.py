@@ -1,0 +1,211 @@
+"""Fit of a set of effects by output error: open-loop simulations of the exact equations against the readings.
+
+Multiple shooting (Bock 1983): recordings are cut into segments, each with unknown initial angles, rates and zeros of
+its sensors. Where a joint comes to rest depends on friction as a coin's side on its throw, which leaves kinks in the
+cost: segments are short, so that most end before that, and Levenberg-Marquardt steps may climb a little.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.normal_equations import NormalEquations, Scale, Values, prior_cost
+from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut, extended_model
+from continuum.discovery.problem import Problem, State
+from continuum.discovery.search import Found
+from continuum.discovery.unknowns import STEP, Start, Unknown, Unknowns
+from continuum.dynamics.values import parameter_vector
+from continuum.recordings.recording import Recording
+
+SEGMENT = 0.5
+"""Length of a segment [s]: about a swing of an arm's slowest mode. What is wrong with the equations shows within it;
+in 2 s segments fits ended 1.5 to 4 times above the noise, by joints that came to rest elsewhere."""
+_AT_REST = (-0.2, 0.3)
+"""Where Stribeck's torque begins (multi-start), in dry frictions above the model file's. A smoothed motion tells little
+of friction near rest, and a fit finds it from within some 0.3."""
+_FIRST = 2  # steps from each of these
+_ITERATIONS = 6
+_SETTLED, _STILL = 0.01, 2  # relative fall of the cost, and steps in a row with less, after which a fit ends
+_RISE = 0.2  # relative rise of the cost that a step may have
+_DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises
+_BEGINNING = (0.1, 1.0)  # rad, rad/s: prior of a segment's beginning about the smoothed state
+
+
+@dataclass(frozen=True)
+class OpenLoop:
+    """Simulations of all recordings from their beginnings.
+
+    Attributes:
+        angles: as the sensors would read them, by recording, (n_times, n) each [rad]; NaN where a simulation failed.
+        floor: of the error by the sensors' noise [rad].
+    """
+
+    angles: tuple[Array, ...]
+    floor: float
+
+    def error(self, run: int, theta: Array) -> float:
+        """Root mean square distance from measured angles (n_times, n) [rad], over rows and joints."""
+        return float(np.sqrt(np.nanmean((self.angles[run] - theta) ** 2)))
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A set's fit.
+
+    Attributes:
+        state: with the fitted values.
+        unknowns, values: what was fitted, and the result.
+        covariance: of the common unknowns, (k, k).
+        own_sd: standard deviations of each recording's own.
+        errors: root mean square over rows and joints of each segment, with what the other segments say of all that
+            recordings have in common, (segments,) [rad]; NaN where a simulation failed.
+    """
+
+    state: State
+    unknowns: Unknowns
+    values: Values
+    covariance: Array
+    own_sd: tuple[Array, ...]
+    errors: Array
+
+    @property
+    def error(self) -> float:
+        """Mean of the errors [rad]; infinite where a simulation failed."""
+        return float(np.mean(self.errors)) if np.all(np.isfinite(self.errors)) else np.inf
+
+    @property
+    def place(self) -> Start:
+        """Where a fit of another set may begin."""
+        pairs = [*zip(self.unknowns.common, self.values.common, strict=True)]
+        for those, values in zip(self.unknowns.own, self.values.own, strict=True):
+            pairs += zip(those, values, strict=True)
+        return {one.place: float(value) for one, value in pairs}
+
+
+class OutputError:
+    """Fits of one problem's recordings.
+
+    Args:
+        problem: whose runs are simulated.
+        recordings: with the inputs of the runs.
+    """
+
+    def __init__(self, problem: Problem, recordings: Sequence[Recording]) -> None:
+        self._problem, self._simulators = problem, Simulators(problem, tuple(recordings))
+        n = problem.structure.n
+        sd = np.concatenate([np.repeat(_BEGINNING, n), problem.noise.slow])
+        self._local_precision = sd**-2.0
+        self._cuts = [cut(run.times, SEGMENT) for run in problem.runs]
+
+    @cached_property
+    def floor(self) -> float:
+        """Root mean square of the white noise of an angle [rad]."""
+        n = self._problem.structure.n
+        return float(np.sqrt(np.mean(np.diag(self._problem.noise.white)[:n])))
+
+    def fit(self, found: Found, near: Fitted | None = None) -> Fitted:
+        """Fit a set.
+
+        Args:
+            found: the set, and where a search left it.
+            near: fit of another set, from which this one begins.
+        """
+        if near is not None:
+            return self._fitted(*self._optimum(*self._begun(found, near.place), _ITERATIONS))
+        begun = (self._begun(found, _at_rest(rise)) for rise in _AT_REST)
+        tried = [self._optimum(unknowns, values, _FIRST) for unknowns, values in begun]
+        unknowns, values, _ = min(tried, key=lambda one: sum(segment.error for segment in one[-1]))
+        return self._fitted(*self._optimum(unknowns, values, _ITERATIONS))
+
+    def better(self, fit: Fitted, found: Found, near: Fitted) -> Fitted:
+        """A set's fit, or that from where another fit ended, whichever is nearer."""
+        return min(fit, self.fit(found, near), key=lambda one: one.error)
+
+    def _begun(self, found: Found, start: Start) -> tuple[Unknowns, Values]:
+        """Where a fit begins, some unknowns being given."""
+        unknowns = Unknowns(self._problem, found, start)
+        none = np.zeros(len(self._local_precision))
+        common = np.array([one.start for one in unknowns.common])
+        return unknowns, Values(common, unknowns.own_start, tuple(none for rows in self._cuts for _ in rows))
+
+    def whole(self, fit: Fitted) -> OpenLoop:
+        """Every recording simulated from where its first segment begins."""
+        number, found = 0, []
+        for r, run in enumerate(self._problem.runs):
+            simulation = RunSimulation(self._simulators, fit.state, r, [], [])
+            found.append(simulation.segment(slice(0, len(run.times)), fit.values.local[number]).readings)
+            number += len(self._cuts[r])
+        return OpenLoop(tuple(found), self.floor)
+
+    def _optimum(self, unknowns: Unknowns, values: Values, iterations: int) -> tuple[Unknowns, Values, list[Segment]]:
+        """The unknowns, their best values, and segments there."""
+        segments = self._simulated(unknowns, values)
+        best, best_segments, damping, still = values, segments, _DAMPING, 0
+        for _ in range(iterations):
+            if not all(np.isfinite(one.square) for one in segments):
+                break
+            trial = self._normal(unknowns, values, segments).stepped(damping)
+            there = self._simulated(unknowns, trial)
+            scale = Scale(best_segments, self.floor)
+            cost = self._cost(unknowns, best, best_segments, scale)
+            fall = (cost - self._cost(unknowns, trial, there, scale)) / cost
+            if fall > -_RISE:
+                values, segments, damping = trial, there, max(damping / _MORE, _DAMPING)
+            else:
+                damping *= _MORE
+            if fall > 0:
+                best, best_segments = trial, there
+            still = 0 if fall > _SETTLED else still + 1
+            if still == _STILL:
+                break
+        return unknowns, best, best_segments
+
+    def _normal(self, unknowns: Unknowns, values: Values, segments: Sequence[Segment]) -> NormalEquations:
+        return NormalEquations(unknowns, values, segments, Scale(segments, self.floor), self._local_precision)
+
+    def _cost(self, unknowns: Unknowns, values: Values, segments: Sequence[Segment], scale: Scale) -> float:
+        """Minus the log-posterior, less a constant; infinite where a simulation failed."""
+        cost = sum(scale.cost(one) for one in segments) + prior_cost(unknowns, values, self._local_precision)
+        return cost if np.isfinite(cost) else np.inf
+
+    def _simulated(self, unknowns: Unknowns, values: Values) -> list[Segment]:
+        """Every segment, with derivatives by all unknowns."""
+        state = unknowns.state(values.common, values.own)
+        near = [_shifted(unknowns, values, i) for i in range(len(values.common))]
+        first = parameter_vector(extended_model(self._problem, state, 0))
+        along = [(parameter_vector(extended_model(self._problem, one, 0)) - first) / STEP for one, _ in near]
+        segments, local = list[Segment](), iter(values.local)
+        for r, rows in enumerate(self._cuts):
+            own = [_shifted(unknowns, values, i, r) for i in range(len(values.own[r]))]
+            run = RunSimulation(self._simulators, state, r, [*near, *own], along)
+            segments += [run.segment(one, next(local)) for one in rows]
+        return segments
+
+    def _fitted(self, unknowns: Unknowns, values: Values, segments: Sequence[Segment]) -> Fitted:
+        state, k = unknowns.state(values.common, values.own), len(values.common)
+        if not all(np.isfinite(one.square) for one in segments):
+            none = tuple(np.full(len(own), np.nan) for own in values.own)
+            failed = np.full(len(segments), np.nan)
+            return Fitted(state, unknowns, values, np.full((k, k), np.nan), none, failed)
+        normal = self._normal(unknowns, values, segments)
+        return Fitted(state, unknowns, values, normal.covariance, normal.own_sd(), normal.predicted_errors())
+
+
+def _shifted(unknowns: Unknowns, values: Values, i: int, run: int | None = None) -> tuple[State, Unknown]:
+    """The state with one unknown changed by STEP, and that unknown."""
+    if run is None:
+        common = values.common + STEP * np.eye(len(values.common))[i]
+        return unknowns.state(common, values.own), unknowns.common[i]
+    own = list(values.own)
+    own[run] = own[run] + STEP * np.eye(len(own[run]))[i]
+    return unknowns.state(values.common, tuple(own)), unknowns.own[run][i]
+
+
+def _at_rest(rise: float) -> Start:
+    """Friction near rest, Stribeck's torque by so much above the model file's."""
+    return {((("", name, -1), 1.0), False, None): value for name, value in (("stribeck", rise), ("speed", 0.0))}

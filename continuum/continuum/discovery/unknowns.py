@@ -1,0 +1,161 @@
+"""The unknowns of a set of effects in the exact equations: all that a fit may change, with priors and bounds.
+
+Common to all recordings are the baseline's coordinates, ordinary differences of parts and the set's own coefficients;
+values of effects with states count by their logarithm. Some effects have a value in each recording.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.hypotheses import PRIOR, TOLERANCE, Hypothesis
+from continuum.discovery.problem import Problem, State
+from continuum.discovery.search import Found
+
+STEP = 1e-6
+"""Change of an unknown for the difference of what is linear, or nearly."""
+
+type Start = Mapping[tuple[object, ...], float]
+"""Where unknowns begin, by `Unknown.place`."""
+type Key = tuple[str, str, int]
+"""Effect ("" for the baseline), parameter, and joint from 0 (-1 where it belongs to none)."""
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """One number.
+
+    Attributes:
+        places: values that it is added to, with factors; or whose logarithm it changes.
+        is_log: which of these.
+        start, mean, sd: where a fit begins, and its Gaussian prior.
+        lower, upper: bounds.
+        hypothesis: effect and place of the set that it belongs to; None for the baseline and ordinary differences.
+        of_run: recording that it belongs to; None for all.
+    """
+
+    places: Mapping[Key, float]
+    is_log: bool
+    start: float
+    mean: float
+    sd: float
+    lower: float
+    upper: float
+    hypothesis: Hypothesis | None = None
+    of_run: int | None = None
+
+    @property
+    def place(self) -> tuple[object, ...]:
+        """What it is, whatever the set."""
+        return (*self.places.items(), self.is_log, self.of_run)
+
+
+class Unknowns:
+    """Coordinates of a state.
+
+    Args:
+        problem: whose structure and recordings.
+        found: a set of effects and the state that a search left it in.
+        start: where some of them begin; others begin where the search left them.
+
+    Attributes:
+        common: those of all recordings.
+        own: those of each recording.
+    """
+
+    def __init__(self, problem: Problem, found: Found, start: Start) -> None:
+        self._problem, self._found, self._state = problem, found, found.lin.state
+        self.common = [*self._set(), *self._baseline()]
+        self.common = [_beginning(one, start) for one in (*self.common, *self._ordinary())]
+        self.own = tuple([_beginning(one, start) for one in self._own(r)] for r in range(len(problem.runs)))
+
+    @property
+    def own_start(self) -> tuple[Array, ...]:
+        """Where a fit of each recording's own begins."""
+        return tuple(np.array([one.start for one in mine]) for mine in self.own)
+
+    def state(self, common: Array, own: tuple[Array, ...]) -> State:
+        """The state with values at these coordinates, (k,) and (m,) for each recording."""
+        shared: dict[Key, float] = {}
+        active = {effect: {n: np.array(v) for n, v in values.items()} for effect, values in self._state.active.items()}
+        for unknown, value in zip(self.common, common, strict=True):
+            for key, factor in unknown.places.items():
+                if unknown.is_log:
+                    effect, name, joint = key
+                    active[effect][name][max(joint, 0)] = np.exp(value)
+                else:
+                    shared[key] = shared.get(key, 0.0) + factor * float(value)
+        by_run = tuple(
+            {key: float(value) for unknown, value in zip(mine, values, strict=True) for key in unknown.places}
+            for mine, values in zip(self.own, own, strict=True)
+        )
+        return replace(self._state, shared=shared, own=by_run, active=active, held={})
+
+    def _set(self) -> list[Unknown]:
+        found, at = [], 0
+        lin, chosen = self._found.lin, self._found.chosen
+        values = lin.evidence.optimum(chosen, lin.evidence.best_level(chosen)).values
+        key_of = {column: key for key, column in lin.library.at.items()}
+        for h in chosen:
+            for k, c in enumerate(h.coefficients):
+                value, sd, low = float(values[at + k]), float(h.sd[k]), float(h.least[k])
+                if c.kind == "slot":
+                    factors = h.weights[k] if h.weights else (1.0,) * len(h.columns[k])
+                    places = {key_of[column]: w for column, w in zip(h.columns[k], factors, strict=True)}
+                    found.append(Unknown(places, False, max(value, low), 0.0, sd, low, np.inf, h))
+                elif h.effect in self._state.active:
+                    found += self._logs(h, c.parameter, c.joints)
+            at += len(h.coefficients)
+        return list({(tuple(one.places), one.is_log): one for one in found}.values())
+
+    def _logs(self, h: Hypothesis, name: str, joints: tuple[int, ...]) -> list[Unknown]:
+        effect = next(e for e in self._problem.structure.offered if e.name == h.effect)
+        spec, own = effect.parameters[name], self._state.active[h.effect][name]
+        where = joints if spec.per_joint else (-1,)
+        found = []
+        for j in where:
+            value = float(own[max(j, 0)])
+            usual = np.log(spec.typical or value)
+            low, high = np.log(max(spec.lower, 1e-12)), np.log(spec.upper)
+            found.append(Unknown({(h.effect, name, j): 1.0}, True, np.log(value), usual, np.log(PRIOR), low, high, h))
+        return found
+
+    def _baseline(self) -> list[Unknown]:
+        coordinates, found = self._problem.coordinates, []
+        for name, sd, (low, high) in zip(
+            coordinates.names, coordinates.prior_sd(False), coordinates.bounds(), strict=True
+        ):
+            start = float(np.clip(self._state.shared.get(("", name, -1), 0.0), low, high))
+            found.append(Unknown({("", name, -1): 1.0}, False, start, 0.0, float(sd), low, high))
+        return found
+
+    def _ordinary(self) -> list[Unknown]:
+        library, found = self._found.lin.library, []
+        sds = dict(library.ordinary)
+        moved = {key: factor * one.start for one in self.common if not one.is_log for key, factor in one.places.items()}
+        for key, column in library.at.items():
+            if (sd := sds.get(column)) is None:
+                continue
+            start = self._state.shared.get(key, 0.0) - moved.get(key, 0.0)
+            most = TOLERANCE * sd
+            found.append(Unknown({key: 1.0}, False, float(np.clip(start, -most, most)), 0.0, sd, -most, most))
+        return found
+
+    def _own(self, run: int) -> list[Unknown]:
+        found = []
+        key_of = {column: key for key, column in self._found.lin.library.at.items()}
+        for h in self._found.chosen:
+            for column, sd in zip(h.local, h.local_sd, strict=True):
+                key = key_of[column]
+                start = self._state.own[run].get(key, 0.0)
+                found.append(Unknown({key: 1.0}, False, start, 0.0, float(sd), -np.inf, np.inf, h, run))
+        return found
+
+
+def _beginning(one: Unknown, start: Start) -> Unknown:
+    """The same where its beginning is not given, else with that."""
+    return replace(one, start=float(np.clip(start.get(one.place, one.start), one.lower, one.upper)))

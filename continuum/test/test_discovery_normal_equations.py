@@ -1,0 +1,125 @@
+"""Normal equations with eliminated unknowns against one dense least-squares problem."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+from continuum_laws.strategies import LAW
+from hypothesis import given
+from hypothesis import strategies as st
+
+from continuum.discovery.normal_equations import NormalEquations, Scale, Values
+from continuum.discovery.open_loop import Segment
+from continuum.discovery.unknowns import Unknown
+
+COMMON, LOCAL, N, ROWS, FLOOR = 4, 6, 2, 15, 0.01
+RUNS, SEGMENTS, OWN = 3, (1, 2, 1), (1, 0, 2)
+
+
+def unknown(random: np.random.Generator, low: float = -np.inf, high: float = np.inf) -> Unknown:
+    return Unknown({}, False, 0.0, float(random.normal()), float(random.uniform(0.5, 2)), low, high)
+
+
+class Drawn:
+    """Random segments of three runs, and all unknowns in one vector: common, own by run, local by segment."""
+
+    def __init__(self, seed: int, bounded: bool = False) -> None:
+        random = np.random.default_rng(seed)
+        bounds = (-0.05, 0.05) if bounded else (-np.inf, np.inf)
+        common = [unknown(random, *bounds) for _ in range(COMMON)]
+        self.unknowns = SimpleNamespace(common=common, own=tuple([unknown(random) for _ in range(m)] for m in OWN))
+        count = sum(SEGMENTS)
+        self.values = Values(
+            np.zeros(COMMON), tuple(random.normal(0, 1, m) for m in OWN), tuple(random.normal(0, 1, (count, LOCAL)))
+        )
+        self.precision = random.uniform(0.5, 2, LOCAL) ** -2
+        widths = [(r, COMMON + OWN[r] + LOCAL + 1) for r in range(RUNS) for _ in range(SEGMENTS[r])]
+        self.segments = [
+            Segment(r, slice(0, ROWS), np.zeros((ROWS, N)), random.normal(0, 1, (ROWS * N, width)))
+            for r, width in widths
+        ]
+        self.scale = Scale(self.segments, FLOOR)
+
+    @property
+    def normal(self) -> NormalEquations:
+        return NormalEquations(self.unknowns, self.values, self.segments, self.scale, self.precision)  # type: ignore[arg-type]
+
+    def columns(self, number: int) -> np.ndarray:
+        """Where a segment's unknowns stand in the one vector."""
+        run = self.segments[number].run
+        own = COMMON + sum(OWN[:run]) + np.arange(OWN[run])
+        local = COMMON + sum(OWN) + number * LOCAL + np.arange(LOCAL)
+        return np.concatenate([np.arange(COMMON), own, local]).astype(int)
+
+    def dense(self, left_out: int | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Information and right side of everything; one segment's rows may be left out."""
+        every = [*self.unknowns.common, *(one for own in self.unknowns.own for one in own)]
+        local = np.concatenate(self.values.local)
+        x = np.concatenate([self.values.common, *self.values.own, local])
+        precision = np.concatenate([[one.sd**-2 for one in every], np.tile(self.precision, len(self.segments))])
+        mean = np.concatenate([[one.mean for one in every], np.zeros(local.size)])
+        A, b = np.diag(precision), -precision * (x - mean)
+        for i, one in enumerate(self.segments):
+            if i != left_out:
+                at, w = self.columns(i), self.scale.weight(one)
+                J, r = one.slopes[:, :-1], one.slopes[:, -1]
+                A[np.ix_(at, at)] += w * J.T @ J
+                b[at] -= w * J.T @ r
+        return A, b
+
+
+@LAW
+@given(st.integers(0, 10**6))
+def test_a_step_is_that_of_all_unknowns_at_once(seed: int) -> None:
+    drawn = Drawn(seed)
+    A, b = drawn.dense()
+    step, found = np.linalg.solve(A, b), drawn.normal.stepped(0.0)
+    flat = np.concatenate([found.common, *found.own, *found.local])
+    at = np.concatenate([drawn.values.common, *drawn.values.own, *drawn.values.local])
+    np.testing.assert_allclose(flat - at, step, rtol=1e-6, atol=1e-8)
+
+
+@LAW
+@given(st.integers(0, 10**6))
+def test_spreads_are_those_of_the_whole_information(seed: int) -> None:
+    drawn = Drawn(seed)
+    whole = np.linalg.inv(drawn.dense()[0])
+    np.testing.assert_allclose(drawn.normal.covariance, whole[:COMMON, :COMMON], rtol=1e-6, atol=1e-10)
+    own = np.sqrt(np.diag(whole))[COMMON : COMMON + sum(OWN)]
+    np.testing.assert_allclose(np.concatenate(drawn.normal.own_sd()), own, rtol=1e-6)
+
+
+@LAW
+@given(st.integers(0, 10**6))
+def test_a_step_keeps_within_bounds(seed: int) -> None:
+    assert np.all(np.abs(Drawn(seed, bounded=True).normal.stepped(1e-4).common) <= 0.05 + 1e-12)
+
+
+@LAW
+@given(st.integers(0, 10**6))
+def test_errors_are_predicted_by_the_other_segments(seed: int) -> None:
+    """Common unknowns by all but the segment's rows; its own and its recording's fitted to all of the recording's."""
+    drawn = Drawn(seed)
+    errors = drawn.normal.predicted_errors()
+    A, b = drawn.dense()
+    for i, one in enumerate(drawn.segments):
+        common = np.linalg.solve(*drawn.dense(left_out=i))[:COMMON]
+        rest = np.arange(COMMON, len(b))
+        others = np.linalg.solve(A[np.ix_(rest, rest)], b[rest] - A[np.ix_(rest, np.arange(COMMON))] @ common)
+        at = drawn.columns(i)
+        step = np.concatenate([common, others])[at]
+        residual = one.slopes[:, -1] + one.slopes[:, :-1] @ step
+        np.testing.assert_allclose(errors[i], np.sqrt(np.mean(residual**2)), rtol=1e-6)
+
+
+@LAW
+@given(st.integers(0, 10**6), st.floats(0.1, 10.0))
+def test_a_cost_falls_where_its_gradient_points(seed: int, stretch: float) -> None:
+    """The weight of squared residuals is the slope of the cost, above the noise and below."""
+    drawn = Drawn(seed)
+    one = drawn.segments[0]
+    small = Segment(0, one.rows, one.readings, one.slopes * (stretch * FLOOR / one.error))
+    grown = Segment(0, one.rows, one.readings, small.slopes * (1 + 1e-6))
+    slope = (drawn.scale.cost(grown) - drawn.scale.cost(small)) / (0.5 * (grown.square - small.square))
+    np.testing.assert_allclose(slope, drawn.scale.weight(small), rtol=1e-3)
