@@ -55,14 +55,14 @@ def smoothed() -> Linearised:
 def fitted(effect: str = "") -> Fitted:
     lin = smoothed()
     chosen = tuple(h for h in lin.library.hypotheses if h.effect == effect and h.local and h.joints == (1,))
-    return OutputError(lin.problem, recordings()).fit(Found(lin, chosen, []))
+    return OutputError(lin.problem, recordings()).fit(Found(lin, chosen))
 
 
 def test_derivatives_are_differences_of_simulations() -> None:
     """By values that all recordings share, by a recording's own, and by a segment's beginning and zeros."""
     lin = smoothed()
     (offset,) = (h for h in lin.library.hypotheses if h.local and h.joints == (2,))
-    unknowns = Unknowns(lin.problem, Found(lin, (offset,), []), {})
+    unknowns = Unknowns(lin.problem, Found(lin, (offset,)), {})
     simulators, rows = Simulators(lin.problem, recordings(), FINE), slice(0, 40)
     n, k = lin.problem.structure.n, len(unknowns.common)
     common = np.array([one.start for one in unknowns.common])

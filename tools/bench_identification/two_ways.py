@@ -55,7 +55,7 @@ def by_smoothing(arm: MeasuredArm) -> Answer:
     structure.compile()
     began = time.perf_counter()
     problem, state = fitted_baseline(problem_of(structure, arm.runs))
-    found = Found(linearise(problem, state, live=()), (), [])
+    found = Found(linearise(problem, state, live=()), ())
     state = OutputError(problem, arm.runs).fit(found).state
     seconds = time.perf_counter() - began
     values = point_of(problem, state).values

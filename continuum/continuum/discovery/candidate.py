@@ -19,10 +19,12 @@ class Candidate:
     Attributes:
         effects: of the set; empty for the refitted baseline.
         errors: of open-loop simulations, root mean square by segment, (segments,) [rad]; NaN where one failed.
+        n_joints: of the arm.
     """
 
     effects: Key
     errors: Array
+    n_joints: int
 
     @property
     def completed(self) -> bool:

@@ -1,24 +1,20 @@
-"""From recordings to candidates: baseline, search, confirmation, once through."""
+"""From recordings to candidates: baseline, screening, fits, once through."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of
 from continuum.discovery.candidate import Candidate
+from continuum.discovery.decision import ALIKE
 from continuum.discovery.output_error import Fitted, OutputError
 from continuum.discovery.problem import Problem
-from continuum.discovery.search import Found, Progress, find
+from continuum.discovery.search import Found, Progress, screen, with_second
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
 from continuum.estimation.structure import Structure
 from continuum.recordings.recording import Recording
-
-MOST_FITTED = 5
-"""Sets that are fitted by open-loop simulations at most, the most probable first."""
 
 
 def silent(_what: str, _share: float) -> None:
@@ -40,7 +36,8 @@ class Examined:
     @property
     def candidate(self) -> Candidate:
         """For the decision."""
-        return Candidate(tuple(h.key for h in self.found.chosen), self.fit.errors)
+        n_joints = self.found.lin.problem.structure.n
+        return Candidate(tuple(h.key for h in self.found.chosen), self.fit.errors, n_joints)
 
 
 @dataclass(frozen=True)
@@ -51,7 +48,7 @@ class Examination:
         problem: fixed before the search.
         judge: what fits were made by.
         baseline: the refitted model alone.
-        others: sets of effects, the most probable first.
+        others: sets of effects.
         log: of the search, for developers.
     """
 
@@ -75,37 +72,78 @@ def examine(
     problem = problem_of(structure, recordings)
     progress("baseline", 0.1)
     problem, start = fitted_baseline(problem)
-    found = find(problem, start, progress)
-    progress("simulating open loop", 0.6)
-    judge = OutputError(problem, tuple(recordings))
-    ranked = _best_of_each(found.stages)[:MOST_FITTED] or [found.baseline]
-    fits = [judge.fit(ranked[0])]
-    for number, stage in enumerate(ranked[1:]):
-        progress("simulating open loop", 0.7 + 0.05 * number)
-        fits.append(judge.fit(stage, fits[0]))
-    best = fits[int(np.argmin([fit.error for fit in fits]))]
-    parts = [_is_part(stage, ranked[fits.index(best)]) for stage in ranked]
-    fits = [
-        judge.better(fit, stage, best) if part else fit for fit, stage, part in zip(fits, ranked, parts, strict=True)
-    ]
-    base = fits[0] if ranked[0] is found.baseline else judge.fit(found.baseline, best)
-    others = [Examined(stage, fit) for stage, fit in zip(ranked, fits, strict=True) if stage.chosen]
-    return Examination(problem, judge, Examined(found.baseline, base), tuple(others), tuple(found.log))
+    screened = screen(problem, start, progress)
+    fits = _Fits(OutputError(problem, tuple(recordings)))
+    for number, one in enumerate(screened.singles):
+        progress("simulating open loop", 0.6 + 0.05 * number)
+        fits.add(one)
+    fits.go_on()
+    if fits.leave_something:
+        progress("a second effect", 0.8)
+        for one in _distinct(with_second(problem, fits.nearest, screened)):
+            fits.add(one)
+        fits.go_on()
+    base = Examined(screened.baseline, fits.of_baseline(screened.baseline))
+    return Examination(problem, fits.judge, base, tuple(fits.examined), screened.log)
+
+
+class _Fits:
+    """Fits of sets, each beginning where the nearest so far ended."""
+
+    def __init__(self, judge: OutputError) -> None:
+        self.judge = judge
+        self.examined: list[Examined] = []
+
+    @property
+    def _best(self) -> Examined | None:
+        return min(self.examined, key=lambda one: one.fit.error, default=None)
+
+    @property
+    def nearest(self) -> Found:
+        """The set whose simulations are nearest."""
+        best = self._best
+        if best is None:
+            raise ValueError("nothing was fitted")
+        return best.found
+
+    @property
+    def leave_something(self) -> bool:
+        """Whether the nearest set's simulations err by more than the sensors."""
+        best = self._best
+        return best is not None and best.fit.error > (1 + ALIKE) * self.judge.floor
+
+    def go_on(self) -> None:
+        """Go on with the nearest set's fit while it errs by more than the sensors."""
+        best = self._best
+        if best is not None and self.leave_something:
+            self.examined[self.examined.index(best)] = Examined(
+                best.found, self.judge.better(best.fit, best.found, best.fit)
+            )
+
+    def of_baseline(self, found: Found) -> Fitted:
+        """Its fit by itself, or from where the nearest set's ended: what a bad optimum leaves is no effect's."""
+        fit, best = self.judge.fit(found), self._best
+        return self.judge.better(fit, found, best.fit) if best else fit
+
+    def add(self, found: Found) -> None:
+        """Fit a set; where it is the nearest, its parts are fitted again from there: they are nested in it."""
+        best = self._best
+        fit = self.judge.fit(found, best.fit if best else None)
+        self.examined.append(Examined(found, fit))
+        if fit.error > min(one.fit.error for one in self.examined):
+            return
+        for number, one in enumerate(self.examined):
+            if _is_part(one.found, found):
+                self.examined[number] = Examined(one.found, self.judge.better(one.fit, one.found, fit))
 
 
 def _is_part(one: Found, whole: Found) -> bool:
     return {h.key for h in one.chosen} < {h.key for h in whole.chosen}
 
 
-def _best_of_each(stages: Sequence[Found]) -> list[Found]:
-    """The most probable state of each set of effects, the most probable set first."""
-    best: dict[frozenset[object], tuple[float, Found]] = {}
-    for one in stages:
-        key, evidence = frozenset(h.key for h in one.chosen), _log_evidence(one)
-        if key not in best or evidence > best[key][0]:
-            best[key] = evidence, one
-    return [one for _, one in sorted(best.values(), key=lambda pair: -pair[0])]
-
-
-def _log_evidence(found: Found) -> float:
-    return found.lin.evidence.total(found.chosen, with_constraints=True)
+def _distinct(sets: Sequence[Found]) -> list[Found]:
+    """The most probable state of each set of effects."""
+    best: dict[frozenset[object], Found] = {}
+    for one in sorted(sets, key=lambda one: one.log_evidence):
+        best[frozenset(h.key for h in one.chosen)] = one
+    return list(best.values())

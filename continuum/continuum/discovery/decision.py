@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from math import exp
+from math import exp, log
 
 import numpy as np
 from scipy.stats import t as student
@@ -21,7 +21,7 @@ from continuum.discovery.candidate import Candidate, Key
 PRICE = 6.0
 """Prior log-odds against one more effect: e^6 = 400 to 1 against any given one of some sixty at a few places."""
 CHANCE = 0.05
-"""Probability with which a test errs; of an effect, times its prior odds."""
+"""Probability with which a test errs."""
 LEAST_SHARE = 0.5
 """Least closed share of a cause: a cause explains most of what the simulation gets wrong."""
 ALIKE = 0.05
@@ -57,14 +57,15 @@ class Verdict:
     helps: Key = ()
 
 
-def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, is_adequate: bool) -> Verdict:
+def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, tolerance: float, whole: float) -> Verdict:
     """One verdict from all candidates.
 
     Args:
         baseline: the refitted model alone.
         others: sets of effects.
         floor: of an open-loop error, by the sensors' noise [rad].
-        is_adequate: whether the baseline simulates whole recordings as well as a user asks.
+        tolerance: error that a user accepts [rad].
+        whole: error of the baseline's simulations of whole recordings [rad].
     """
     floor = min(floor, *(one.error for one in (baseline, *others)))
     others = sorted((one for one in others if one.completed), key=lambda one: (log_error(one), str(one.effects)))
@@ -75,13 +76,14 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, is_ad
         parts = [part for part in others if set(part.effects) < set(whole.effects)]
         return any(not nearer(part, whole, alike) for part in parts)
 
-    def is_probable(one: Candidate) -> bool:
-        return nearer(baseline, one, 0.0, CHANCE * exp(-PRICE * len(one.effects)))
+    def is_probable(one: Candidate) -> bool:  # each joint in each segment is one observation of unknown variance
+        gained = one.n_joints * len(one.errors) * (log_error(baseline) - log_error(one))
+        return gained > PRICE * len(one.effects) - log(CHANCE)
 
     probable = [one for one in others if is_probable(one) and not is_needless(one)]
     possible = [one for one in probable if closed(baseline, one, floor)[1] > LEAST_SHARE]
     if not possible:
-        if is_adequate:
+        if whole < tolerance or (baseline.error < tolerance and not probable):
             return Verdict(Kind.ADEQUATE, ((),), (1.0,), not probable)
         return Verdict(Kind.UNKNOWN, (), (), False, probable[0].effects if probable else ())
     best = possible[0]
@@ -98,17 +100,17 @@ def log_error(one: Candidate) -> float:
     return float(np.mean(np.log(one.errors))) if one.completed else np.inf
 
 
-def nearer(one: Candidate, other: Candidate, by: float, chance: float = CHANCE) -> bool:
+def nearer(one: Candidate, other: Candidate, by: float) -> bool:
     """Whether the logarithm of open-loop errors falls from one to the other by more than ``by``.
 
-    One-sided t test over segments, which errs with a probability ``chance``.
+    One-sided t test over segments.
     """
     if not (one.completed and other.completed):
         return other.completed
     fallen, n = np.log(one.errors / other.errors), len(one.errors)
     if n == 1:
         return False
-    half = student.ppf(1 - chance, n - 1) * np.std(fallen, ddof=1) / np.sqrt(n)
+    half = student.ppf(1 - CHANCE, n - 1) * np.std(fallen, ddof=1) / np.sqrt(n)
     return bool(np.mean(fallen) - half > by)
 
 

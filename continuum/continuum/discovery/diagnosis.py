@@ -66,7 +66,7 @@ def _answer(
     others = [one.candidate for one in found.others]
     before = found.judge.whole(base.fit)
     errors = [before.error(r, run.theta) for r, run in enumerate(recordings)]
-    verdict = decide(base.candidate, others, floor, bool(np.sqrt(np.mean(np.square(errors))) < accepted))
+    verdict = decide(base.candidate, others, floor, accepted, float(np.sqrt(np.mean(np.square(errors)))))
     odd = odd_rates(recordings)
     if odd:  # nothing that is fitted to readings which contradict each other can be trusted
         verdict = Verdict(Kind.UNKNOWN, (), (), False)

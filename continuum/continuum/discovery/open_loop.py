@@ -16,7 +16,7 @@ from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.simulator import Simulator
-from continuum.dynamics.trajectory import SimulationStatus
+from continuum.dynamics.trajectory import SimulationStatus, Trajectory
 from continuum.dynamics.values import parameter_vector, with_vector
 from continuum.recordings.recording import Recording
 
@@ -167,15 +167,19 @@ class RunSimulation:
         """State at a row, (n_x,), and its derivative by all unknowns but the zeros, (n_x, k + 2 n)."""
         n, k = self._problem.structure.n, self._directions.shape[1]
         q, w = self._way.q[row] + local[:n], self._way.w[row] + local[n : 2 * n]
-        states = self._effect_states(q, row)
+        states = self._at_rest(q, row)
         slopes = np.zeros((2 * n + states.size, k + 2 * n))
         slopes[: 2 * n, k:] = np.eye(2 * n)
         if states.size:
             for j, step in enumerate(STEP * np.eye(n)):
-                slopes[2 * n :, k + j] = (self._effect_states(q + step, row) - states) / STEP
+                slopes[2 * n :, k + j] = (self._at_rest(q + step, row) - states) / STEP
+        if states.size and row:
+            moved, slopes[2 * n :, :k] = self._moved(row)
+            states = states + moved
         return np.concatenate([q, w, states]), slopes
 
-    def _effect_states(self, q: Array, row: int) -> Array:
+    def _at_rest(self, q: Array, row: int) -> Array:
+        """Effects' states in an arm that rests at angles q."""
         u, p = self._run.inputs[self._run.first[row]], self._model.changed_parameters
         found = [
             np.asarray(a.effect.initial_state(q, u, a.values, p), dtype=float)
@@ -183,6 +187,21 @@ class RunSimulation:
             if a.effect.n_states(q.size)
         ]
         return np.concatenate([np.zeros(0), *found])
+
+    @cached_property
+    def _whole(self) -> Trajectory:
+        """The run simulated from its smoothed beginning, by which effects' states amid it are known."""
+        x0, slopes = self._beginning(0, np.zeros(3 * self._problem.structure.n))
+        k = self._directions.shape[1]
+        return self._simulator.run(x0, self._run.times, self._inputs, free=self._directions, free_initial=slopes[:, :k])
+
+    def _moved(self, row: int) -> tuple[Array, Array]:
+        """By how much effects' states are not those at rest, and the derivative of that, (n_z,) and (n_z, k)."""
+        n, found = self._problem.structure.n, self._whole
+        if found.status is not SimulationStatus.COMPLETE:
+            nothing = self._at_rest(self._way.q[row], row) * 0.0
+            return nothing, np.zeros((nothing.size, self._directions.shape[1]))
+        return found.states[row, 2 * n :] - self._at_rest(found.theta[row], row), found.slopes[row, 2 * n :]
 
     def _read(self, rows: slice, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]]) -> Array:
         """Angles as the sensors read them but for their zeros, (rows, n) [rad]."""

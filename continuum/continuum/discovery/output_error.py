@@ -28,8 +28,9 @@ in 2 s segments fits ended 1.5 to 4 times above the noise, by joints that came t
 _AT_REST = (-0.2, 0.3)
 """Where Stribeck's torque begins (multi-start), in dry frictions above the model file's. A smoothed motion tells little
 of friction near rest, and a fit finds it from within some 0.3."""
-_FIRST = 2  # steps from each of these
-_ITERATIONS = 6
+_FIRST = 2  # steps, after which the nearest start is followed, and what is far is given up
+_ITERATIONS = 5  # further steps at most
+_FAR = 2.0  # times the error of another set's fit, with which a set is not fitted further
 _SETTLED, _STILL = 0.01, 2  # relative fall of the cost, and steps in a row with less, after which a fit ends
 _RISE = 0.2  # relative rise of the cost that a step may have
 _DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises
@@ -87,6 +88,24 @@ class Fitted:
         return {one.place: float(value) for one, value in pairs}
 
 
+@dataclass(frozen=True)
+class _Iterate:
+    """Values, and segments simulated there."""
+
+    unknowns: Unknowns
+    values: Values
+    segments: Sequence[Segment]
+
+    @property
+    def completed(self) -> bool:
+        return all(np.isfinite(one.square) for one in self.segments)
+
+    @property
+    def error(self) -> float:
+        """Mean over the segments [rad]; infinite where a simulation failed."""
+        return float(np.mean([one.error for one in self.segments])) if self.completed else np.inf
+
+
 class OutputError:
     """Fits of one problem's recordings.
 
@@ -115,23 +134,16 @@ class OutputError:
             found: the set, and where a search left it.
             near: fit of another set, from which this one begins.
         """
-        if near is not None:
-            return self._fitted(*self._optimum(*self._begun(found, near.place), _ITERATIONS))
-        begun = (self._begun(found, _at_rest(rise)) for rise in _AT_REST)
-        tried = [self._optimum(unknowns, values, _FIRST) for unknowns, values in begun]
-        unknowns, values, _ = min(tried, key=lambda one: sum(segment.error for segment in one[-1]))
-        return self._fitted(*self._optimum(unknowns, values, _ITERATIONS))
+        starts = [_at_rest(rise) for rise in _AT_REST] if near is None else [near.place]
+        begun = [self._optimum(self._begun(found, start), _FIRST) for start in starts]
+        best = min(begun, key=lambda one: one.error)
+        if near is not None and found.chosen and best.error > _FAR * near.error:
+            return self._fitted(best)
+        return self._fitted(self._optimum(best, _ITERATIONS))
 
     def better(self, fit: Fitted, found: Found, near: Fitted) -> Fitted:
         """A set's fit, or that from where another fit ended, whichever is nearer."""
         return min(fit, self.fit(found, near), key=lambda one: one.error)
-
-    def _begun(self, found: Found, start: Start) -> tuple[Unknowns, Values]:
-        """Where a fit begins, some unknowns being given."""
-        unknowns = Unknowns(self._problem, found, start)
-        none = np.zeros(len(self._local_precision))
-        common = np.array([one.start for one in unknowns.common])
-        return unknowns, Values(common, unknowns.own_start, tuple(none for rows in self._cuts for _ in rows))
 
     def whole(self, fit: Fitted) -> OpenLoop:
         """Every recording simulated from where its first segment begins."""
@@ -142,35 +154,43 @@ class OutputError:
             number += len(self._cuts[r])
         return OpenLoop(tuple(found), self.floor)
 
-    def _optimum(self, unknowns: Unknowns, values: Values, iterations: int) -> tuple[Unknowns, Values, list[Segment]]:
-        """The unknowns, their best values, and segments there."""
-        segments = self._simulated(unknowns, values)
-        best, best_segments, damping, still = values, segments, _DAMPING, 0
+    def _begun(self, found: Found, start: Start) -> _Iterate:
+        """Where a fit begins, some unknowns being given."""
+        unknowns = Unknowns(self._problem, found, start)
+        none = np.zeros(len(self._local_precision))
+        common = np.array([one.start for one in unknowns.common])
+        values = Values(common, unknowns.own_start, tuple(none for rows in self._cuts for _ in rows))
+        return _Iterate(unknowns, values, self._simulated(unknowns, values))
+
+    def _optimum(self, here: _Iterate, iterations: int) -> _Iterate:
+        """The best of some Levenberg-Marquardt steps."""
+        best, damping, still = here, _DAMPING, 0
         for _ in range(iterations):
-            if not all(np.isfinite(one.square) for one in segments):
+            if not here.completed:
                 break
-            trial = self._normal(unknowns, values, segments).stepped(damping)
-            there = self._simulated(unknowns, trial)
-            scale = Scale(best_segments, self.floor)
-            cost = self._cost(unknowns, best, best_segments, scale)
-            fall = (cost - self._cost(unknowns, trial, there, scale)) / cost
+            trial = self._normal(here).stepped(damping)
+            there = _Iterate(here.unknowns, trial, self._simulated(here.unknowns, trial))
+            scale = Scale(best.segments, self.floor)
+            cost = self._cost(best, scale)
+            fall = (cost - self._cost(there, scale)) / cost
             if fall > -_RISE:
-                values, segments, damping = trial, there, max(damping / _MORE, _DAMPING)
+                here, damping = there, max(damping / _MORE, _DAMPING)
             else:
                 damping *= _MORE
             if fall > 0:
-                best, best_segments = trial, there
+                best = there
             still = 0 if fall > _SETTLED else still + 1
             if still == _STILL:
                 break
-        return unknowns, best, best_segments
+        return best
 
-    def _normal(self, unknowns: Unknowns, values: Values, segments: Sequence[Segment]) -> NormalEquations:
-        return NormalEquations(unknowns, values, segments, Scale(segments, self.floor), self._local_precision)
+    def _normal(self, at: _Iterate) -> NormalEquations:
+        scale = Scale(at.segments, self.floor)
+        return NormalEquations(at.unknowns, at.values, at.segments, scale, self._local_precision)
 
-    def _cost(self, unknowns: Unknowns, values: Values, segments: Sequence[Segment], scale: Scale) -> float:
+    def _cost(self, at: _Iterate, scale: Scale) -> float:
         """Minus the log-posterior, less a constant; infinite where a simulation failed."""
-        cost = sum(scale.cost(one) for one in segments) + prior_cost(unknowns, values, self._local_precision)
+        cost = sum(scale.cost(one) for one in at.segments) + prior_cost(at.unknowns, at.values, self._local_precision)
         return cost if np.isfinite(cost) else np.inf
 
     def _simulated(self, unknowns: Unknowns, values: Values) -> list[Segment]:
@@ -186,13 +206,14 @@ class OutputError:
             segments += [run.segment(one, next(local)) for one in rows]
         return segments
 
-    def _fitted(self, unknowns: Unknowns, values: Values, segments: Sequence[Segment]) -> Fitted:
+    def _fitted(self, at: _Iterate) -> Fitted:
+        unknowns, values = at.unknowns, at.values
         state, k = unknowns.state(values.common, values.own), len(values.common)
-        if not all(np.isfinite(one.square) for one in segments):
+        if not at.completed:
             none = tuple(np.full(len(own), np.nan) for own in values.own)
-            failed = np.full(len(segments), np.nan)
+            failed = np.full(len(at.segments), np.nan)
             return Fitted(state, unknowns, values, np.full((k, k), np.nan), none, failed)
-        normal = self._normal(unknowns, values, segments)
+        normal = self._normal(at)
         return Fitted(state, unknowns, values, normal.covariance, normal.own_sd(), normal.predicted_errors())
 
 

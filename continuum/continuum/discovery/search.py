@@ -1,4 +1,4 @@
-"""Search for the set of effects with the highest posterior: screen, refine, screen again.
+"""Search for sets of effects with a high posterior: screen, refine, screen for a second effect.
 
 A set is brought to its own optimum before a second effect is looked for beside it: an unconverged trajectory makes
 effects look present that only repair the linearisation.
@@ -7,7 +7,7 @@ effects look present that only repair the linearisation.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -37,28 +37,44 @@ _EXCHANGES = 3  # times that a second effect is added, or one of two exchanged
 type Progress = Callable[[str, float], None]
 
 
-@dataclass
+@dataclass(frozen=True)
 class Found:
-    """Where a search ended.
+    """A set of effects at its own optimum.
 
     Attributes:
-        lin: the state about the best set, linearised.
-        chosen: the best set, empty where none is better than the baseline.
-        log: what was best at each step, for developers.
-        stages: every set that was refined, for confirmation.
-        before: the search's beginning, without any effect.
+        lin: the state about the set, linearised.
+        chosen: the set.
     """
 
     lin: Linearised
     chosen: Set
-    log: list[str]
-    stages: list[Found] = field(default_factory=list)
-    before: Linearised | None = None
 
     @property
-    def baseline(self) -> Found:
-        """The model without any effect."""
-        return Found(self.before or self.lin, (), [])
+    def log_evidence(self) -> float:
+        """Of the set."""
+        return self.lin.evidence.total(self.chosen, with_constraints=True)
+
+    @property
+    def score(self) -> float:
+        """Log-evidence less the price of its effects."""
+        return self.log_evidence - price(self.chosen)
+
+
+@dataclass(frozen=True)
+class Screened:
+    """Single effects, those that promise most refined.
+
+    Attributes:
+        baseline: the model without any effect.
+        singles: sets of one effect, the best first.
+        live: effects that may stand beside another.
+        log: what was best at each step, for developers.
+    """
+
+    baseline: Found
+    singles: tuple[Found, ...]
+    live: frozenset[str]
+    log: tuple[str, ...]
 
 
 def price(chosen: Set) -> float:
@@ -71,38 +87,24 @@ def label(chosen: Set) -> str:
     return " + ".join(h.label for h in chosen) or "none"
 
 
-def find(problem: Problem, start: State, progress: Progress) -> Found:
-    """Follow the best single effects to their optimum, add a second where it is better, and keep the best of all."""
-    first = linearise(problem, start)
-    base = first.evidence.total((), with_constraints=True)
-    ranked = ranked_singles(first.evidence, first.library.hypotheses)
+def screen(problem: Problem, start: State, progress: Progress) -> Screened:
+    """Rank all single effects about the baseline, and bring the best to their own optimum."""
+    first = Found(linearise(problem, start), ())
+    base, lin = first.log_evidence, first.lin
+    ranked = ranked_singles(lin.evidence, lin.library.hypotheses)
+    most = ranked[0][0] - base
     log = ["singles: " + ", ".join(f"{h.label} {e - base:.0f}" for e, h in ranked[:6])]
-    best = Found(first, (), log)
-    best_score = base
-    live = {h.effect for e, h in ranked if e - base > LONG_SHOT * (ranked[0][0] - base) - PRICE}
     tried: list[Found] = []
-    stages: list[Found] = []
     for number, (e, h) in enumerate(_by_family(ranked)[:FAMILIES]):
         part = RUNNER_UP if any(_explains(one) for one in tried) else LONG_SHOT
-        if e - base < PRICE or (number and e < base + part * (ranked[0][0] - base)):
+        if e - base < PRICE or (number and e < base + part * most):
             break
-        progress(f"refining {h.label}", 0.2 + 0.1 * number)
-        found = refined(problem, first, (h,))
-        if found is None:
-            log.append(f"{h.label}: diverged")
-            continue
-        log.append(f"refined {label(found.chosen)}: {found.lin.evidence.total(found.chosen) - base:.0f}")
-        tried.append(found)
-        stages.append(found)
-    for found in sorted(tried, key=_score, reverse=True)[: 1 if any(map(_explains, tried)) else 2]:
-        grown = _with_second(problem, found, live, log, base, stages)
-        if _score(grown) > best_score:
-            best, best_score = grown, _score(grown)
-    return Found(best.lin, best.chosen, log, stages, first)
-
-
-def _score(found: Found) -> float:
-    return found.lin.evidence.total(found.chosen, with_constraints=True) - price(found.chosen)
+        progress(f"refining {h.label}", 0.2 + 0.08 * number)
+        found = refined(problem, lin, (h,))
+        log.append(f"refined {h.label}: {found.log_evidence - base:.0f}" if found else f"{h.label}: diverged")
+        tried += [found] if found else []
+    live = frozenset(h.effect for e, h in ranked if e - base > LONG_SHOT * most - PRICE)
+    return Screened(first, tuple(sorted(tried, key=lambda one: -one.score)), live, tuple(log))
 
 
 def _explains(found: Found) -> bool:
@@ -157,7 +159,7 @@ def refined(problem: Problem, lin: Linearised, chosen: Set) -> Found | None:
         if settled and abs(after - before) < PRICE / 3:
             break
         before = after
-    return Found(lin, chosen, [])
+    return Found(lin, chosen)
 
 
 def near(problem: Problem, level: int) -> list[int]:
@@ -174,15 +176,14 @@ def matching(lin: Linearised, keys: Sequence[tuple[str, tuple[int, ...] | None]]
     return tuple(out)
 
 
-def _with_second(
-    problem: Problem, found: Found, live: set[str], log: list[str], base: float, stages: list[Found]
-) -> Found:
-    """The set with a second effect, or another in the place of one, as long as that is better."""
-    best, failed, looked = found, set[str](), None
+def with_second(problem: Problem, found: Found, screened: Screened) -> list[Found]:
+    """Sets with a second effect, or another in the place of one, each more probable than the one before."""
+    best, failed, looked, out = found, set[str](), None, list[Found]()
+    base = screened.baseline.log_evidence
     for _ in range(_EXCHANGES):
         if looked is not best:  # all that may stand beside the set, about its own optimum
             level = best.lin.levels[best.lin.evidence.best_level(best.chosen)]
-            effects = live | {h.effect for h in best.chosen}
+            effects = screened.live | {h.effect for h in best.chosen}
             lin = linearise(problem, best.lin.state, near(problem, level), effects)
             standing, looked = matching(lin, [h.key for h in best.chosen]), best
         alone = lin.evidence.total(standing, with_constraints=True) - price(standing)
@@ -198,14 +199,12 @@ def _with_second(
         if {h.key for h in chosen} == {h.key for h in best.chosen}:
             break
         grown = refined(problem, lin, chosen)
-        if grown is None or _score(grown) < _score(best) + PRICE / 3:
+        if grown is None or grown.score < best.score + PRICE / 3:
             failed.add(label(chosen))
-            log.append(f"{label(chosen)}: no better when refined")
             continue
-        log.append(f"refined {label(grown.chosen)}: {grown.lin.evidence.total(grown.chosen) - base:.0f}")
         best = grown
-        stages.append(grown)
-    return best
+        out.append(grown)
+    return out
 
 
 def compatible(chosen: Set) -> bool:
