@@ -82,7 +82,6 @@ def examine(
         progress("a second effect", 0.8)
         for one in _distinct(with_second(problem, fits.nearest, screened)):
             fits.add(one)
-        fits.go_on()
     base = Examined(screened.baseline, fits.of_baseline(screened.baseline))
     return Examination(problem, fits.judge, base, tuple(fits.examined), screened.log)
 
@@ -116,14 +115,13 @@ class _Fits:
         """Go on with the nearest set's fit while it errs by more than the sensors."""
         best = self._best
         if best is not None and self.leave_something:
-            self.examined[self.examined.index(best)] = Examined(
-                best.found, self.judge.better(best.fit, best.found, best.fit)
-            )
+            fit = min(best.fit, self.judge.further(best.found, best.fit), key=lambda one: one.error)
+            self.examined[self.examined.index(best)] = Examined(best.found, fit)
 
     def of_baseline(self, found: Found) -> Fitted:
-        """Its fit by itself, or from where the nearest set's ended: what a bad optimum leaves is no effect's."""
-        fit, best = self.judge.fit(found), self._best
-        return self.judge.better(fit, found, best.fit) if best else fit
+        """Its fit, by multi-start and from where the nearest set's ended: what a bad optimum leaves is no effect's."""
+        best = self._best
+        return self.judge.fit(found, best.fit if best else None, multi_start=True)
 
     def add(self, found: Found) -> None:
         """Fit a set; where it is the nearest, its parts are fitted again from there: they are nested in it."""
@@ -134,7 +132,8 @@ class _Fits:
             return
         for number, one in enumerate(self.examined):
             if _is_part(one.found, found):
-                self.examined[number] = Examined(one.found, self.judge.better(one.fit, one.found, fit))
+                nested = min(one.fit, self.judge.fit(one.found, fit), key=lambda each: each.error)
+                self.examined[number] = Examined(one.found, nested)
 
 
 def _is_part(one: Found, whole: Found) -> bool:

@@ -127,23 +127,25 @@ class OutputError:
         n = self._problem.structure.n
         return float(np.sqrt(np.mean(np.diag(self._problem.noise.white)[:n])))
 
-    def fit(self, found: Found, near: Fitted | None = None) -> Fitted:
+    def fit(self, found: Found, near: Fitted | None = None, multi_start: bool = False) -> Fitted:
         """Fit a set.
 
         Args:
             found: the set, and where a search left it.
             near: fit of another set, from which this one begins.
+            multi_start: whether it begins from where a fit without another's does, too.
         """
-        starts = [_at_rest(rise) for rise in _AT_REST] if near is None else [near.place]
+        starts = [_at_rest(rise) for rise in _AT_REST] if near is None or multi_start else []
+        starts += [near.place] if near else []
         begun = [self._optimum(self._begun(found, start), _FIRST) for start in starts]
         best = min(begun, key=lambda one: one.error)
-        if near is not None and found.chosen and best.error > _FAR * near.error:
+        if near is not None and not multi_start and best.error > _FAR * near.error:
             return self._fitted(best)
         return self._fitted(self._optimum(best, _ITERATIONS))
 
-    def better(self, fit: Fitted, found: Found, near: Fitted) -> Fitted:
-        """A set's fit, or that from where another fit ended, whichever is nearer."""
-        return min(fit, self.fit(found, near), key=lambda one: one.error)
+    def further(self, found: Found, fit: Fitted) -> Fitted:
+        """Go on with a set's fit."""
+        return self._fitted(self._optimum(self._begun(found, fit.place), _ITERATIONS))
 
     def whole(self, fit: Fitted) -> OpenLoop:
         """Every recording simulated from where its first segment begins."""
