@@ -38,7 +38,7 @@ Share of the open-loop error that each effect closes, and what stays unknown:
 
 {table(("", "share, 95 % interval"), shares_in_words(result))}
 
-Intervals of shares come from the spread over recordings, which a single one does not tell.
+Intervals of shares come from the spread over the segments of half a second that are simulated.
 
 Standard deviation of the missing torque, refitted{" -> extended" * result.is_extended} model:
 
