@@ -25,6 +25,8 @@ from continuum.recordings.recording import Recording
 SEGMENT = 0.5
 """Length of a segment [s]: about a swing of an arm's slowest mode. What is wrong with the equations shows within it;
 in 2 s segments fits ended 1.5 to 4 times above the noise, by joints that came to rest elsewhere."""
+_ENOUGH = 16
+"""Segments that are simulated, spread evenly over all recordings: the time of a fit does not grow with the data."""
 _AT_REST = (-0.2, 0.3)
 """Where Stribeck's torque begins (multi-start), in dry frictions above the model file's. A smoothed motion tells little
 of friction near rest, and a fit finds it from within some 0.3."""
@@ -119,7 +121,9 @@ class OutputError:
         n = problem.structure.n
         sd = np.concatenate([np.repeat(_BEGINNING, n), problem.noise.slow])
         self._local_precision = sd**-2.0
-        self._cuts = [cut(run.times, SEGMENT) for run in problem.runs]
+        cuts = [cut(run.times, SEGMENT) for run in problem.runs]
+        apart = max(1, round(sum(map(len, cuts)) / _ENOUGH))
+        self._cuts = [rows[::apart] for rows in cuts]  # the first of each recording among them
 
     @cached_property
     def floor(self) -> float:
