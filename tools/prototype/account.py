@@ -111,7 +111,7 @@ def simulated_from(problem: Problem, state: State, part: Recording, q: Array, w:
     way = Trajectory(rows * q, rows * w, 0 * rows * q, 0 * rows * q)
     there = Simulators(replace(problem, runs=(run,)), (part,))
     simulation = RunSimulation(there, replace(state, ways=(way,)), 0, [], [])
-    return simulation.segment(slice(0, part.times.size), np.zeros(3 * part.n_joints)).readings
+    return simulation.readings(slice(0, part.times.size), np.zeros(3 * part.n_joints))
 
 
 def every_effect_alone(found: Examination) -> list[tuple[str, float, float]]:

@@ -12,6 +12,11 @@ type Key = tuple[tuple[str, tuple[int, ...] | None], ...]
 """Effects of a set and the joints at which each acts, from 0; None where it belongs to the whole arm."""
 
 
+def mean_error(errors: Array) -> float:
+    """Mean over the segments [rad]; infinite where a simulation failed."""
+    return float(np.mean(errors)) if np.all(np.isfinite(errors)) else np.inf
+
+
 @dataclass(frozen=True)
 class Candidate:
     """A set of effects.
@@ -34,4 +39,4 @@ class Candidate:
     @property
     def error(self) -> float:
         """Mean over the segments [rad]; infinite where a simulation failed."""
-        return float(np.mean(self.errors)) if self.completed else np.inf
+        return mean_error(self.errors)

@@ -78,9 +78,9 @@ def examine(
         progress("simulating open loop", 0.6 + 0.05 * number)
         fits.add(one)
     fits.go_on()
-    if fits.leave_something:
+    if (best := fits.unexplained) is not None:
         progress("a second effect", 0.8)
-        for one in _distinct(with_second(problem, fits.nearest, screened)):
+        for one in _distinct(with_second(problem, best.found, screened)):
             fits.add(one)
     base = Examined(screened.baseline, fits.of_baseline(screened.baseline))
     return Examination(problem, fits.judge, base, tuple(fits.examined), screened.log)
@@ -98,23 +98,14 @@ class _Fits:
         return min(self.examined, key=lambda one: one.fit.error, default=None)
 
     @property
-    def nearest(self) -> Found:
-        """The set whose simulations are nearest."""
+    def unexplained(self) -> Examined | None:
+        """The nearest set, where its simulations err by more than the sensors."""
         best = self._best
-        if best is None:
-            raise ValueError("nothing was fitted")
-        return best.found
-
-    @property
-    def leave_something(self) -> bool:
-        """Whether the nearest set's simulations err by more than the sensors."""
-        best = self._best
-        return best is not None and best.fit.error > (1 + ALIKE) * self.judge.floor
+        return best if best and best.fit.error > (1 + ALIKE) * self.judge.floor else None
 
     def go_on(self) -> None:
-        """Go on with the nearest set's fit while it errs by more than the sensors."""
-        best = self._best
-        if best is not None and self.leave_something:
+        """Go on with the nearest set's fit where it errs by more than the sensors."""
+        if (best := self.unexplained) is not None:
             fit = min(best.fit, self.judge.further(best.found, best.fit), key=lambda one: one.error)
             self.examined[self.examined.index(best)] = Examined(best.found, fit)
 

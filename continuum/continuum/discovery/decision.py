@@ -67,14 +67,14 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
         tolerance: error that a user accepts [rad].
         whole: error of the baseline's simulations of whole recordings [rad].
     """
-    floor = min(floor, *(one.error for one in (baseline, *others)))
+    floor = least_error([baseline, *others], floor)
     others = sorted((one for one in others if one.completed), key=lambda one: (log_error(one), str(one.effects)))
     lowest = log_error(others[0]) if others else np.inf
     alike = ALIKE * max(log_error(baseline) - lowest, 0.0)
 
-    def is_needless(whole: Candidate) -> bool:  # a part of it simulates as well
-        parts = [part for part in others if set(part.effects) < set(whole.effects)]
-        return any(not nearer(part, whole, alike) for part in parts)
+    def is_needless(one: Candidate) -> bool:  # a part of it simulates as well
+        parts = [part for part in others if set(part.effects) < set(one.effects)]
+        return any(not nearer(part, one, alike) for part in parts)
 
     def is_probable(one: Candidate) -> bool:  # each joint in each segment is one observation of unknown variance
         gained = one.n_joints * len(one.errors) * (log_error(baseline) - log_error(one))
@@ -93,6 +93,11 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
     complete = closed(baseline, best, floor)[2] > 1 - ALIKE
     kind = Kind.AMBIGUOUS if len(sets) > 1 else Kind.CAUSE
     return Verdict(kind, tuple(one.effects for one in sets), probabilities, complete)
+
+
+def least_error(candidates: Sequence[Candidate], floor: float) -> float:
+    """The noise [rad]: no more than what the best simulation leaves."""
+    return min(floor, *(one.error for one in candidates))
 
 
 def log_error(one: Candidate) -> float:

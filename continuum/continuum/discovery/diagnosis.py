@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidates import Examination, Examined, examine, silent
-from continuum.discovery.decision import Kind, Verdict, closed, decide
+from continuum.discovery.decision import Kind, Verdict, closed, decide, least_error
 from continuum.discovery.estimates import baseline_estimates, estimates_of
 from continuum.discovery.extended import model_of
 from continuum.discovery.missing_torque import missing_torque
@@ -75,8 +75,11 @@ def _answer(
     sets = tuple(_causes(found, by_key[frozenset(key)]) for key in keys)
     best = by_key[frozenset(keys[0])] if keys else base
     share = _share(found, best)
-    (sigma, torque), (less_sigma, less_torque) = (missing_torque(problem, one.found) for one in (base, best))
-    after = found.judge.whole(best.fit)
+    sigma, torque = less_sigma, less_torque = missing_torque(problem, base.found)
+    after = before
+    if best is not base:
+        less_sigma, less_torque = missing_torque(problem, best.found)
+        after = found.judge.whole(best.fit)
     return Diagnosis(
         verdict, sets, share, (sigma, less_sigma), (torque, less_torque), baseline_estimates(problem, best.fit), before,
         after, model_of(problem, base.fit.state, (), model),
@@ -86,7 +89,7 @@ def _answer(
 
 
 def _share(found: Examination, one: Examined) -> Share:
-    floor = min(found.judge.floor, *(other.candidate.error for other in (found.baseline, *found.others)))
+    floor = least_error([other.candidate for other in (found.baseline, *found.others)], found.judge.floor)
     return Share(*closed(found.baseline.candidate, one.candidate, floor))
 
 

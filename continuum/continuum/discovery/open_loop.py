@@ -163,6 +163,15 @@ class RunSimulation:
         J[run.live[rows, :n] <= 0] = 0.0
         return Segment(self._r, rows, read + zeros, J.reshape(-1, width + 1))
 
+    def readings(self, rows: slice, local: Array) -> Array:
+        """The same as `Segment.readings`, without derivatives, (rows, n) [rad]."""
+        n = self._problem.structure.n
+        x0, _ = self._beginning(rows.start, local)
+        found = self._simulator.run(x0, self._run.times[rows], self._inputs)
+        if found.status is not SimulationStatus.COMPLETE:
+            return np.full_like(found.theta, np.nan)
+        return self._read(rows, found.theta, found.theta_rate, self._own) + local[2 * n :]
+
     def _beginning(self, row: int, local: Array) -> tuple[Array, Array]:
         """State at a row, (n_x,), and its derivative by all unknowns but the zeros, (n_x, k + 2 n)."""
         n, k = self._problem.structure.n, self._directions.shape[1]

@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.discovery.candidate import mean_error
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values, prior_cost
 from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut, extended_model
 from continuum.discovery.problem import Problem, State
@@ -79,7 +80,7 @@ class Fitted:
     @property
     def error(self) -> float:
         """Mean of the errors [rad]; infinite where a simulation failed."""
-        return float(np.mean(self.errors)) if np.all(np.isfinite(self.errors)) else np.inf
+        return mean_error(self.errors)
 
     @property
     def place(self) -> Start:
@@ -105,7 +106,7 @@ class _Iterate:
     @property
     def error(self) -> float:
         """Mean over the segments [rad]; infinite where a simulation failed."""
-        return float(np.mean([one.error for one in self.segments])) if self.completed else np.inf
+        return mean_error(np.array([one.error for one in self.segments]))
 
 
 class OutputError:
@@ -156,7 +157,7 @@ class OutputError:
         number, found = 0, []
         for r, run in enumerate(self._problem.runs):
             simulation = RunSimulation(self._simulators, fit.state, r, [], [])
-            found.append(simulation.segment(slice(0, len(run.times)), fit.values.local[number]).readings)
+            found.append(simulation.readings(slice(0, len(run.times)), fit.values.local[number]))
             number += len(self._cuts[r])
         return OpenLoop(tuple(found), self.floor)
 
