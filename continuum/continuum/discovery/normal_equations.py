@@ -98,9 +98,7 @@ class _Run:
         for i, (more, right) in enumerate(self.of_segments):
             if i != segment:
                 A, b = A + more, b + right
-        k = len(self.b)
-        solved = _solved(A, b, k)
-        return A[:k, :k] - A[:k, k:] @ solved[:, :-1], b[:k] - A[:k, k:] @ solved[:, -1]
+        return _eliminated(A, b, len(self.b))[:2]
 
     def rest(self, step: Array) -> tuple[Array, tuple[Array, ...]]:
         """Steps of the recording's own unknowns and of those of its segments."""
@@ -128,9 +126,10 @@ class NormalEquations:
             k, parts, systems = len(values.common) + len(own), list[Array](), list[tuple[Array, Array]]()
             for one in self._of(r):
                 G, h = scale.weight(one) * one.gram[:-1, :-1], -scale.weight(one) * one.gram[:-1, -1]
-                S = G[k:, k:] + np.diag(local_precision)
-                part = np.linalg.solve(S, np.column_stack([G[k:, :k], h[k:] - local_precision * next(local)]))
-                systems.append((G[:k, :k] - G[:k, k:] @ part[:, :-1], h[:k] - G[:k, k:] @ part[:, -1]))
+                G[k:, k:] += np.diag(local_precision)
+                h[k:] -= local_precision * next(local)
+                A, b, part = _eliminated(G, h, k)
+                systems.append((A, b))
                 parts.append(part)
             self._runs.append(_run(systems, parts, own, those))
         precision, means = _prior(unknowns.common)
@@ -192,16 +191,14 @@ def _run(systems: Sequence[tuple[Array, Array]], parts: Sequence[Array], values:
     prior = np.zeros_like(systems[0][0]), np.zeros_like(systems[0][1])
     prior[0][k:, k:], prior[1][k:] = np.diag(precision), -precision * (values - means)
     A, b = prior[0] + sum(A for A, _ in systems), prior[1] + sum(b for _, b in systems)
-    solved = _solved(A, b, k)
-    return _Run(
-        A[:k, :k] - A[:k, k:] @ solved[:, :-1], b[:k] - A[:k, k:] @ solved[:, -1], tuple(systems), prior, solved,
-        tuple(parts), np.linalg.inv(A[k:, k:]),
-    )  # fmt: skip
+    less_A, less_b, solved = _eliminated(A, b, k)
+    return _Run(less_A, less_b, tuple(systems), prior, solved, tuple(parts), np.linalg.inv(A[k:, k:]))
 
 
-def _solved(A: Array, b: Array, k: int) -> Array:
-    """What gives the unknowns from the k-th on from those before, (m, k + 1)."""
-    return np.linalg.solve(A[k:, k:], np.column_stack([A[k:, :k], b[k:]]))
+def _eliminated(A: Array, b: Array, k: int) -> tuple[Array, Array, Array]:
+    """Schur complement of A x = b on the first k unknowns, (k, k) and (k,), and what gives the others, (m, k + 1)."""
+    solved = np.linalg.solve(A[k:, k:], np.column_stack([A[k:, :k], b[k:]]))
+    return A[:k, :k] - A[:k, k:] @ solved[:, :-1], b[:k] - A[:k, k:] @ solved[:, -1], solved
 
 
 def _prior(those: Sequence[Unknown]) -> tuple[Array, Array]:

@@ -19,8 +19,10 @@ from continuum.estimation.sensor_noise import NoiseModel
 from continuum.estimation.structure import Point, Structure, absent_values
 from continuum.estimation.transition import Transition, transition
 
-type Values = Mapping[tuple[str, str, int], float]
-"""Coefficients by effect, parameter and joint from 0 (-1 for none); the baseline's by ("", name, -1)."""
+type ValueKey = tuple[str, str, int]
+"""Effect ("" for the baseline), parameter, and joint from 0 (-1 where it belongs to none)."""
+type Values = Mapping[ValueKey, float]
+"""Coefficients by what they belong to."""
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.hypotheses import PRIOR, TOLERANCE, Hypothesis
-from continuum.discovery.problem import Problem, State
+from continuum.discovery.problem import Problem, State, ValueKey
 from continuum.discovery.search import Found
 
 STEP = 1e-6
@@ -21,8 +21,6 @@ STEP = 1e-6
 
 type Start = Mapping[tuple[object, ...], float]
 """Where unknowns begin, by `Unknown.place`."""
-type Key = tuple[str, str, int]
-"""Effect ("" for the baseline), parameter, and joint from 0 (-1 where it belongs to none)."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +36,7 @@ class Unknown:
         of_run: recording that it belongs to; None for all.
     """
 
-    places: Mapping[Key, float]
+    places: Mapping[ValueKey, float]
     is_log: bool
     start: float
     mean: float
@@ -80,7 +78,7 @@ class Unknowns:
 
     def state(self, common: Array, own: tuple[Array, ...]) -> State:
         """The state with values at these coordinates, (k,) and (m,) for each recording."""
-        shared: dict[Key, float] = {}
+        shared: dict[ValueKey, float] = {}
         active = {effect: {n: np.array(v) for n, v in values.items()} for effect, values in self._state.active.items()}
         for unknown, value in zip(self.common, common, strict=True):
             for key, factor in unknown.places.items():
