@@ -14,7 +14,7 @@ from continuum.discovery.open_loop import RunSimulation, Simulators, cut
 from continuum.discovery.output_error import Fitted, OutputError
 from continuum.discovery.problem import Linearised, linearise, point_of
 from continuum.discovery.search import Found
-from continuum.discovery.unknowns import STEP, Unknowns
+from continuum.discovery.unknowns import Unknowns
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import Model
@@ -70,11 +70,9 @@ def test_derivatives_are_differences_of_simulations() -> None:
 
     def segment(x: np.ndarray) -> np.ndarray:
         state = unknowns.state(x[:k], (own[0] + x[k : k + 1], *own[1:]))
-        near = []
-        for i in range(k):
-            near.append((unknowns.state(x[:k] + STEP * np.eye(k)[i], (own[0] + x[k], *own[1:])), unknowns.common[i]))
-        near.append((unknowns.state(x[:k], (own[0] + x[k] + STEP, *own[1:])), unknowns.own[0][0]))
-        return RunSimulation(simulators, state, 0, near, []).segment(rows, x[k + 1 :]).slopes
+        return (
+            RunSimulation(simulators, state, 0, [*unknowns.common, *unknowns.own[0]]).segment(rows, x[k + 1 :]).slopes
+        )
 
     x = np.concatenate([common, np.zeros(1 + 3 * n)])
     slopes = segment(x)[:, :-1]

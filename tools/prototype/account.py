@@ -110,7 +110,7 @@ def simulated_from(problem: Problem, state: State, part: Recording, q: Array, w:
     run, rows = run_of(part, problem.structure.given).with_held(problem.runs[0].held), np.ones((part.times.size, 1))
     way = Trajectory(rows * q, rows * w, 0 * rows * q, 0 * rows * q)
     there = Simulators(replace(problem, runs=(run,)), (part,))
-    simulation = RunSimulation(there, replace(state, ways=(way,)), 0, [], [])
+    simulation = RunSimulation(there, replace(state, ways=(way,)), 0)
     return simulation.readings(slice(0, part.times.size), np.zeros(3 * part.n_joints))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.discovery.coordinates import coordinates
 from continuum.discovery.gauss_newton import modes_along, moved
-from continuum.discovery.problem import Problem, State, linearise
+from continuum.discovery.problem import Problem, State, linearise, near
 from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
@@ -71,13 +71,14 @@ def fitted_baseline(problem: Problem) -> tuple[Problem, State]:
         state = moved(lin, (), 0, level)
         state = replace(state, modes=modes_along(problem, state))
     problem = _with_likelier_inputs(problem, state)
-    before = -np.inf
+    before, levels = -np.inf, [*range(len(problem.levels))]
     for iteration in range(_MOST_ITERATIONS):
-        lin = linearise(problem, state, None, live=())
+        lin = linearise(problem, state, levels, live=())
         after, level = lin.evidence.total(()), lin.evidence.best_level(())
         if abs(after - before) < _SETTLED:
             break
-        before, state = after, moved(lin, (), level, level)
+        before, state = after, moved(lin, (), level, levels[level])
+        levels = near(problem, levels[level])
         if iteration == 0:  # rates are known better now; from here on modes are part of the likelihood
             state = replace(state, modes=modes_along(problem, state))
             before = -np.inf
@@ -88,7 +89,9 @@ def _with_likelier_inputs(problem: Problem, state: State) -> Problem:
     if all(len(np.unique(run.signal[1], axis=0)) < _VARYING for run in problem.runs):
         return problem
     linear = replace(problem, runs=tuple(run.with_held(False) for run in problem.runs))
-    held, changing = (linearise(one, state, None, live=()).evidence.total(()) for one in (problem, linear))
+    held, changing = (
+        linearise(one, state, [_FIRST_LEVELS[-1]], live=()).evidence.total(()) for one in (problem, linear)
+    )
     return linear if changing > held else problem
 
 

@@ -120,7 +120,8 @@ class NormalEquations:
     def __init__(
         self, unknowns: Unknowns, values: Values, segments: Sequence[Segment], scale: Scale, local_precision: Array
     ) -> None:
-        self._values, self._segments, local = values, segments, iter(values.local)
+        self._unknowns, self._values, self._segments, self._scale = unknowns, values, segments, scale
+        self._local_precision, local = local_precision, iter(values.local)
         self._runs: list[_Run] = []
         for r, (own, those) in enumerate(zip(values.own, unknowns.own, strict=True)):
             k, parts, systems = len(values.common) + len(own), list[Array](), list[tuple[Array, Array]]()
@@ -155,6 +156,17 @@ class NormalEquations:
             tuple(x + own for x, (own, _) in zip(self._values.own, rest, strict=True)),
             tuple(x + move for x, move in zip(self._values.local, moves, strict=True)),
         )
+
+    def expected_fall(self, there: Values) -> float:
+        """Fall of minus the log-posterior on the way to other values, by the linearised residuals."""
+        here, fall = self._values, 0.0
+        moves = iter([b - a for a, b in zip(here.local, there.local, strict=True)])
+        for r, (before, after) in enumerate(zip(here.own, there.own, strict=True)):
+            for one in self._of(r):
+                move = np.concatenate([there.common - here.common, after - before, next(moves), [1.0]])
+                fall += 0.5 * self._scale.weight(one) * float(one.square - move @ one.gram @ move)
+        priors = [prior_cost(self._unknowns, values, self._local_precision) for values in (here, there)]
+        return fall + priors[0] - priors[1]
 
     def own_sd(self) -> tuple[Array, ...]:
         """Standard deviations of each recording's own unknowns."""

@@ -11,13 +11,13 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.problem import Problem, State, point_of
-from continuum.discovery.unknowns import STEP, Unknown
+from continuum.discovery.unknowns import STEP, Unknown, shifted
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
-from continuum.dynamics.values import parameter_vector, with_vector
+from continuum.dynamics.values import parameter_slots, parameter_vector, with_vector
 from continuum.recordings.recording import Recording
 
 _TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
@@ -63,7 +63,7 @@ class Segment:
 
 
 class Simulators:
-    """Simulators of one problem's models, by the effects with states that are compiled in, and their inputs.
+    """Simulators of one problem's models, by the effects that are compiled in, and their inputs.
 
     Args:
         problem: whose runs are simulated.
@@ -79,7 +79,7 @@ class Simulators:
 
     def of(self, model: Model) -> Simulator:
         """The compiled equations of a model's effects, with its values."""
-        names = tuple(a.effect.name for a in model.effects if a.effect.name in self.problem.structure.stateful)
+        names = tuple(a.effect.name for a in model.effects)
         if names not in self._compiled:
             self._compiled[names] = Simulator(model, self._tolerances)
         return self._compiled[names].around(model)
@@ -99,36 +99,32 @@ class RunSimulation:
         simulators: compiled equations.
         state: values, and trajectories whose angles and rates segments begin near.
         run: which, by number.
-        near: states with one unknown changed by STEP each, and that unknown.
-        along: derivative of all values of the model by the first of these, where they are known, (n_p,) each.
+        unknowns: by which segments are differentiated, besides their own.
     """
 
-    def __init__(
-        self, simulators: Simulators, state: State, run: int, near: Sequence[tuple[State, Unknown]],
-        along: Sequence[Array],
-    ) -> None:  # fmt: skip
+    def __init__(self, simulators: Simulators, state: State, run: int, unknowns: Sequence[Unknown] = ()) -> None:
         self._problem = problem = simulators.problem
         self._r, self._run, self._way = run, problem.runs[run], state.ways[run]
         self._model = extended_model(problem, state, run)
         self._simulator, self._inputs = simulators.of(self._model), simulators.inputs(state, run)
         self._own = point_of(problem, state).by_run[run]
-        s, p = problem.structure, parameter_vector(self._model)
+        s = problem.structure
         sensors, late = {e.name for e in s.sensors}, {e.name for e in s.late}
         given = {a.effect.name for a in s.given.effects}
         self._reads_plainly = not sensors & ({key[0] for key in (*state.shared, *state.own[run])} | given)
-        self._directions = np.zeros((p.size, len(near)))
+        slots = parameter_slots(self._model)
+        self._directions = np.zeros((parameter_vector(self._model).size, len(unknowns)))
         self._sensors: dict[int, Mapping[str, Mapping[str, Array]]] = {}
         self._late: dict[int, InputSignal] = {}
-        for i, (other, unknown) in enumerate(near):
-            effects = {key[0] for key in unknown.places}
+        for i, unknown in enumerate(unknowns):
+            effects = {effect for effect, _, _ in unknown.places}
             if effects & late:
-                self._late[i] = simulators.inputs(other, run)
+                self._late[i] = simulators.inputs(shifted(state, unknown, run), run)
             elif effects & sensors:
-                self._sensors[i] = point_of(problem, other).by_run[run]
-            elif i < len(along):
-                self._directions[:, i] = along[i]
+                self._sensors[i] = point_of(problem, shifted(state, unknown, run)).by_run[run]
             else:
-                self._directions[:, i] = (parameter_vector(extended_model(problem, other, run)) - p) / STEP
+                for at, derivative in _direction(problem, state, slots, unknown).items():
+                    self._directions[at, i] = derivative
 
     def segment(self, rows: slice, local: Array) -> Segment:
         """One segment.
@@ -220,12 +216,32 @@ class RunSimulation:
 
 
 def extended_model(problem: Problem, state: State, run: int) -> Model:
-    """The model with a state's values, in one recording; effects on sensors are left out."""
+    """The model with a state's values and the effects that it names but those on sensors, in one recording."""
     s, point = problem.structure, point_of(problem, state)
     base = with_vector(s.model, point.values_in(s, run))
+    named = {effect for values in (state.shared, *state.own) for effect, _, _ in values}
+    named |= {a.effect.name for a in s.given.effects}
+    present = [a for a in base.effects if a.effect.name in named]
     added = [ActiveEffect(s.stateful[name].effect, own) for name, own in point.stateful.items()]
     given = [a for a in s.given.effects if a.effect.name in s.stateful and a.effect.name not in point.stateful]
-    return replace(base, effects=(*base.effects, *given, *added))
+    return replace(base, effects=(*present, *given, *added))
+
+
+def _direction(problem: Problem, state: State, slots: Mapping[str, slice], unknown: Unknown) -> Mapping[int, float]:
+    """Derivatives of a model's values by an unknown, by where they stand among all values; others are zero."""
+    found: dict[int, float] = {}
+    for (effect, name, joint), factor in unknown.places.items():
+        if effect:
+            at = slots[f"{effect}.{name}"].start + max(joint, 0)
+            found[at] = float(state.active[effect][name][max(joint, 0)]) if unknown.is_log else factor
+            continue
+        base = {key[1]: value for key, value in state.shared.items() if key[0] == ""}
+        values = problem.coordinates.values
+        moved = factor * (values(base | {name: base[name] + STEP}) - values(base)) / STEP
+        for key, slot in problem.structure.slots.items():
+            if "." not in key:
+                found |= zip(range(slots[key].start, slots[key].stop), moved[slot].tolist(), strict=True)
+    return found
 
 
 def cut(times: Array, length: float) -> list[slice]:

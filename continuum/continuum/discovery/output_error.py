@@ -15,12 +15,12 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import mean_error
+from continuum.discovery.decision import ALIKE
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values, prior_cost
-from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut, extended_model
+from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut
 from continuum.discovery.problem import Problem, State
 from continuum.discovery.search import Found
-from continuum.discovery.unknowns import STEP, Start, Unknown, Unknowns
-from continuum.dynamics.values import parameter_vector
+from continuum.discovery.unknowns import Start, Unknowns
 from continuum.recordings.recording import Recording
 
 SEGMENT = 0.5
@@ -34,7 +34,7 @@ of friction near rest, and a fit finds it from within some 0.3."""
 _FIRST = 2  # steps, after which the nearest start is followed, and what is far is given up
 _ITERATIONS = 5  # further steps at most
 _FAR = 2.0  # times the error of another set's fit, with which a set is not fitted further
-_SETTLED, _STILL = 0.01, 2  # relative fall of the cost, and steps in a row with less, after which a fit ends
+_SETTLED, _STILL = 0.01, 2  # relative fall of the cost; steps in a row with less, or one that promises less, end a fit
 _RISE = 0.2  # relative rise of the cost that a step may have
 _DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises
 _BEGINNING = (0.1, 1.0)  # rad, rad/s: prior of a segment's beginning about the smoothed state
@@ -140,10 +140,13 @@ class OutputError:
             near: fit of another set, from which this one begins.
             multi_start: whether it begins from where a fit without another's does, too.
         """
-        starts = [_at_rest(rise) for rise in _AT_REST] if near is None or multi_start else []
-        starts += [near.place] if near else []
-        begun = [self._optimum(self._begun(found, start), _FIRST) for start in starts]
-        best = min(begun, key=lambda one: one.error)
+        starts = [near.place] if near else []
+        starts += [_at_rest(rise) for rise in _AT_REST] if near is None or multi_start else []
+        best = self._optimum(self._begun(found, starts[0]), _FIRST)
+        for start in starts[1:]:
+            if best.error < (1 + ALIKE) * self.floor:  # no other can be nearer
+                break
+            best = min(best, self._optimum(self._begun(found, start), _FIRST), key=lambda one: one.error)
         if near is not None and not multi_start and best.error > _FAR * near.error:
             return self._fitted(best)
         return self._fitted(self._optimum(best, _ITERATIONS))
@@ -156,7 +159,7 @@ class OutputError:
         """Every recording simulated from where its first segment begins."""
         number, found = 0, []
         for r, run in enumerate(self._problem.runs):
-            simulation = RunSimulation(self._simulators, fit.state, r, [], [])
+            simulation = RunSimulation(self._simulators, fit.state, r)
             found.append(simulation.readings(slice(0, len(run.times)), fit.values.local[number]))
             number += len(self._cuts[r])
         return OpenLoop(tuple(found), self.floor)
@@ -175,10 +178,11 @@ class OutputError:
         for _ in range(iterations):
             if not here.completed:
                 break
-            trial = self._normal(here).stepped(damping)
+            normal, scale = self._normal(here), Scale(best.segments, self.floor)
+            trial, cost = normal.stepped(damping), self._cost(best, scale)
+            if here is best and normal.expected_fall(trial) < _SETTLED * cost:
+                break
             there = _Iterate(here.unknowns, trial, self._simulated(here.unknowns, trial))
-            scale = Scale(best.segments, self.floor)
-            cost = self._cost(best, scale)
             fall = (cost - self._cost(there, scale)) / cost
             if fall > -_RISE:
                 here, damping = there, max(damping / _MORE, _DAMPING)
@@ -203,13 +207,9 @@ class OutputError:
     def _simulated(self, unknowns: Unknowns, values: Values) -> list[Segment]:
         """Every segment, with derivatives by all unknowns."""
         state = unknowns.state(values.common, values.own)
-        near = [_shifted(unknowns, values, i) for i in range(len(values.common))]
-        first = parameter_vector(extended_model(self._problem, state, 0))
-        along = [(parameter_vector(extended_model(self._problem, one, 0)) - first) / STEP for one, _ in near]
         segments, local = list[Segment](), iter(values.local)
         for r, rows in enumerate(self._cuts):
-            own = [_shifted(unknowns, values, i, r) for i in range(len(values.own[r]))]
-            run = RunSimulation(self._simulators, state, r, [*near, *own], along)
+            run = RunSimulation(self._simulators, state, r, [*unknowns.common, *unknowns.own[r]])
             segments += [run.segment(one, next(local)) for one in rows]
         return segments
 
@@ -222,16 +222,6 @@ class OutputError:
             return Fitted(state, unknowns, values, np.full((k, k), np.nan), none, failed)
         normal = self._normal(at)
         return Fitted(state, unknowns, values, normal.covariance, normal.own_sd(), normal.predicted_errors())
-
-
-def _shifted(unknowns: Unknowns, values: Values, i: int, run: int | None = None) -> tuple[State, Unknown]:
-    """The state with one unknown changed by STEP, and that unknown."""
-    if run is None:
-        common = values.common + STEP * np.eye(len(values.common))[i]
-        return unknowns.state(common, values.own), unknowns.common[i]
-    own = list(values.own)
-    own[run] = own[run] + STEP * np.eye(len(own[run]))[i]
-    return unknowns.state(values.common, tuple(own)), unknowns.own[run][i]
 
 
 def _at_rest(rise: float) -> Start:

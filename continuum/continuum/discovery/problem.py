@@ -178,6 +178,11 @@ def linearise(
     return Linearised(problem, state, library, evidence, runs, theta, chosen)
 
 
+def near(problem: Problem, level: int) -> list[int]:
+    """A level of missing torque and its neighbours."""
+    return [k for k in (level - 1, level, level + 1) if 0 <= k < len(problem.levels)]
+
+
 def _likelihood(problem: Problem, run: Run, way: Trajectory, lin: _Run, theta: Array, level: float) -> RunLikelihood:
     """A run's likelihood about theta = 0, where the linearisation is about ``theta``."""
     noise = problem.noise.at(level * problem.noise.sigma)

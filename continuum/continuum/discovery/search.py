@@ -16,7 +16,7 @@ from continuum.discovery.decision import ALIKE, PRICE
 from continuum.discovery.evidence import Evidence, Set
 from continuum.discovery.gauss_newton import moved
 from continuum.discovery.hypotheses import Hypothesis
-from continuum.discovery.problem import Linearised, Problem, State, linearise
+from continuum.discovery.problem import Linearised, Problem, State, linearise, near
 
 MOST = 2
 """Effects that are named together at most: three would need more runs than a laboratory makes."""
@@ -24,7 +24,7 @@ NEGLIGIBLE = 0.0125
 """Missing torque that no model of an arm does without, as a part of the torque that moves it."""
 RATIO = (1.6, 1.25, 1.1)
 """By which values of effects that are not linear are changed for differences, iteration by iteration."""
-ITERATIONS = 6
+ITERATIONS = 3
 """Gauss-Newton steps of one set, at most."""
 FAMILIES = 6
 """Effects that are refined at most."""
@@ -160,11 +160,6 @@ def refined(problem: Problem, lin: Linearised, chosen: Set) -> Found | None:
             break
         before = after
     return Found(lin, chosen)
-
-
-def near(problem: Problem, level: int) -> list[int]:
-    """A level of missing torque and those beside it."""
-    return [k for k in (level - 1, level, level + 1) if 0 <= k < len(problem.levels)]
 
 
 def matching(lin: Linearised, keys: Sequence[tuple[str, tuple[int, ...] | None]]) -> Set:

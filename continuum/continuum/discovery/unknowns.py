@@ -52,6 +52,21 @@ class Unknown:
         return (*self.places.items(), self.is_log, self.of_run)
 
 
+def shifted(state: State, unknown: Unknown, run: int) -> State:
+    """A state with one unknown changed by STEP, of one recording where it is that recording's own."""
+    if unknown.is_log:
+        active = {effect: {n: np.array(v) for n, v in values.items()} for effect, values in state.active.items()}
+        for effect, name, joint in unknown.places:
+            active[effect][name][max(joint, 0)] *= np.exp(STEP)
+        return replace(state, active=active)
+    values = dict(state.shared if unknown.of_run is None else state.own[run])
+    for key, factor in unknown.places.items():
+        values[key] = values.get(key, 0.0) + factor * STEP
+    if unknown.of_run is None:
+        return replace(state, shared=values)
+    return replace(state, own=(*state.own[:run], values, *state.own[run + 1 :]))
+
+
 class Unknowns:
     """Coordinates of a state.
 

@@ -47,7 +47,8 @@ def slopes_of_stages(problem, method, work, t, step, slope):  # type: ignore[no-
         inputs_at(t, t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
         if not stage_slopes(problem, work, work.base_slope, step * method.a[i, i], work.rate_slopes[i]):
             return False
-    slope[:] = work.base_slope + step * method.a[-1, -1] * work.rate_slopes[-1]  # the last stage is the result
+    slope[:] = work.base_slope  # the last stage is the result
+    _add(slope, step * method.a[-1, -1], work.rate_slopes[-1])
     return True
 
 
@@ -57,4 +58,12 @@ def _stage_base(base, x, step, weights, rates):  # type: ignore[no-untyped-def]
     base[:] = x
     for j in range(weights.size):
         if weights[j] != 0.0:
-            base += step * weights[j] * rates[j]
+            _add(base, step * weights[j], rates[j])
+
+
+@compiled
+def _add(total, factor, more):  # type: ignore[no-untyped-def]
+    """total + factor more, in place and without a temporary array."""
+    flat, added = total.ravel(), more.ravel()
+    for k in range(flat.size):
+        flat[k] += factor * added[k]
