@@ -10,7 +10,7 @@ from continuum.discovery.candidate import Candidate
 from continuum.discovery.decision import ALIKE
 from continuum.discovery.output_error import Fitted, OutputError
 from continuum.discovery.problem import Problem
-from continuum.discovery.search import Found, Progress, screen, with_second
+from continuum.discovery.search import MOST, Found, Progress, alternatives, screen, with_second, with_unseen
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
 from continuum.estimation.structure import Structure
@@ -82,6 +82,12 @@ def examine(
         progress("a second effect", 0.8)
         for one in _distinct(with_second(problem, best.found, screened)):
             fits.add(one)
+        if (best := fits.unexplained) is not None and len(best.found.chosen) < MOST:
+            for one in with_unseen(problem, best.found):
+                fits.add(one)
+        if (best := fits.nearest) is not None and len(best.found.chosen) > 1:
+            for one in alternatives(problem, best.found):
+                fits.add(one)
     base = Examined(screened.baseline, fits.of_baseline(screened.baseline))
     return Examination(problem, fits.judge, base, tuple(fits.examined), screened.log)
 
@@ -94,46 +100,48 @@ class _Fits:
         self.examined: list[Examined] = []
 
     @property
-    def _best(self) -> Examined | None:
+    def nearest(self) -> Examined | None:
+        """The set whose simulations err least."""
         return min(self.examined, key=lambda one: one.fit.error, default=None)
 
     @property
     def unexplained(self) -> Examined | None:
         """The nearest set, where its simulations err by more than the sensors."""
-        best = self._best
+        best = self.nearest
         return best if best and best.fit.error > (1 + ALIKE) * self.judge.floor else None
 
     def go_on(self) -> None:
         """Go on with the nearest set's fit where it errs by more than the sensors."""
         if (best := self.unexplained) is not None:
-            fit = min(best.fit, self.judge.further(best.found, best.fit), key=lambda one: one.error)
-            self.examined[self.examined.index(best)] = Examined(best.found, fit)
+            self._replace(Examined(best.found, self.judge.further(best.found, best.fit)))
 
     def of_baseline(self, found: Found) -> Fitted:
         """Its fit, by multi-start and from where the nearest set's ended: what a bad optimum leaves is no effect's."""
-        best = self._best
+        best = self.nearest
         return self.judge.fit(found, best.fit if best else None, multi_start=True)
 
     def add(self, found: Found) -> None:
-        """Fit a set; where it is the nearest, its parts are fitted again from there: they are nested in it."""
-        best = self._best
+        """Fit a set; where it is the nearest, fit its parts from there: they are nested in it."""
+        best = self.nearest
         fit = self.judge.fit(found, best.fit if best else None)
         self.examined.append(Examined(found, fit))
         if fit.error > min(one.fit.error for one in self.examined):
             return
-        for number, one in enumerate(self.examined):
-            if _is_part(one.found, found):
-                nested = min(one.fit, self.judge.fit(one.found, fit), key=lambda each: each.error)
-                self.examined[number] = Examined(one.found, nested)
+        for part in (found.with_only(h) for h in found.chosen if len(found.chosen) > 1):
+            self._replace(Examined(part, self.judge.fit(part, fit)))
 
-
-def _is_part(one: Found, whole: Found) -> bool:
-    return {h.key for h in one.chosen} < {h.key for h in whole.chosen}
+    def _replace(self, new: Examined) -> None:
+        """Keep the nearer fit of a set."""
+        for number, old in enumerate(self.examined):
+            if old.found.key == new.found.key:
+                self.examined[number] = min(old, new, key=lambda one: one.fit.error)
+                return
+        self.examined.append(new)
 
 
 def _distinct(sets: Sequence[Found]) -> list[Found]:
     """The most probable state of each set of effects."""
     best: dict[frozenset[object], Found] = {}
     for one in sorted(sets, key=lambda one: one.log_evidence):
-        best[frozenset(h.key for h in one.chosen)] = one
+        best[one.key] = one
     return list(best.values())

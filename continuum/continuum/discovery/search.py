@@ -33,6 +33,7 @@ LONG_SHOT = 0.2
 RUNNER_UP = 0.6
 """Part of the best single effect's gain from which another is refined too: screening ranks to within a third."""
 _EXCHANGES = 3  # times that a second effect is added, or one of two exchanged
+_ALTERNATIVES = 2  # effects that are refined in the place of each of two
 
 type Progress = Callable[[str, float], None]
 
@@ -55,6 +56,17 @@ class Found:
         return self.lin.evidence.total(self.chosen, with_constraints=True)
 
     @property
+    def key(self) -> frozenset[object]:
+        """Effects of the set with their places."""
+        return frozenset(h.key for h in self.chosen)
+
+    def with_only(self, one: Hypothesis) -> Found:
+        """A part of the set, about the same state without the other effects."""
+        state = self.lin.state
+        active = {effect: own for effect, own in state.active.items() if effect == one.effect}
+        return Found(replace(self.lin, state=replace(state, active=active)), (one,))
+
+    @property
     def score(self) -> float:
         """Log-evidence less the price of its effects."""
         return self.log_evidence - price(self.chosen)
@@ -67,13 +79,11 @@ class Screened:
     Attributes:
         baseline: the model without any effect.
         singles: sets of one effect, the best first.
-        live: effects that may stand beside another.
         log: what was best at each step, for developers.
     """
 
     baseline: Found
     singles: tuple[Found, ...]
-    live: frozenset[str]
     log: tuple[str, ...]
 
 
@@ -103,8 +113,7 @@ def screen(problem: Problem, start: State, progress: Progress) -> Screened:
         found = refined(problem, lin, (h,))
         log.append(f"refined {h.label}: {found.log_evidence - base:.0f}" if found else f"{h.label}: diverged")
         tried += [found] if found else []
-    live = frozenset(h.effect for e, h in ranked if e - base > LONG_SHOT * most - PRICE)
-    return Screened(first, tuple(sorted(tried, key=lambda one: -one.score)), live, tuple(log))
+    return Screened(first, tuple(sorted(tried, key=lambda one: -one.score)), tuple(log))
 
 
 def _explains(found: Found) -> bool:
@@ -176,10 +185,9 @@ def with_second(problem: Problem, found: Found, screened: Screened) -> list[Foun
     best, failed, looked, out = found, set[str](), None, list[Found]()
     base = screened.baseline.log_evidence
     for _ in range(_EXCHANGES):
-        if looked is not best:  # all that may stand beside the set, about its own optimum
+        if looked is not best:  # all that may join the set, about its own optimum
             level = best.lin.levels[best.lin.evidence.best_level(best.chosen)]
-            effects = screened.live | {h.effect for h in best.chosen}
-            lin = linearise(problem, best.lin.state, near(problem, level), effects)
+            lin = linearise(problem, best.lin.state, near(problem, level))
             standing, looked = matching(lin, [h.key for h in best.chosen]), best
         alone = lin.evidence.total(standing, with_constraints=True) - price(standing)
         ranked = ranked_singles(lin.evidence, lin.library.hypotheses)
@@ -199,6 +207,40 @@ def with_second(problem: Problem, found: Found, screened: Screened) -> list[Foun
             continue
         best = grown
         out.append(grown)
+    return out
+
+
+def alternatives(problem: Problem, found: Found) -> list[Found]:
+    """Sets with another effect in the place of one of two that explain nearly as much."""
+    level = found.lin.levels[found.lin.evidence.best_level(found.chosen)]
+    lin = linearise(problem, found.lin.state, near(problem, level))
+    standing, out = matching(lin, [h.key for h in found.chosen]), list[Found | None]()
+    whole = lin.evidence.total(standing, with_constraints=True)
+    for kept, left in zip(standing, reversed(standing), strict=True):
+        alone = lin.evidence.total((kept,), with_constraints=True)
+        sets: list[Set] = [(kept, h) for h in lin.library.hypotheses if h.effect != left.effect]
+        ranked = lin.evidence.ranked([s for s in sets if compatible(s)], 0.0, _ALTERNATIVES)
+        promising = [(e, s[1]) for e, s in ranked if e - alone > max(PRICE, RUNNER_UP * (whole - alone))]
+        out += [refined(problem, lin, (kept, h)) for _, h in _by_family(promising)[:_ALTERNATIVES]]
+    return [one for one in out if one is not None]
+
+
+def with_unseen(problem: Problem, found: Found) -> list[Found]:
+    """The set with each effect that screening is blind to, at its likeliest usual values."""
+    level = found.lin.levels[found.lin.evidence.best_level(found.chosen)]
+    out, taken = list[Found](), {h.effect for h in found.chosen}
+    for effect in problem.structure.offered:
+        if not effect.within_friction or effect.name in taken:
+            continue
+        lin = linearise(problem, found.lin.state, near(problem, level), {*taken, effect.name})
+        standing = matching(lin, [h.key for h in found.chosen])
+        new = max(
+            (h for h in lin.library.hypotheses if h.effect == effect.name and h.start is not None),
+            key=lambda h: lin.evidence.total((*standing, h)),
+        )
+        state = replace(found.lin.state, active={**found.lin.state.active, effect.name: new.start or {}})
+        lin = linearise(problem, state, near(problem, level), {*taken, effect.name})
+        out.append(Found(lin, matching(lin, [h.key for h in (*standing, new)])))
     return out
 
 

@@ -42,6 +42,8 @@ class Effect:
             units; 0 where it is certain.
         uses_cables: whether it acts on cables: none of an arm that joint torques drive.
         needs_tension: whether only a cable that pulls can show it, or where there are none a torque that drives.
+        within_friction: whether it moves joints that dry friction holds. A filter that takes these as resting is blind
+            to that: open-loop simulations alone show it.
         shifts_time: whether a little of it looks as if all tensions came later.
         beginnings: values of some of its parameters that belong to the whole arm; a fit begins at those that promise
             most. For effects from whose usual beginning no slope leads to what is right.
@@ -61,6 +63,7 @@ class Effect:
     state_spread: ClassVar[float] = 0.0
     uses_cables: ClassVar[bool] = False
     needs_tension: ClassVar[bool] = False
+    within_friction: ClassVar[bool] = False
     shifts_time: ClassVar[bool] = False
     beginnings: ClassVar[Sequence[Mapping[str, float]]] = ()
     directions: ClassVar[Sequence[Mapping[str, float]]] = ()

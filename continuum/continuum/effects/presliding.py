@@ -64,6 +64,7 @@ class Presliding(Effect):
     looks_like = "Where the model sticks the joint rocks and springs back a little; small swings have hysteresis."
     experiment = "Push a resting joint gently to and fro, below its break-away force: it springs back to where it was."
     state_spread = 0.7
+    within_friction = True
 
     def n_states(self, n_joints: int) -> int:
         """s of each joint's first element, then of the others [1]."""
