@@ -36,13 +36,14 @@ def warm_up() -> None:
 
 
 def _compile_simulators(structure: Structure) -> None:
-    """Of open-loop fits: without any effect that has states, and with each one."""
-    models = [structure.model]
-    for along in structure.stateful.values():
-        added = ActiveEffect(along.effect, absent_values(along.effect, structure.n))
-        models.append(replace(structure.model, effects=(*structure.model.effects, added)))
-    for model in models:
-        equations = CompiledEquations(model)
+    """Of open-loop fits: with ordinary differences of parts, and with each one effect more."""
+    model, n = structure.model, structure.n
+    always = {a.effect.name for a in model.effects if any(p.ordinary for p in a.effect.parameters.values())}
+    stateful = [ActiveEffect(along.effect, absent_values(along.effect, n)) for along in structure.stateful.values()]
+    for added in (None, *model.effects, *stateful):
+        names = always | ({added.effect.name} if added else set())
+        effects = tuple(a for a in (*model.effects, *stateful) if a.effect.name in names)
+        equations = CompiledEquations(replace(model, effects=effects))
         _ = equations.residual, equations.stage, equations.slopes
 
 
