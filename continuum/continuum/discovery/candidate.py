@@ -12,9 +12,12 @@ type Key = tuple[tuple[str, tuple[int, ...] | None], ...]
 """Effects of a set and the joints at which each acts, from 0; None where it belongs to the whole arm."""
 
 
+_EXACT = 1e-12  # rad: an error is no less, so that it has a logarithm
+
+
 def mean_error(errors: Array) -> float:
-    """Mean over the segments [rad]; infinite where a simulation failed."""
-    return float(np.mean(errors)) if np.all(np.isfinite(errors)) else np.inf
+    """Geometric mean over the segments [rad]; infinite where a simulation failed."""
+    return float(np.exp(np.mean(np.log(np.maximum(errors, _EXACT))))) if np.all(np.isfinite(errors)) else np.inf
 
 
 @dataclass(frozen=True)
@@ -38,5 +41,5 @@ class Candidate:
 
     @property
     def error(self) -> float:
-        """Mean over the segments [rad]; infinite where a simulation failed."""
+        """Geometric mean over the segments [rad]; infinite where a simulation failed."""
         return mean_error(self.errors)

@@ -1,8 +1,8 @@
 """The decision: what open-loop simulations of segments that the other segments predict allow to be said.
 
 Terms. The *distance* is the baseline's open-loop error less the noise. The *closed share* of a set of effects is the
-part of the distance that it closes. Of two sets one is *nearer* where the logarithm of its error is lower, by a t test
-over the segments: segments count alike, whatever moves in them, and one that goes astray does not outweigh the others.
+part of the distance that it closes. Of two sets one is *farther* where the logarithm of its error is higher, by a t
+test over the segments: segments count alike, whatever moves in them, and one that goes astray outweighs no others.
 """
 
 from __future__ import annotations
@@ -74,25 +74,30 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
 
     def is_needless(one: Candidate) -> bool:  # a part of it simulates as well
         parts = [part for part in others if set(part.effects) < set(one.effects)]
-        return any(not nearer(part, one, alike) for part in parts)
+        return any(not is_farther(part, one, alike) or not is_probable(one, part) for part in parts)
 
-    def is_probable(one: Candidate) -> bool:  # each joint in each segment is one observation of unknown variance
-        gained = one.n_joints * len(one.errors) * (log_error(baseline) - log_error(one))
-        return gained > PRICE * len(one.effects) - log(CHANCE)
-
-    probable = [one for one in others if is_probable(one) and not is_needless(one)]
+    probable = [one for one in others if is_probable(one, baseline) and not is_needless(one)]
     possible = [one for one in probable if closed(baseline, one, floor)[1] > LEAST_SHARE]
     if not possible:
         if whole < tolerance or (baseline.error < tolerance and not probable):
             return Verdict(Kind.ADEQUATE, ((),), (1.0,), not probable)
         return Verdict(Kind.UNKNOWN, (), (), False, probable[0].effects if probable else ())
     best = possible[0]
-    sets = [one for one in possible if not nearer(one, best, alike)]
+    sets = [one for one in possible if not is_farther(one, best, alike)]
     weights = np.array([exp(-max(log_error(one) - log_error(best), 0.0) / max(alike, 1e-9)) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
-    complete = closed(baseline, best, floor)[2] > 1 - ALIKE
+    complete = best.error < (1 + ALIKE) * floor
     kind = Kind.AMBIGUOUS if len(sets) > 1 else Kind.CAUSE
     return Verdict(kind, tuple(one.effects for one in sets), probabilities, complete)
+
+
+def is_probable(one: Candidate, part: Candidate) -> bool:
+    """Whether a set gains more on a part of it than its further effects cost and chance gives.
+
+    Each joint in each segment is one observation of unknown variance.
+    """
+    gained = one.n_joints * len(one.errors) * (log_error(part) - log_error(one))
+    return gained > PRICE * (len(one.effects) - len(part.effects)) - log(CHANCE)
 
 
 def least_error(candidates: Sequence[Candidate], floor: float) -> float:
@@ -102,11 +107,11 @@ def least_error(candidates: Sequence[Candidate], floor: float) -> float:
 
 def log_error(one: Candidate) -> float:
     """Mean logarithm of the errors; infinite where a simulation failed."""
-    return float(np.mean(np.log(one.errors))) if one.completed else np.inf
+    return log(one.error) if one.completed else np.inf
 
 
-def nearer(one: Candidate, other: Candidate, by: float) -> bool:
-    """Whether the logarithm of open-loop errors falls from one to the other by more than ``by``.
+def is_farther(one: Candidate, other: Candidate, by: float) -> bool:
+    """Whether the logarithm of one's open-loop errors is higher than the other's by more than ``by``.
 
     One-sided t test over segments.
     """

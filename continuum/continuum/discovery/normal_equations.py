@@ -92,13 +92,13 @@ class _Run:
     segments: tuple[Array, ...]
     own_covariance: Array
 
-    def without(self, segment: int) -> tuple[Array, Array]:
-        """On the common unknowns, without one segment."""
+    def without(self, segment: int) -> tuple[Array, Array, Array]:
+        """On the common unknowns, without one segment, and what gives the recording's own then."""
         A, b = self.own_prior
         for i, (more, right) in enumerate(self.of_segments):
             if i != segment:
                 A, b = A + more, b + right
-        return _eliminated(A, b, len(self.b))[:2]
+        return _eliminated(A, b, len(self.b))
 
     def rest(self, step: Array) -> tuple[Array, tuple[Array, ...]]:
         """Steps of the recording's own unknowns and of those of its segments."""
@@ -157,16 +157,22 @@ class NormalEquations:
             tuple(x + move for x, move in zip(self._values.local, moves, strict=True)),
         )
 
-    def expected_fall(self, there: Values) -> float:
-        """Fall of minus the log-posterior on the way to other values, by the linearised residuals."""
-        here, fall = self._values, 0.0
-        moves = iter([b - a for a, b in zip(here.local, there.local, strict=True)])
+    def expected_squares(self, there: Values) -> list[float]:
+        """Sums of the squared residuals of each segment at other values, by the linearised residuals [rad^2]."""
+        here, found = self._values, list[float]()
+        moves = iter([after - before for before, after in zip(here.local, there.local, strict=True)])
         for r, (before, after) in enumerate(zip(here.own, there.own, strict=True)):
             for one in self._of(r):
                 move = np.concatenate([there.common - here.common, after - before, next(moves), [1.0]])
-                fall += 0.5 * self._scale.weight(one) * float(one.square - move @ one.gram @ move)
-        priors = [prior_cost(self._unknowns, values, self._local_precision) for values in (here, there)]
-        return fall + priors[0] - priors[1]
+                found.append(max(float(move @ one.gram @ move), 0.0))
+        return found
+
+    def expected_fall(self, there: Values) -> float:
+        """Fall of minus the log-posterior on the way to other values, by the linearised residuals."""
+        squares = self.expected_squares(there)
+        weighted = [self._scale.weight(a) * (a.square - b) for a, b in zip(self._segments, squares, strict=True)]
+        priors = [prior_cost(self._unknowns, values, self._local_precision) for values in (self._values, there)]
+        return 0.5 * sum(weighted) + priors[0] - priors[1]
 
     def own_sd(self) -> tuple[Array, ...]:
         """Standard deviations of each recording's own unknowns."""
@@ -179,19 +185,22 @@ class NormalEquations:
     def predicted_errors(self) -> Array:
         """Root mean square error of each segment with what the others say of the common unknowns, (segments,) [rad].
 
-        One Newton step from the optimum leaves a segment out; what is the segment's or its recording's own is fitted.
+        One Newton step from the optimum leaves a segment out; what is the segment's own is fitted.
         """
         held = ((self._low > -_AT_BOUND) & (self._b < 0)) | ((self._high < _AT_BOUND) & (self._b > 0))
         free, out = ~held, []
         for r, run in enumerate(self._runs):
             for i, one in enumerate(self._of(r)):
-                step = np.zeros(len(held))
-                if len(self._segments) > 1 and np.any(free):
-                    A, b = run.without(i)
+                step, own = np.zeros(len(held)), run.own[:, -1]
+                if len(self._segments) > 1:
+                    A, b, of_own = run.without(i)
                     A, b = self._A - run.A + A, self._b - run.b + b
-                    step[free] = np.linalg.solve(A[np.ix_(free, free)], b[free])
-                own, local = run.rest(step)
-                move = np.concatenate([step, own, local[i], [1.0]])
+                    if np.any(free):
+                        step[free] = np.linalg.solve(A[np.ix_(free, free)], b[free])
+                    own = of_own[:, -1] - of_own[:, :-1] @ step
+                both = np.concatenate([step, own])
+                local = run.segments[i][:, -1] - run.segments[i][:, :-1] @ both
+                move = np.concatenate([both, local, [1.0]])
                 out.append(np.sqrt(max(float(move @ one.gram @ move), 0.0) / one.readings.size))
         return np.array(out)
 

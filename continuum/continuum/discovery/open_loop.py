@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.problem import Problem, State, point_of
+from continuum.discovery.problem import Problem, State, given_delay, point_of
 from continuum.discovery.unknowns import STEP, Unknown, shifted
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.integration.tolerances import Tolerances
@@ -21,6 +21,7 @@ from continuum.dynamics.values import parameter_slots, parameter_vector, with_ve
 from continuum.recordings.recording import Recording
 
 _TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
+_LATER = 0.03  # step of a delay's logarithm: inputs jump, and an integration's steps with them
 _SHORT = 0.25  # part of a segment by which the last one may be longer
 
 
@@ -88,6 +89,7 @@ class Simulators:
         """What drives a run, as late as the state says."""
         s = self.problem.structure
         delay = sum(float(own[name][0]) for e in s.late if (own := state.active.get(e.name)) for name in e.parameters)
+        delay += given_delay(s.given)
         inputs = self._recordings[run].inputs_for(s.given)
         return replace(inputs, held=self.problem.runs[run].held).later(delay)
 
@@ -119,7 +121,7 @@ class RunSimulation:
         for i, unknown in enumerate(unknowns):
             effects = {effect for effect, _, _ in unknown.places}
             if effects & late:
-                self._late[i] = simulators.inputs(shifted(state, unknown, run), run)
+                self._late[i] = simulators.inputs(shifted(state, unknown, run, _LATER), run)
             elif effects & sensors:
                 self._sensors[i] = point_of(problem, shifted(state, unknown, run)).by_run[run]
             else:
@@ -153,7 +155,7 @@ class RunSimulation:
             J[:, :, i] = (self._read(rows, q, w, own) - read) / STEP
         for i, inputs in self._late.items():
             later = self._simulator.run(x0, times, inputs)
-            J[:, :, i] = (self._read(rows, later.theta, later.theta_rate, self._own) - read) / STEP
+            J[:, :, i] = (self._read(rows, later.theta, later.theta_rate, self._own) - read) / _LATER
         J[:, :, k + 2 * n : width] = np.eye(n)
         J[:, :, -1] = read + zeros - np.nan_to_num(run.readings[rows, :n])
         J[run.live[rows, :n] <= 0] = 0.0

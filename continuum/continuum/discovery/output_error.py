@@ -27,7 +27,8 @@ SEGMENT = 0.5
 """Length of a segment [s]: about a swing of an arm's slowest mode. What is wrong with the equations shows within it;
 in 2 s segments fits ended 1.5 to 4 times above the noise, by joints that came to rest elsewhere."""
 _ENOUGH = 16
-"""Segments that are simulated, spread evenly over all recordings: the time of a fit does not grow with the data."""
+"""Segments that are simulated, spread evenly over all recordings, or two of each where these are many: the time of a
+fit does not grow with their length. What is a recording's own is tried on another of its segments."""
 _AT_REST = (-0.2, 0.3)
 """Where Stribeck's torque begins (multi-start), in dry frictions above the model file's. A smoothed motion tells little
 of friction near rest, and a fit finds it from within some 0.3."""
@@ -79,7 +80,7 @@ class Fitted:
 
     @property
     def error(self) -> float:
-        """Mean of the errors [rad]; infinite where a simulation failed."""
+        """Geometric mean of the errors [rad]; infinite where a simulation failed."""
         return mean_error(self.errors)
 
     @property
@@ -105,7 +106,7 @@ class _Iterate:
 
     @property
     def error(self) -> float:
-        """Mean over the segments [rad]; infinite where a simulation failed."""
+        """Geometric mean over the segments [rad]; infinite where a simulation failed."""
         return mean_error(np.array([one.error for one in self.segments]))
 
 
@@ -121,10 +122,10 @@ class OutputError:
         self._problem, self._simulators = problem, Simulators(problem, tuple(recordings))
         n = problem.structure.n
         sd = np.concatenate([np.repeat(_BEGINNING, n), problem.noise.slow])
-        self._local_precision = sd**-2.0
+        self.local_precision = sd**-2.0
         cuts = [cut(run.times, SEGMENT) for run in problem.runs]
         apart = max(1, round(sum(map(len, cuts)) / _ENOUGH))
-        self._cuts = [rows[::apart] for rows in cuts]  # the first of each recording among them
+        self._cuts = [rows[:: min(apart, max(1, len(rows) - 1))] for rows in cuts]  # two of each recording at least
 
     @cached_property
     def floor(self) -> float:
@@ -140,7 +141,7 @@ class OutputError:
             near: fit of another set, from which this one begins.
             multi_start: whether it begins from where a fit without another's does, too.
         """
-        starts = [near.place] if near else []
+        starts = [near.place] if near else [self._as_given(found)]
         starts += [_at_rest(rise) for rise in _AT_REST] if near is None or multi_start else []
         best = self._optimum(self._begun(found, starts[0]), _FIRST)
         for start in starts[1:]:
@@ -164,13 +165,17 @@ class OutputError:
             number += len(self._cuts[r])
         return OpenLoop(tuple(found), self.floor)
 
+    def _as_given(self, found: Found) -> Start:
+        """The model file's own values."""
+        return {one.place: 0.0 for one in Unknowns(self._problem, found, {}).common if one.hypothesis is None}
+
     def _begun(self, found: Found, start: Start) -> _Iterate:
         """Where a fit begins, some unknowns being given."""
         unknowns = Unknowns(self._problem, found, start)
-        none = np.zeros(len(self._local_precision))
+        none = np.zeros(len(self.local_precision))
         common = np.array([one.start for one in unknowns.common])
         values = Values(common, unknowns.own_start, tuple(none for rows in self._cuts for _ in rows))
-        return _Iterate(unknowns, values, self._simulated(unknowns, values))
+        return _Iterate(unknowns, values, self.simulated(unknowns, values))
 
     def _optimum(self, here: _Iterate, iterations: int) -> _Iterate:
         """The best of some Levenberg-Marquardt steps."""
@@ -182,7 +187,7 @@ class OutputError:
             trial, cost = normal.stepped(damping), self._cost(best, scale)
             if here is best and normal.expected_fall(trial) < _SETTLED * cost:
                 break
-            there = _Iterate(here.unknowns, trial, self._simulated(here.unknowns, trial))
+            there = _Iterate(here.unknowns, trial, self.simulated(here.unknowns, trial))
             fall = (cost - self._cost(there, scale)) / cost
             if fall > -_RISE:
                 here, damping = there, max(damping / _MORE, _DAMPING)
@@ -197,14 +202,14 @@ class OutputError:
 
     def _normal(self, at: _Iterate) -> NormalEquations:
         scale = Scale(at.segments, self.floor)
-        return NormalEquations(at.unknowns, at.values, at.segments, scale, self._local_precision)
+        return NormalEquations(at.unknowns, at.values, at.segments, scale, self.local_precision)
 
     def _cost(self, at: _Iterate, scale: Scale) -> float:
         """Minus the log-posterior, less a constant; infinite where a simulation failed."""
-        cost = sum(scale.cost(one) for one in at.segments) + prior_cost(at.unknowns, at.values, self._local_precision)
+        cost = sum(scale.cost(one) for one in at.segments) + prior_cost(at.unknowns, at.values, self.local_precision)
         return cost if np.isfinite(cost) else np.inf
 
-    def _simulated(self, unknowns: Unknowns, values: Values) -> list[Segment]:
+    def simulated(self, unknowns: Unknowns, values: Values) -> list[Segment]:
         """Every segment, with derivatives by all unknowns."""
         state = unknowns.state(values.common, values.own)
         segments, local = list[Segment](), iter(values.local)

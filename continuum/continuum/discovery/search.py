@@ -33,6 +33,7 @@ LONG_SHOT = 0.2
 RUNNER_UP = 0.6
 """Part of the best single effect's gain from which another is refined too: screening ranks to within a third."""
 _EXCHANGES = 3  # times that a second effect is added, or one of two exchanged
+PROMISING = 2  # effects that are fitted because open-loop sensitivities promise most of them
 _ALTERNATIVES = 2  # effects that are refined in the place of each of two
 
 type Progress = Callable[[str, float], None]
@@ -148,7 +149,6 @@ def _by_family(ranked: Sequence[tuple[float, Hypothesis]]) -> list[tuple[float, 
 
 def refined(problem: Problem, lin: Linearised, chosen: Set) -> Found | None:
     """Gauss-Newton steps to a set's own optimum; None where they diverge."""
-    keys = [h.key for h in chosen]
     effects = {h.effect for h in chosen}
     before = lin.evidence.total(chosen, with_constraints=True)
     for iteration in range(ITERATIONS):
@@ -159,7 +159,7 @@ def refined(problem: Problem, lin: Linearised, chosen: Set) -> Found | None:
             lin = linearise(problem, state, near(problem, lin.levels[level]), effects)
         except np.linalg.LinAlgError:
             return None
-        chosen = matching(lin, keys)
+        chosen = matching(lin, chosen)
         after = lin.evidence.total(chosen, with_constraints=True)
         fastest = max(float(np.max(np.abs(way.w))) for way in state.ways)
         if not np.isfinite(after) or not fastest < 200:
@@ -171,13 +171,29 @@ def refined(problem: Problem, lin: Linearised, chosen: Set) -> Found | None:
     return Found(lin, chosen)
 
 
-def matching(lin: Linearised, keys: Sequence[tuple[str, tuple[int, ...] | None]]) -> Set:
-    """The hypotheses of a new linearisation with these effects and places, the best of each."""
+def matching(lin: Linearised, chosen: Set) -> Set:
+    """The hypotheses of a new linearisation that are these; of those with states, the one at the state's values."""
     out = []
-    for key in keys:
-        same = [h for h in lin.library.hypotheses if h.key == key]
-        out.append(max(same, key=lambda h: (h.start is not None or bool(h.local), lin.evidence.total((h,)))))
+    for old in chosen:
+        same = [h for h in lin.library.hypotheses if _is_same(h, old)]
+        out.append(max(same, key=lambda h: (h.start is not None, lin.evidence.total((h,)))))
     return tuple(out)
+
+
+def _is_same(new: Hypothesis, old: Hypothesis) -> bool:
+    """Whether two hypotheses are of the same effect, place and unknowns; values of one with a shape vary."""
+    if new.key != old.key or bool(new.local) != bool(old.local):
+        return False
+    named = [[c.parameter for c in h.coefficients] for h in (new, old)]
+    weights = [np.concatenate([np.zeros(0), *h.weights]).tolist() for h in (new, old)]
+    return old.start is not None or (named[0] == named[1] and weights[0] == weights[1])
+
+
+def with_library(problem: Problem, found: Found) -> Found:
+    """The set about the same state, with all hypotheses."""
+    level = found.lin.levels[found.lin.evidence.best_level(found.chosen)]
+    lin = linearise(problem, found.lin.state, near(problem, level))
+    return Found(lin, matching(lin, found.chosen))
 
 
 def with_second(problem: Problem, found: Found, screened: Screened) -> list[Found]:
@@ -186,9 +202,8 @@ def with_second(problem: Problem, found: Found, screened: Screened) -> list[Foun
     base = screened.baseline.log_evidence
     for _ in range(_EXCHANGES):
         if looked is not best:  # all that may join the set, about its own optimum
-            level = best.lin.levels[best.lin.evidence.best_level(best.chosen)]
-            lin = linearise(problem, best.lin.state, near(problem, level))
-            standing, looked = matching(lin, [h.key for h in best.chosen]), best
+            about, looked = with_library(problem, best), best
+            lin, standing = about.lin, about.chosen
         alone = lin.evidence.total(standing, with_constraints=True) - price(standing)
         ranked = ranked_singles(lin.evidence, lin.library.hypotheses)
         sets: list[Set] = [(h,) for _, h in ranked[:4]]
@@ -211,17 +226,17 @@ def with_second(problem: Problem, found: Found, screened: Screened) -> list[Foun
 
 
 def alternatives(problem: Problem, found: Found) -> list[Found]:
-    """Sets with another effect in the place of one of two that explain nearly as much."""
-    level = found.lin.levels[found.lin.evidence.best_level(found.chosen)]
-    lin = linearise(problem, found.lin.state, near(problem, level))
-    standing, out = matching(lin, [h.key for h in found.chosen]), list[Found | None]()
+    """Sets with another effect or place in the stead of one, that explain nearly as much."""
+    about = with_library(problem, found)
+    lin, standing, out = about.lin, about.chosen, list[Found | None]()
     whole = lin.evidence.total(standing, with_constraints=True)
-    for kept, left in zip(standing, reversed(standing), strict=True):
-        alone = lin.evidence.total((kept,), with_constraints=True)
-        sets: list[Set] = [(kept, h) for h in lin.library.hypotheses if h.effect != left.effect]
+    for left in standing:
+        kept = tuple(h for h in standing if h is not left)
+        alone = lin.evidence.total(kept, with_constraints=True)
+        sets: list[Set] = [(*kept, h) for h in lin.library.hypotheses if h.key != left.key]
         ranked = lin.evidence.ranked([s for s in sets if compatible(s)], 0.0, _ALTERNATIVES)
-        promising = [(e, s[1]) for e, s in ranked if e - alone > max(PRICE, RUNNER_UP * (whole - alone))]
-        out += [refined(problem, lin, (kept, h)) for _, h in _by_family(promising)[:_ALTERNATIVES]]
+        promising = [(e, s[-1]) for e, s in ranked if e - alone > max(PRICE, RUNNER_UP * (whole - alone))]
+        out += [refined(problem, lin, (*kept, h)) for _, h in _by_family(promising)[:_ALTERNATIVES]]
     return [one for one in out if one is not None]
 
 
@@ -233,14 +248,14 @@ def with_unseen(problem: Problem, found: Found) -> list[Found]:
         if not effect.within_friction or effect.name in taken:
             continue
         lin = linearise(problem, found.lin.state, near(problem, level), {*taken, effect.name})
-        standing = matching(lin, [h.key for h in found.chosen])
+        standing = matching(lin, found.chosen)
         new = max(
             (h for h in lin.library.hypotheses if h.effect == effect.name and h.start is not None),
             key=lambda h: lin.evidence.total((*standing, h)),
         )
         state = replace(found.lin.state, active={**found.lin.state.active, effect.name: new.start or {}})
         lin = linearise(problem, state, near(problem, level), {*taken, effect.name})
-        out.append(Found(lin, matching(lin, [h.key for h in (*standing, new)])))
+        out.append(Found(lin, matching(lin, (*standing, new))))
     return out
 
 

@@ -6,14 +6,16 @@ values of effects with states count by their logarithm. Some effects have a valu
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.hypotheses import PRIOR, TOLERANCE, Hypothesis
-from continuum.discovery.problem import Problem, State, ValueKey
+from continuum.discovery.library import Library
+from continuum.discovery.problem import Problem, State, ValueKey, Values
 from continuum.discovery.search import Found
 
 STEP = 1e-6
@@ -52,16 +54,16 @@ class Unknown:
         return (*self.places.items(), self.is_log, self.of_run)
 
 
-def shifted(state: State, unknown: Unknown, run: int) -> State:
-    """A state with one unknown changed by STEP, of one recording where it is that recording's own."""
+def shifted(state: State, unknown: Unknown, run: int, step: float = STEP) -> State:
+    """A state with one unknown changed by a step, of one recording where it is that recording's own."""
     if unknown.is_log:
         active = {effect: {n: np.array(v) for n, v in values.items()} for effect, values in state.active.items()}
         for effect, name, joint in unknown.places:
-            active[effect][name][max(joint, 0)] *= np.exp(STEP)
+            active[effect][name][max(joint, 0)] *= np.exp(step)
         return replace(state, active=active)
     values = dict(state.shared if unknown.of_run is None else state.own[run])
     for key, factor in unknown.places.items():
-        values[key] = values.get(key, 0.0) + factor * STEP
+        values[key] = values.get(key, 0.0) + factor * step
     if unknown.of_run is None:
         return replace(state, shared=values)
     return replace(state, own=(*state.own[:run], values, *state.own[run + 1 :]))
@@ -91,6 +93,12 @@ class Unknowns:
         """Where a fit of each recording's own begins."""
         return tuple(np.array([one.start for one in mine]) for mine in self.own)
 
+    def with_lists(self, common: Sequence[Unknown], own: Sequence[Sequence[Unknown]]) -> Unknowns:
+        """Other unknowns about the same state."""
+        other = copy(self)
+        other.common, other.own = list(common), tuple(list(those) for those in own)
+        return other
+
     def state(self, common: Array, own: tuple[Array, ...]) -> State:
         """The state with values at these coordinates, (k,) and (m,) for each recording."""
         shared: dict[ValueKey, float] = {}
@@ -112,14 +120,10 @@ class Unknowns:
         found, at = [], 0
         lin, chosen = self._found.lin, self._found.chosen
         values = lin.evidence.optimum(chosen, lin.evidence.best_level(chosen)).values
-        key_of = {column: key for key, column in lin.library.at.items()}
         for h in chosen:
             for k, c in enumerate(h.coefficients):
-                value, sd, low = float(values[at + k]), float(h.sd[k]), float(h.least[k])
                 if c.kind == "slot":
-                    factors = h.weights[k] if h.weights else (1.0,) * len(h.columns[k])
-                    places = {key_of[column]: w for column, w in zip(h.columns[k], factors, strict=True)}
-                    found.append(Unknown(places, False, max(value, low), 0.0, sd, low, np.inf, h))
+                    found.append(linear_unknown(h, k, lin.library, float(values[at + k])))
                 elif h.effect in self._state.active:
                     found += self._logs(h, c.parameter, c.joints)
             at += len(h.coefficients)
@@ -159,14 +163,26 @@ class Unknowns:
         return found
 
     def _own(self, run: int) -> list[Unknown]:
-        found = []
-        key_of = {column: key for key, column in self._found.lin.library.at.items()}
-        for h in self._found.chosen:
-            for column, sd in zip(h.local, h.local_sd, strict=True):
-                key = key_of[column]
-                start = self._state.own[run].get(key, 0.0)
-                found.append(Unknown({key: 1.0}, False, start, 0.0, float(sd), -np.inf, np.inf, h, run))
-        return found
+        values, library = self._state.own[run], self._found.lin.library
+        return [one for h in self._found.chosen for one in own_unknowns(h, library, run, values)]
+
+
+def linear_unknown(h: Hypothesis, k: int, library: Library, start: float = 0.0) -> Unknown:
+    """Of a hypothesis's coefficient that enters linearly."""
+    key_of = {column: key for key, column in library.at.items()}
+    factors = h.weights[k] if h.weights else (1.0,) * len(h.columns[k])
+    places = {key_of[column]: w for column, w in zip(h.columns[k], factors, strict=True)}
+    low = float(h.least[k])
+    return Unknown(places, False, max(start, low), 0.0, float(h.sd[k]), low, np.inf, h)
+
+
+def own_unknowns(h: Hypothesis, library: Library, run: int, values: Values) -> list[Unknown]:
+    """What a recording has for itself by a hypothesis, beginning at its values."""
+    key_of = {column: key for key, column in library.at.items()}
+    return [
+        Unknown({(key := key_of[column]): 1.0}, False, values.get(key, 0.0), 0.0, float(sd), -np.inf, np.inf, h, run)
+        for column, sd in zip(h.local, h.local_sd, strict=True)
+    ]
 
 
 def _beginning(one: Unknown, start: Start) -> Unknown:
