@@ -99,18 +99,26 @@ def test_a_step_keeps_within_bounds(seed: int) -> None:
 @LAW
 @given(st.integers(0, 10**6))
 def test_errors_are_predicted_by_the_other_segments(seed: int) -> None:
-    """Common unknowns by all but the segment's rows; its own and its recording's fitted to all of the recording's."""
+    """The common ones and its recording's by all rows but its own, those of the segment by its own rows."""
     drawn = Drawn(seed)
-    errors = drawn.normal.predicted_errors()
+    errors, shared = drawn.normal.predicted_errors(), COMMON + sum(OWN)
     A, b = drawn.dense()
     for i, one in enumerate(drawn.segments):
-        common = np.linalg.solve(*drawn.dense(left_out=i))[:COMMON]
-        rest = np.arange(COMMON, len(b))
-        others = np.linalg.solve(A[np.ix_(rest, rest)], b[rest] - A[np.ix_(rest, np.arange(COMMON))] @ common)
-        at = drawn.columns(i)
-        step = np.concatenate([common, others])[at]
-        residual = one.slopes[:, -1] + one.slopes[:, :-1] @ step
+        others = np.linalg.solve(*drawn.dense(left_out=i))[:shared]
+        rest, known = np.arange(shared, len(b)), np.arange(shared)
+        local = np.linalg.solve(A[np.ix_(rest, rest)], b[rest] - A[np.ix_(rest, known)] @ others)
+        residual = one.slopes[:, -1] + one.slopes[:, :-1] @ np.concatenate([others, local])[drawn.columns(i)]
         np.testing.assert_allclose(errors[i], np.sqrt(np.mean(residual**2)), rtol=1e-6)
+
+
+@LAW
+@given(st.integers(0, 10**6))
+def test_the_expected_fall_is_that_of_the_quadratic_cost(seed: int) -> None:
+    drawn = Drawn(seed)
+    A, b = drawn.dense()
+    step = np.linalg.solve(A, b)
+    fall = drawn.normal.expected_fall(drawn.normal.stepped(0.0))
+    np.testing.assert_allclose(fall, 0.5 * step @ A @ step, rtol=1e-6)
 
 
 @LAW

@@ -55,7 +55,7 @@ def smoothed() -> Linearised:
 def fitted(effect: str = "") -> Fitted:
     lin = smoothed()
     chosen = tuple(h for h in lin.library.hypotheses if h.effect == effect and h.local and h.joints == (1,))
-    return OutputError(lin.problem, recordings()).fit(Found(lin, chosen))
+    return OutputError(lin.problem, recordings()).fit(Found(lin, chosen), [])
 
 
 def test_derivatives_are_differences_of_simulations() -> None:

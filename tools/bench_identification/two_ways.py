@@ -56,7 +56,7 @@ def by_smoothing(arm: MeasuredArm) -> Answer:
     began = time.perf_counter()
     problem, state = fitted_baseline(problem_of(structure, arm.runs))
     found = Found(linearise(problem, state, live=()), ())
-    state = OutputError(problem, arm.runs).fit(found).state
+    state = OutputError(problem, arm.runs).fit(found, []).state
     seconds = time.perf_counter() - began
     values = point_of(problem, state).values
     return Answer({name: float(np.mean(values[structure.slots[name]])) for name in THESIS_PARAMETERS}, 0, seconds)

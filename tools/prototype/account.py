@@ -13,8 +13,9 @@ from continuum.discovery import Diagnosis, diagnose
 from continuum.discovery.baseline import run_of
 from continuum.discovery.candidates import Examination, Examined, examine
 from continuum.discovery.open_loop import RunSimulation, Simulators
-from continuum.discovery.problem import Problem, State, linearise, point_of
-from continuum.discovery.search import compatible, matching, refined
+from continuum.discovery.problem import Problem, State, point_of
+from continuum.discovery.score_test import expected_gains
+from continuum.discovery.search import with_library
 from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
@@ -51,8 +52,8 @@ class Account:
         of_beginning: diagnosis of the beginning.
         predicted: simulations of the end by its models.
         spread: standard deviation of the end's measured angles, (n,) [deg].
-        alone: every effect, and by how much it raises the log-evidence about the refitted model and at its own optimum.
-        beside: where the guess helps most beside what the verdict adds, empty where it is part of that; by how much.
+        alone: every effect, and by how much it is expected to lower the logarithm of the refitted model's error.
+        beside: where the guess promises most beside what the verdict adds, empty where it is part of that; how much.
     """
 
     diagnosis: Diagnosis
@@ -62,7 +63,7 @@ class Account:
     of_beginning: Diagnosis
     predicted: Sequence[Predicted]
     spread: Array
-    alone: Sequence[tuple[str, float, float]]
+    alone: Sequence[tuple[str, float]]
     beside: tuple[str, float]
 
 
@@ -114,29 +115,21 @@ def simulated_from(problem: Problem, state: State, part: Recording, q: Array, w:
     return simulation.readings(slice(0, part.times.size), np.zeros(3 * part.n_joints))
 
 
-def every_effect_alone(found: Examination) -> list[tuple[str, float, float]]:
-    """Each effect at the joints where it is most probable, the most probable at its optimum first."""
-    lin = found.baseline.found.lin
-    gain = {h: lin.evidence.total((h,), True) - lin.evidence.total((), True) for h in lin.library.hypotheses}
-    best = {h.effect: h for h in sorted(gain, key=lambda h: gain[h])}
-    out = []
-    for hypothesis in best.values():
-        own = refined(found.problem, lin, (hypothesis,))
-        optimum = own.lin.evidence.total(own.chosen, True) - lin.evidence.total((), True) if own else -np.inf
-        out.append((hypothesis.label, gain[hypothesis], optimum))
-    return sorted(out, key=lambda one: -one[2])
+def every_effect_alone(found: Examination) -> list[tuple[str, float]]:
+    """Each effect whose sizes enter linearly, at the joints where it promises most, the most promising first."""
+    base, best = found.baseline, dict[str, tuple[str, float]]()
+    for gain, h in expected_gains(found.judge, base.fit, base.found.lin.library):
+        best.setdefault(h.effect, (h.label, gain))
+    return list(best.values())
 
 
 def guess_beside(found: Examination, best: Examined) -> tuple[str, float]:
-    """Where the thesis's guess helps most beside a set, and by how much it raises the log-evidence."""
+    """Where the thesis's guess promises most beside a set, and by how much it lowers the logarithm of the error."""
     if THE_GUESS in {h.effect for h in best.found.chosen}:
         return "", 0.0
-    lin = linearise(found.problem, best.found.lin.state)
-    chosen = matching(lin, [h.key for h in best.found.chosen])
-    guesses = [h for h in lin.library.hypotheses if h.effect == THE_GUESS and compatible((*chosen, h))]
-    gain = {h.label: lin.evidence.total((*chosen, h), True) - lin.evidence.total(chosen, True) for h in guesses}
-    where = max(gain, key=lambda label: gain[label])
-    return where, gain[where]
+    library = with_library(found.problem, best.found).lin.library
+    gains = expected_gains(found.judge, best.fit, library)
+    return next((h.label, gain) for gain, h in gains if h.effect == THE_GUESS)
 
 
 def ended_with(found: Examination, result: Diagnosis) -> Examined:

@@ -8,7 +8,6 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery import Diagnosis
-from continuum.discovery.decision import PRICE
 from continuum.discovery.result import is_named
 from continuum.discovery.words import estimate_in_words, lookalikes, shares_in_words, sigma_in_words, verdict_in_words
 from continuum.identification.nrmse import nrmse
@@ -159,23 +158,23 @@ def _row(again: tuple[str, Said]) -> tuple[str, str, str, str, str]:
 
 
 def _alone(told: Account) -> str:
-    counts, names = PRICE, [label.partition("@")[0] for label, _, _ in told.alone]
+    names = [label.partition("@")[0] for label, _ in told.alone]
     place, (where, gain) = names.index(THE_GUESS), told.beside
-    label, _, own = told.alone[place]
-    rows = [(f"`{name}`", f"{here:.0f}", f"{there:.0f}") for name, here, there in told.alone]
-    beside = f"Beside what the verdict adds, `{where}` raises it by {gain:.0f}, which {_does(gain > counts)} count."
-    return f"""By how much each effect raises the log-evidence by itself, at those joints where that is most: about the
-refitted model, and at its own optimum. An effect counts from {counts:.0f} on. Those that need tension are left out.
+    label, own = told.alone[place]
+    rows = [(f"`{name}`", _lowered(gain)) for name, gain in told.alone]
+    beside = f"Beside what the verdict adds, `{where}` promises {_lowered(gain)}."
+    return f"""By how much each effect is expected to lower the refitted model's open-loop error by itself, at joints
+where that is most: by open-loop sensitivities, one step from the fit. Effects with states and those that need tension
+are left out.
 
-{table(("effect", "refitted model", "own optimum"), rows)}
+{table(("effect", "error"), rows)}
 
-The thesis suspected that its masses and moments of inertia were wrong (`{THE_GUESS}`). Alone, `{label}` raises the
-log-evidence by {own:.0f}, which {_does(own > counts)} count, place {place + 1} of {len(names)}. {beside * bool(where)}
-{_said_of_guess(told.diagnosis)}"""
+The thesis suspected that its masses and moments of inertia were wrong (`{THE_GUESS}`). Alone, `{label}` promises
+{_lowered(own)}, place {place + 1} of {len(names)}. {beside * bool(where)} {_said_of_guess(told.diagnosis)}"""
 
 
-def _does(it: bool) -> str:
-    return "does" if it else "does not"
+def _lowered(gain: float) -> str:
+    return f"{100 * np.expm1(-gain):.0f} %"
 
 
 def _said_of_guess(result: Diagnosis) -> str:

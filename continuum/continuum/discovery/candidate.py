@@ -17,7 +17,12 @@ _EXACT = 1e-12  # rad: an error is no less, so that it has a logarithm
 
 def mean_error(errors: Array) -> float:
     """Geometric mean over the segments [rad]; infinite where a simulation failed."""
-    return float(np.exp(np.mean(np.log(np.maximum(errors, _EXACT))))) if np.all(np.isfinite(errors)) else np.inf
+    return float(np.exp(np.mean(log_errors(errors)))) if np.all(np.isfinite(errors)) else np.inf
+
+
+def log_errors(errors: Array) -> Array:
+    """Logarithms; NaN where a simulation failed."""
+    return np.log(np.maximum(errors, _EXACT))
 
 
 @dataclass(frozen=True)

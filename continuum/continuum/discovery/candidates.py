@@ -6,25 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log
 
+import numpy as np
+
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of
 from continuum.discovery.candidate import Candidate
-from continuum.discovery.decision import ALIKE, is_farther
+from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_worth
 from continuum.discovery.output_error import Fitted, OutputError
-from continuum.discovery.problem import Problem
+from continuum.discovery.problem import Problem, linearise
 from continuum.discovery.score_test import expected_gains
-from continuum.discovery.search import (
-    MOST,
-    PROMISING,
-    RUNNER_UP,
-    Found,
-    Progress,
-    alternatives,
-    compatible,
-    screen,
-    with_library,
-    with_second,
-    with_unseen,
-)  # fmt: skip
+from continuum.discovery.search import MOST, Found, Progress, with_library, with_one_more, with_unseen
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
 from continuum.estimation.structure import Structure
@@ -86,37 +76,21 @@ def examine(
     problem = problem_of(structure, recordings)
     progress("baseline", 0.1)
     problem, start = fitted_baseline(problem)
-    screened = screen(problem, start, progress)
-    fits = _Fits(OutputError(problem, tuple(recordings)))
-    for number, one in enumerate((screened.baseline, *screened.singles)):
-        progress("simulating open loop", 0.6 + 0.03 * number)
-        fits.add(one)
-    for one in fits.promising(screened.baseline):
-        fits.add(one)
-    fits.go_on()
-    if (best := fits.unexplained) is not None and best.found.chosen:
-        progress("a second effect", 0.8)
-        for one in fits.promising(with_library(problem, best.found)):
-            fits.add(one)
-        for one in _distinct(with_second(problem, best.found, screened)):
-            fits.add(one)
-    if (best := fits.unexplained) is not None and len(best.found.chosen) < MOST:
-        for one in with_unseen(problem, best.found):
-            fits.add(one)
-    if (best := fits.nearest).found.chosen and (len(best.found.chosen) > 1 or fits.unexplained):
-        for one in alternatives(problem, best.found):
-            fits.add(one)
-    fits.settle()
+    fits = _Fits(problem, OutputError(problem, tuple(recordings)), progress)
+    fits.add(Found(linearise(problem, start), ()), ())
+    fits.search()
     base, *others = fits.examined
-    return Examination(problem, fits.judge, base, tuple(others), screened.log)
+    return Examination(problem, fits.judge, base, tuple(others), tuple(fits.log))
 
 
 class _Fits:
-    """Fits of sets, the baseline first, each beginning where the nearest so far ended."""
+    """Fits of sets, the baseline first, and the search from set to set."""
 
-    def __init__(self, judge: OutputError) -> None:
-        self.judge = judge
+    def __init__(self, problem: Problem, judge: OutputError, progress: Progress) -> None:
+        self.judge, self.log = judge, list[str]()
+        self._problem, self._progress = problem, progress
         self._by_key: dict[frozenset[object], Examined] = {}
+        self._expanded: set[frozenset[object]] = set()
 
     @property
     def examined(self) -> list[Examined]:
@@ -125,41 +99,64 @@ class _Fits:
 
     @property
     def nearest(self) -> Examined:
-        """The set whose simulations err least."""
-        return min(self.examined, key=_error)
+        """The set whose simulations err least, its effects at their price."""
 
-    @property
-    def unexplained(self) -> Examined | None:
-        """The nearest set, where its simulations err by more than the sensors."""
-        best = self.nearest
-        return best if best.fit.error > (1 + ALIKE) * self.judge.floor else None
+        def cost(one: Examined) -> float:
+            effects, observations = len(one.found.chosen), one.fit.errors.size * self._problem.structure.n
+            return PRICE * effects + observations * log(one.fit.error) if np.isfinite(one.fit.error) else np.inf
 
-    def add(self, found: Found) -> None:
+        return min(self.examined, key=cost)
+
+    def search(self) -> None:
+        """Fit sets of one effect more about the nearest set, while it errs by more than the sensors.
+
+        Where the nearest set has two effects, each of these is tried against others, about the other one.
+        """
+        while (about := self._to_expand()) is not None:
+            self._expand(about)
+            if self._is_unexplained(self.nearest):
+                self._keep(self.nearest.found, self.judge.further(self.nearest.found, self.nearest.fit))
+        self._settle()
+
+    def add(self, found: Found, near: Sequence[Fitted]) -> None:
         """Fit a set; where it is the nearest, fit its parts from there: they are nested in it."""
-        near = self.nearest.fit if self._by_key else None
-        self._keep(found, self.judge.fit(found, near, multi_start=len(self._by_key) < 2))
+        self._keep(found, self.judge.fit(found, near))
         if self.nearest.found.key == found.key:
             self._add_parts(self.nearest)
 
-    def promising(self, found: Found) -> list[Found]:
-        """A set that is examined with each effect more that open-loop sensitivities promise to explain most."""
-        fit = self._by_key[found.key].fit
-        if fit.error < (1 + ALIKE) * self.judge.floor:
-            return []
-        ranked = expected_gains(self.judge, fit, found.lin.library)
-        sets = [(gain, Found(found.lin, (*found.chosen, h))) for gain, h in ranked if compatible((*found.chosen, h))]
-        least = RUNNER_UP * sets[0][0]
-        new = {one.key: one for gain, one in reversed(sets) if gain > least and one.key not in self._by_key}
-        return list(new.values())[: -PROMISING - 1 : -1]
+    def _is_unexplained(self, one: Examined) -> bool:
+        return one.fit.error > (1 + ALIKE) * self.judge.floor
 
-    def go_on(self) -> None:
-        """Go on with the nearest set's fit where it errs by more than the sensors."""
-        if (best := self.unexplained) is not None:
-            self._keep(best.found, self.judge.further(best.found, best.fit))
+    def _to_expand(self) -> Examined | None:
+        best = self.nearest
+        parts = [self._by_key[best.found.with_only(h).key] for h in best.found.chosen]
+        able = parts if len(parts) == MOST else [best] if self._is_unexplained(best) else []
+        return next((one for one in able if one.found.key not in self._expanded), None)
 
-    def settle(self) -> None:
+    def _expand(self, about: Examined) -> None:
+        """Fit sets that have one effect more."""
+        self._expanded.add(about.found.key)
+        found = with_library(self._problem, about.found) if about.found.chosen else about.found
+        observations = about.fit.errors.size * self._problem.structure.n
+        gains = expected_gains(self.judge, about.fit, found.lin.library)
+        self.log.append(f"about {found.label}: " + ", ".join(f"{h.label} {gain:.2f}" for gain, h in gains[:5]))
+        gains = [(gain, h) for gain, h in gains if is_worth(gain, observations)]
+        for number, one in enumerate(with_one_more(self._problem, found, gains)):
+            self._progress(f"simulating with {one.label}", 0.3 + 0.05 * number + 0.2 * bool(found.chosen))
+            self._try(one, about)
+        stays = self.nearest is about and self._is_unexplained(about)
+        for one in with_unseen(self._problem, found) if stays else []:
+            self._progress(f"simulating with {one.label}", 0.7)
+            self._try(one, about)
+
+    def _try(self, found: Found, about: Examined) -> None:
+        """Fit a set that was not yet, from where the set that it extends ended, and from where the nearest did."""
+        if found.key not in self._by_key:
+            self.add(found, [about.fit, *([self.nearest.fit] if self.nearest.fit is not about.fit else [])])
+
+    def _settle(self) -> None:
         """Fit the baseline from where the nearest set ended, and parts of all sets that may be named."""
-        best, base = self.nearest, self.examined[0]
+        best, base = min(self.examined, key=_error), self.examined[0]
         if best is not base:
             self._keep(base.found, self.judge.further(base.found, best.fit))
         for one in self.examined:
@@ -169,7 +166,7 @@ class _Fits:
     def _add_parts(self, whole: Examined, missing: bool = False) -> None:
         for part in (whole.found.with_only(h) for h in whole.found.chosen if len(whole.found.chosen) > 1):
             if not (missing and part.key in self._by_key):
-                self._keep(part, self.judge.fit(part, whole.fit))
+                self._keep(part, self.judge.fit(part, [whole.fit]))
 
     def _keep(self, found: Found, fit: Fitted) -> None:
         """The nearer fit of a set."""
@@ -179,11 +176,3 @@ class _Fits:
 
 def _error(one: Examined) -> float:
     return one.fit.error
-
-
-def _distinct(sets: Sequence[Found]) -> list[Found]:
-    """The most probable state of each set of effects."""
-    best: dict[frozenset[object], Found] = {}
-    for one in sorted(sets, key=lambda one: one.log_evidence):
-        best[one.key] = one
-    return list(best.values())

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.stats import t as student
 
 from continuum.arrays import Array
-from continuum.discovery.candidate import Candidate, Key
+from continuum.discovery.candidate import Candidate, Key, log_errors
 
 PRICE = 6.0
 """Prior log-odds against one more effect: e^6 = 400 to 1 against any given one of some sixty at a few places."""
@@ -83,7 +83,7 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
             return Verdict(Kind.ADEQUATE, ((),), (1.0,), not probable)
         return Verdict(Kind.UNKNOWN, (), (), False, probable[0].effects if probable else ())
     best = possible[0]
-    sets = [one for one in possible if not is_farther(one, best, alike)]
+    sets = [one for one in probable if one is best or not is_farther(one, best, alike)]
     weights = np.array([exp(-max(log_error(one) - log_error(best), 0.0) / max(alike, 1e-9)) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
     complete = best.error < (1 + ALIKE) * floor
@@ -92,12 +92,17 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
 
 
 def is_probable(one: Candidate, part: Candidate) -> bool:
-    """Whether a set gains more on a part of it than its further effects cost and chance gives.
+    """Whether a set gains more on a part of it than its further effects cost and chance gives."""
+    observations = one.n_joints * len(one.errors)
+    return is_worth(log_error(part) - log_error(one), observations, len(one.effects) - len(part.effects))
+
+
+def is_worth(gain: float, observations: int, effects: int = 1) -> bool:
+    """Whether a fall of the logarithm of the error is more than effects cost and chance gives.
 
     Each joint in each segment is one observation of unknown variance.
     """
-    gained = one.n_joints * len(one.errors) * (log_error(part) - log_error(one))
-    return gained > PRICE * (len(one.effects) - len(part.effects)) - log(CHANCE)
+    return gain * observations > PRICE * effects - log(CHANCE)
 
 
 def least_error(candidates: Sequence[Candidate], floor: float) -> float:
@@ -117,7 +122,7 @@ def is_farther(one: Candidate, other: Candidate, by: float) -> bool:
     """
     if not (one.completed and other.completed):
         return other.completed
-    fallen, n = np.log(one.errors / other.errors), len(one.errors)
+    fallen, n = log_errors(one.errors) - log_errors(other.errors), len(one.errors)
     if n == 1:
         return False
     half = student.ppf(1 - CHANCE, n - 1) * np.std(fallen, ddof=1) / np.sqrt(n)

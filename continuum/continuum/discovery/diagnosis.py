@@ -24,7 +24,7 @@ from continuum.recordings.recording import Recording
 
 TOLERANCE = 3.0
 """Open-loop error up to which a model is adequate, where no other is asked for, in units of the angles' noise: an error
-that no single reading shows."""
+that no single reading shows. What sensors may be off by slowly is accepted in any case."""
 
 
 def diagnose(
@@ -62,7 +62,7 @@ def _answer(
 ) -> Diagnosis:
     problem, base = found.problem, found.baseline
     floor = found.judge.floor
-    accepted = TOLERANCE * floor if tolerance is None else tolerance
+    accepted = max(TOLERANCE * floor, float(np.max(problem.noise.slow))) if tolerance is None else tolerance
     others = [one.candidate for one in found.others]
     before = found.judge.whole(base.fit)
     errors = [before.error(r, run.theta) for r, run in enumerate(recordings)]
@@ -94,23 +94,24 @@ def _share(found: Examination, one: Examined) -> Share:
 
 
 def _causes(found: Examination, one: Examined) -> tuple[Cause, ...]:
-    """Effects of a set; its closed share is divided in proportion to the evidence that each adds."""
+    """Effects of a set; its closed share is divided in proportion to what each closes besides the others."""
     evidence, chosen = one.found.lin.evidence, one.found.chosen
-    whole = evidence.total(chosen, with_constraints=True)
-    gains = [
-        whole - evidence.total(tuple(h for h in chosen if h is not left), with_constraints=True) for left in chosen
-    ]
-    whole_share = _share(found, one)
-    parts: Array = np.maximum(gains, 1e-9) / np.sum(np.maximum(gains, 1e-9))
+    whole, total = _share(found, one), evidence.total(chosen, with_constraints=True)
+    errors = {each.found.key: each.fit.error for each in (found.baseline, *found.others)}
+    rest = [tuple(h for h in chosen if h is not left) for left in chosen]
+    closes = np.array([errors.get(frozenset(h.key for h in part), np.inf) - one.fit.error for part in rest])
+    parts: Array = np.full(len(chosen), 1 / len(chosen))
+    if np.all(np.isfinite(closes)) and np.sum(np.maximum(closes, 0)) > 0:
+        parts = np.maximum(closes, 0) / np.sum(np.maximum(closes, 0))
     return tuple(
         Cause(
             h.effect,
             h.joints,
-            Share(whole_share.value * part, whole_share.low * part, whole_share.high * part),
-            float(gain),
+            Share(whole.value * part, whole.low * part, whole.high * part),
+            float(total - evidence.total(others, with_constraints=True)),
             estimates_of(found.problem, one.fit, h),
         )
-        for h, part, gain in zip(chosen, parts, gains, strict=True)
+        for h, others, part in zip(chosen, rest, parts, strict=True)
     )
 
 

@@ -14,6 +14,8 @@ from continuum.dynamics.parameters import PARAMETERS
 from continuum.dynamics.values import with_vector
 from continuum.estimation.structure import absent_values
 
+_SOURCE = "fitted to recordings by a diagnosis"
+
 
 def model_of(problem: Problem, state: State, key: Key, model: Model) -> Model:
     """A model with the state's values.
@@ -46,7 +48,10 @@ def model_of(problem: Problem, state: State, key: Key, model: Model) -> Model:
             own |= {name: np.asarray(value) for name, value in state.active.get(effect.name, {}).items()}
             kept[effect.name] = ActiveEffect(effect, own)
     clipped = {name: _within(name, value) for name, value in p.named().items() if value is not None}
-    return replace(model, parameters=replace(p, **clipped), effects=tuple(kept.values()))
+    found = replace(model, parameters=replace(p, **clipped), effects=tuple(kept.values()))
+    given = model.values()
+    changed = [name for name, value in found.values().items() if name not in given or np.any(value != given[name])]
+    return replace(found, sources=dict(model.sources) | dict.fromkeys(changed, _SOURCE))
 
 
 def _within(name: str, value: Array) -> Array:

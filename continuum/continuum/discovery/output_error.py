@@ -15,7 +15,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import mean_error
-from continuum.discovery.decision import ALIKE
+from continuum.discovery.decision import ALIKE, is_worth
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values, prior_cost
 from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut
 from continuum.discovery.problem import Problem, State
@@ -48,10 +48,12 @@ class OpenLoop:
     Attributes:
         angles: as the sensors would read them, by recording, (n_times, n) each [rad]; NaN where a simulation failed.
         floor: of the error by the sensors' noise [rad].
+        of_segments: error of short segments, simulated each from its own beginning [rad].
     """
 
     angles: tuple[Array, ...]
     floor: float
+    of_segments: float
 
     def error(self, run: int, theta: Array) -> float:
         """Root mean square distance from measured angles (n_times, n) [rad], over rows and joints."""
@@ -84,12 +86,15 @@ class Fitted:
         return mean_error(self.errors)
 
     @property
-    def place(self) -> Start:
+    def key(self) -> frozenset[object]:
+        """Effects of the set with their places."""
+        return frozenset(one.hypothesis.key for one in self.unknowns.all if one.hypothesis)
+
+    @property
+    def place(self) -> dict[tuple[object, ...], float]:
         """Where a fit of another set may begin."""
-        pairs = [*zip(self.unknowns.common, self.values.common, strict=True)]
-        for those, values in zip(self.unknowns.own, self.values.own, strict=True):
-            pairs += zip(those, values, strict=True)
-        return {one.place: float(value) for one, value in pairs}
+        values = np.concatenate([self.values.common, *self.values.own])
+        return {one.place: float(value) for one, value in zip(self.unknowns.all, values, strict=True)}
 
 
 @dataclass(frozen=True)
@@ -133,28 +138,37 @@ class OutputError:
         n = self._problem.structure.n
         return float(np.sqrt(np.mean(np.diag(self._problem.noise.white)[:n])))
 
-    def fit(self, found: Found, near: Fitted | None = None, multi_start: bool = False) -> Fitted:
+    def fit(self, found: Found, near: Sequence[Fitted]) -> Fitted:
         """Fit a set.
 
         Args:
             found: the set, and where a search left it.
-            near: fit of another set, from which this one begins.
-            multi_start: whether it begins from where a fit without another's does, too.
+            near: fits of other sets, from which this one begins, besides where a search left it on trajectories of its
+                own; by multi-start without any.
         """
-        starts = [near.place] if near else [self._as_given(found)]
-        starts += [_at_rest(rise) for rise in _AT_REST] if near is None or multi_start else []
-        best = self._optimum(self._begun(found, starts[0]), _FIRST)
+        starts = [self._start(found, one) for one in near]
+        if near and all(one.state.ways is not found.lin.state.ways for one in near):
+            starts.insert(0, ({}, None))
+        if not near:
+            starts = [(start, None) for start in (self._as_given(found), *map(_at_rest, _AT_REST))]
+        nearest = min((one.error for one in near), default=self.floor)
+        best = self._optimum(self._begun(found, *starts[0]), _FIRST)
         for start in starts[1:]:
-            if best.error < (1 + ALIKE) * self.floor:  # no other can be nearer
+            if best.error < (1 + ALIKE) * max(nearest, self.floor):
                 break
-            best = min(best, self._optimum(self._begun(found, start), _FIRST), key=lambda one: one.error)
-        if near is not None and not multi_start and best.error > _FAR * near.error:
+            best = min(best, self._optimum(self._begun(found, *start), _FIRST), key=lambda one: one.error)
+        if near and (best.error > _FAR * nearest or self._gains_nothing(found, best, near[0])):
             return self._fitted(best)
         return self._fitted(self._optimum(best, _ITERATIONS))
 
+    def _gains_nothing(self, found: Found, there: _Iterate, part: Fitted) -> bool:
+        """Whether a set's further effects are not worth it on a part of it, so far."""
+        observations = len(there.segments) * self._problem.structure.n
+        return part.key < found.key and not is_worth(np.log(part.error / there.error), observations)
+
     def further(self, found: Found, fit: Fitted) -> Fitted:
         """Go on with a set's fit."""
-        return self._fitted(self._optimum(self._begun(found, fit.place), _ITERATIONS))
+        return self._fitted(self._optimum(self._begun(found, *self._start(found, fit)), _ITERATIONS))
 
     def whole(self, fit: Fitted) -> OpenLoop:
         """Every recording simulated from where its first segment begins."""
@@ -163,18 +177,29 @@ class OutputError:
             simulation = RunSimulation(self._simulators, fit.state, r)
             found.append(simulation.readings(slice(0, len(run.times)), fit.values.local[number]))
             number += len(self._cuts[r])
-        return OpenLoop(tuple(found), self.floor)
+        return OpenLoop(tuple(found), self.floor, fit.error)
 
     def _as_given(self, found: Found) -> Start:
         """The model file's own values."""
         return {one.place: 0.0 for one in Unknowns(self._problem, found, {}).common if one.hypothesis is None}
 
-    def _begun(self, found: Found, start: Start) -> _Iterate:
+    def _start(self, found: Found, fit: Fitted) -> tuple[Start, Sequence[Array] | None]:
+        """Where another set's fit ended: common and own unknowns, and those of segments about the same trajectories.
+
+        Further effects begin absent where that set is a part of this one, else where the search left them.
+        """
+        place, had = fit.place, fit.key
+        if had <= found.key:
+            linear = [one for one in Unknowns(self._problem, found, {}).common if not one.is_log]
+            place = {one.place: 0.0 for one in linear if one.hypothesis and one.hypothesis.key not in had} | place
+        return place, fit.values.local if fit.state.ways is found.lin.state.ways else None
+
+    def _begun(self, found: Found, start: Start, local: Sequence[Array] | None) -> _Iterate:
         """Where a fit begins, some unknowns being given."""
         unknowns = Unknowns(self._problem, found, start)
         none = np.zeros(len(self.local_precision))
         common = np.array([one.start for one in unknowns.common])
-        values = Values(common, unknowns.own_start, tuple(none for rows in self._cuts for _ in rows))
+        values = Values(common, unknowns.own_start, tuple(local or (none for rows in self._cuts for _ in rows)))
         return _Iterate(unknowns, values, self.simulated(unknowns, values))
 
     def _optimum(self, here: _Iterate, iterations: int) -> _Iterate:

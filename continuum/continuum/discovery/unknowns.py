@@ -89,6 +89,11 @@ class Unknowns:
         self.own = tuple([_beginning(one, start) for one in self._own(r)] for r in range(len(problem.runs)))
 
     @property
+    def all(self) -> list[Unknown]:
+        """Common ones, then each recording's."""
+        return [*self.common, *(one for those in self.own for one in those)]
+
+    @property
     def own_start(self) -> tuple[Array, ...]:
         """Where a fit of each recording's own begins."""
         return tuple(np.array([one.start for one in mine]) for mine in self.own)

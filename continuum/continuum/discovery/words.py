@@ -130,10 +130,11 @@ def _rest(result: Diagnosis) -> str:
 
 
 def _error(result: Diagnosis) -> str:
-    worst = np.degrees(max(result.before.error(r, run.theta) for r, run in enumerate(result.recordings)))
-    return (
-        f"Left to itself it stays within {worst:.2f} degrees of the measured angles (root mean square of a recording)."
-    )
+    worst = max(result.before.error(r, run.theta) for r, run in enumerate(result.recordings))
+    pieces, whole, accepted = (np.degrees(x) for x in (result.before.of_segments, worst, result.tolerance))
+    text = f"Pieces of half a second stay within {pieces:.2f} degrees of the measured angles, whole recordings within "
+    text += f"{whole:.2f} (root mean square; tolerance {accepted:.2f})."
+    return text + " Joints come to rest elsewhere, as friction near rest decides." * bool(whole > accepted)
 
 
 def _experiment(result: Diagnosis) -> str:

@@ -62,7 +62,7 @@ def test_a_simulation_begins_where_it_is_told(run: Recording) -> None:
 
 def test_every_effect_is_weighed_once(run: Recording) -> None:
     found = examine([run], MODEL)
-    names = [label.partition("@")[0] for label, _, _ in every_effect_alone(found)]
+    names = [label.partition("@")[0] for label, _ in every_effect_alone(found)]
     assert len(names) == len(set(names))
     assert THE_GUESS in names
     where, gain = guess_beside(found, found.baseline)

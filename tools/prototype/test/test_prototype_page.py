@@ -37,7 +37,7 @@ OFFSET, GUESS = cause("angle_offset", (2,), 0.5), cause("inertia", (0, 4), 0.1)
 def diagnosis(kind: Kind, *sets: tuple[Cause, ...]) -> Diagnosis:
     verdict = Verdict(kind, (), (0.7, 0.3)[: len(sets)], False)
     closed = Share(sum(one.share.value for one in sets[0]) if sets else 0.0, 0.4, 0.7)
-    before, after = (OpenLoop((by * THETA,), 1e-4) for by in (1.1, 1.05))
+    before, after = (OpenLoop((by * THETA,), 1e-4, 1e-3) for by in (1.1, 1.05))
     sigma, course = np.full(5, 0.03), (np.zeros((49, 5)),)
     return Diagnosis(
         verdict, sets, closed, (sigma, 0.5 * sigma), (course, course), (), before, after, MODEL, MODEL,
@@ -49,9 +49,9 @@ def account(result: Diagnosis) -> Account:
     same, other = Said("Haswell", "cause", ["angle_offset@3"], 0.5), Said("Zen", "unknown", [], -0.1)
     predicted = [Predicted("refitted", "smoothed", np.full(5, 2.0), np.full(5, 0.7))]
     spread = np.array([3.0, 2.0, 1.0, 0.1, 0.02])
-    alone = [("angle_offset@3", 80.0, 90.0), ("inertia@1,5", 12.0, 4.0)]
+    alone = [("angle_offset@3", 0.7), ("inertia@1,5", 0.1)]
     again = [("nothing", same), ("kernel", same)], [("nothing", same), ("0.03 degrees, draw 1", other)]
-    return Account(result, THETA, *again, result, predicted, spread, alone, ("inertia@2", 20.0))
+    return Account(result, THETA, *again, result, predicted, spread, alone, ("inertia@2", 0.2))
 
 
 RESULTS = {
@@ -75,7 +75,7 @@ def test_the_guess_is_told_as_the_verdict_has_it() -> None:
         "unknown, no help": "neither confirms nor refutes",
     }
     assert all(text in PAGES[name] for name, text in said.items())
-    assert "by 4, which does not count, place 2 of 2. Beside what the verdict adds, `inertia@2`" in PAGES["cause"]
+    assert "`inertia@1,5` promises -10 %, place 2 of 2. Beside what the verdict adds, `inertia@2`" in PAGES["cause"]
     alone = page(replace(account(RESULTS["the guess"]), beside=("", 0.0)))
     assert "Beside what" not in alone
 
