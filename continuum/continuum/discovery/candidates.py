@@ -14,7 +14,7 @@ from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_worth
 from continuum.discovery.output_error import Fitted, OutputError
 from continuum.discovery.problem import Problem, linearise
 from continuum.discovery.score_test import expected_gains
-from continuum.discovery.search import MOST, Found, Progress, with_library, with_one_more, with_unseen
+from continuum.discovery.search import MOST, RUNNER_UP, Found, Progress, with_library, with_one_more, with_unseen
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
 from continuum.estimation.structure import Structure
@@ -140,7 +140,7 @@ class _Fits:
         observations = about.fit.errors.size * self._problem.structure.n
         gains = expected_gains(self.judge, about.fit, found.lin.library)
         self.log.append(f"about {found.label}: " + ", ".join(f"{h.label} {gain:.2f}" for gain, h in gains[:5]))
-        gains = [(gain, h) for gain, h in gains if is_worth(gain, observations)]
+        gains = [(gain, h) for gain, h in gains if is_worth(gain / RUNNER_UP, observations)]
         for number, one in enumerate(with_one_more(self._problem, found, gains)):
             self._progress(f"simulating with {one.label}", 0.3 + 0.05 * number + 0.2 * bool(found.chosen))
             self._try(one, about)
