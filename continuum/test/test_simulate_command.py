@@ -4,6 +4,7 @@ import csv
 import math
 import re
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,11 +16,14 @@ from continuum.cli import main
 from continuum.cli.negative_numbers import written_out
 from continuum.cli.output_files import check_picture, check_writable
 from continuum.cli.simulate import release_posture
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.model import ActiveEffect
 from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.pulled_posture import pulled_posture
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError, InvalidValueError
+from continuum.estimation.structure import absent_values
 from continuum.recordings.motion_figure import backbone, write_motion_figure
 from continuum.recordings.tension_table import read_tension_table
 
@@ -46,6 +50,26 @@ def test_a_release_loses_energy(tmp_path, capsys):
     assert np.all(np.diff(left) < 1e-6)
     assert left[0] - left[-1] > 0.1
     assert "bend in total   90.00 degrees at first" in capsys.readouterr().out
+
+
+def test_sensors_read_what_the_model_says(tmp_path):
+    """An offset is added; readings that are late are those of a later beginning."""
+    offset, delay, n = effect_named("angle_offset"), effect_named("sensor_delay"), MODEL.n_joints
+    late = {"plain": 0.0, "late": 3 / 120}
+    for name, seconds in late.items():
+        effects = (
+            ActiveEffect(offset, absent_values(offset, n) | {"offset": np.array([0.0, 0.05, 0.0, 0.0, 0.0])}),
+            ActiveEffect(delay, {"delay": np.array([seconds])}),
+        )
+        save_model(replace(MODEL, effects=effects), tmp_path / f"{name}.yaml")
+        order = ["simulate", "--release", "60", "--model", str(tmp_path / f"{name}.yaml"), "--csv"]
+        assert main([*order, str(tmp_path / f"{name}.csv")]) == 0
+    plain, delayed = (table(tmp_path / f"{name}.csv")[1][:, 1:11] for name in late)
+    bend = np.full(5, 12.0)
+    bend[1] += math.degrees(0.05)
+    np.testing.assert_allclose(plain[0, :5], bend, atol=1e-6)
+    np.testing.assert_allclose(delayed[3:], plain[:-3], atol=1e-5)
+    np.testing.assert_allclose(delayed[:4, :5], np.tile(bend, (4, 1)), atol=1e-5)
 
 
 def test_what_is_written_goes_in_again(tmp_path):

@@ -69,6 +69,7 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Simulate, print a summary, and write what was asked for; 1 where the integration fails."""
     # Here, so that the other commands need neither CasADi and numba nor the time to load them and Matplotlib.
+    from continuum.cli.simulated_readings import as_read
     from continuum.cli.simulation_hints import beyond_contact, hints
     from continuum.dynamics.model_file import load_model
     from continuum.dynamics.model_inputs import undriven
@@ -105,12 +106,15 @@ def run(options: argparse.Namespace) -> int:
     if model.parameters.has_cables and np.abs(motion.theta).max() > math.pi:
         print("continuum: no joint bends by more than half a turn; nothing is written", file=sys.stderr)
         return 1
+    seen = as_read(model, motion)
+    if not np.array_equal(seen.states, motion.states):
+        print("continuum: angles and rates are those that the model's sensors read", file=sys.stderr)
     if options.csv is not None:
-        write_motion_table(motion, inputs, options.csv)
+        write_motion_table(seen, inputs, options.csv)
     if options.picture is not None:
         from continuum.recordings.motion_figure import write_motion_figure
 
-        write_motion_figure(motion, inputs, model.parameters, options.picture)
+        write_motion_figure(seen, inputs, model.parameters, options.picture)
     written = [path for path in (options.csv, options.picture) if path is not None]
     print(f"written: {', '.join(written)}" if written else "nothing written; --csv and --picture name files")
     return 0
