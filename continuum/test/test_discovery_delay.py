@@ -1,0 +1,73 @@
+"""Readings that are late: given in the model or sought, the same simulation; derivatives by a delay are differences."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from continuum.discovery.baseline import fitted_baseline, problem_of
+from continuum.discovery.open_loop import RunSimulation, Simulators
+from continuum.discovery.problem import State
+from continuum.discovery.unknowns import Unknown
+from continuum.dynamics.dry_friction import with_dry_friction
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.model_file import load_model
+from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.tensions import Tensions
+from continuum.estimation.structure import Structure
+from continuum.recordings.recording import Recording
+
+DELAY, TIMES, ROWS = 0.03, np.arange(0, 0.8, 1 / 120), slice(0, 60)
+PLACE = ("sensor_delay", "delay", -1)
+
+
+def nominal() -> Model:
+    return with_dry_friction(load_model("lamecc_prototype.yaml"))
+
+
+def pull(times: np.ndarray) -> np.ndarray:
+    return np.stack([5 * (1 - np.cos(9 * np.maximum(times, 0))), np.zeros(times.size)], axis=1)
+
+
+@pytest.fixture(scope="module")
+def recording() -> Recording:
+    moved = Simulator(nominal()).run(np.zeros(5), TIMES, Tensions(TIMES, pull(TIMES - DELAY)))
+    noise = np.random.default_rng(0).standard_normal((2, TIMES.size, 5)) * np.array([1e-3, 1e-2])[:, None, None]
+    return Recording("pull", TIMES, moved.theta + noise[0], moved.theta_rate + noise[1], Tensions(TIMES, pull(TIMES)))
+
+
+def simulation(recording: Recording, model: Model, sought: float | None) -> tuple[Simulators, State]:
+    problem, state = fitted_baseline(problem_of(Structure(model, ["sensor_delay"]), [recording]))
+    active = {} if sought is None else {"sensor_delay": {"delay": np.array([sought])}}
+    return Simulators(problem, (recording,)), replace(state, active=active)
+
+
+def test_a_given_delay_is_a_delay_that_was_sought(recording: Recording) -> None:
+    """And with it the recording is simulated."""
+    given = replace(nominal(), effects=(ActiveEffect(effect_named("sensor_delay"), {"delay": np.array([DELAY])}),))
+    simulators, state = simulation(recording, given, None)
+    angles = RunSimulation(simulators, state, 0).readings(ROWS, np.zeros(15))
+    other, _ = simulation(recording, nominal(), None)
+    sought = replace(state, active={"sensor_delay": {"delay": np.array([DELAY])}})
+    held = replace(
+        other.problem, runs=tuple(run.with_held(simulators.problem.runs[0].held) for run in other.problem.runs)
+    )
+    again = RunSimulation(Simulators(held, (recording,)), sought, 0).readings(ROWS, np.zeros(15))
+    np.testing.assert_allclose(again, angles, atol=1e-9)
+    assert np.sqrt(np.mean((angles - recording.theta[ROWS]) ** 2)) < 0.01
+
+
+def test_the_derivative_by_a_delay_is_a_difference(recording: Recording) -> None:
+    """At the tolerances with which fits simulate."""
+    simulators, state = simulation(recording, nominal(), DELAY)
+    unknown = Unknown({PLACE: 1.0}, True, np.log(DELAY), np.log(DELAY), 1.0, -10.0, 0.0)
+    slope = RunSimulation(simulators, state, 0, [unknown]).segment(ROWS, np.zeros(15)).slopes[:, 0]
+    ends = []
+    for sign in (-1, 1):
+        moved = replace(state, active={"sensor_delay": {"delay": np.array([DELAY * np.exp(0.05 * sign)])}})
+        ends.append(RunSimulation(simulators, moved, 0).readings(ROWS, np.zeros(15)).ravel())
+    difference = (ends[1] - ends[0]) / 0.1
+    assert np.linalg.norm(slope - difference) < 0.1 * np.linalg.norm(difference)
