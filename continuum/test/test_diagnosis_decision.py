@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from continuum.discovery.candidate import Candidate, Key
 from continuum.discovery.decision import ALIKE, LEAST_SHARE, Kind, Verdict, closed, decide, is_farther
 
-FLOOR, SEGMENTS = 0.003, 16
+FLOOR, SEGMENTS, OBSERVATIONS = 0.003, 16, 80.0
+NOISE = np.full(SEGMENTS, FLOOR)
 SPRING: Key = (("joint_stiffness", (1,)),)
 DRAG: Key = (("quadratic_drag", None),)
 BOTH: Key = SPRING + DRAG
@@ -19,7 +20,7 @@ NONE: Key = ()
 def candidate(effects: Key, error: float, spread: float = 0.03) -> Candidate:
     """With open-loop errors of sixteen segments that differ by a few percent."""
     phases = 3.0 * np.arange(SEGMENTS) + len(effects)
-    return Candidate(effects, error * (1 + spread * np.cos(phases)), 5)
+    return Candidate(effects, error * (1 + spread * np.cos(phases)), OBSERVATIONS)
 
 
 def verdict(*others: Candidate, before: float = 0.03, tolerance: float = 0.009) -> Verdict:
@@ -79,7 +80,9 @@ def test_what_helps_one_segment_alone_is_no_cause() -> None:
     before = candidate(NONE, 0.0031)
     errors = before.errors.copy()
     errors[3] = 0.5
-    found = decide(Candidate(NONE, errors, 5), [Candidate(SPRING, before.errors, 5)], FLOOR, 0.0, 1.0)
+    found = decide(
+        Candidate(NONE, errors, OBSERVATIONS), [Candidate(SPRING, before.errors, OBSERVATIONS)], FLOOR, 0.0, 1.0
+    )
     assert found.kind is Kind.UNKNOWN
 
 
@@ -111,7 +114,7 @@ def test_the_order_of_candidates_does_not_matter(order: list[Key], errors: list[
 def test_a_verdict_has_no_unit(after: float, before: float, scale: float) -> None:
     def said(factor: float) -> tuple[Verdict, tuple[float, float, float]]:
         one, two = candidate(NONE, factor * before), candidate(SPRING, factor * after)
-        return decide(one, [two], factor * FLOOR, factor * 0.009, factor * before), closed(one, two, factor * FLOOR)
+        return decide(one, [two], factor * FLOOR, factor * 0.009, factor * before), closed(one, two, factor * NOISE)
 
     (found, share), (scaled, scaled_share) = said(1.0), said(scale)
     assert (found.kind, found.sets, found.complete) == (scaled.kind, scaled.sets, scaled.complete)
@@ -121,8 +124,8 @@ def test_a_verdict_has_no_unit(after: float, before: float, scale: float) -> Non
 
 
 def test_what_cannot_be_simulated_closes_nothing() -> None:
-    failed = Candidate(SPRING, np.full(SEGMENTS, np.nan), 5)
-    assert closed(candidate(NONE, 0.03), failed, FLOOR)[0] < 0
+    failed = Candidate(SPRING, np.full(SEGMENTS, np.nan), OBSERVATIONS)
+    assert closed(candidate(NONE, 0.03), failed, NOISE)[0] < 0
     assert verdict(failed).kind is Kind.UNKNOWN
 
 
@@ -130,6 +133,6 @@ def test_errors_that_fall_by_chance_are_no_lower() -> None:
     """Under the null, one in twenty is."""
     random, n, found = np.random.default_rng(0), 2000, 0
     for _ in range(n):
-        one, two = (Candidate(NONE, 0.01 * np.exp(0.2 * random.standard_normal(8)), 5) for _ in range(2))
+        one, two = (Candidate(NONE, 0.01 * np.exp(0.2 * random.standard_normal(8)), OBSERVATIONS) for _ in range(2))
         found += is_farther(one, two, 0.0)
     assert abs(found / n - 0.05) < 4 * np.sqrt(0.05 * 0.95 / n)

@@ -29,7 +29,7 @@ BENDS = np.radians([[14.0, 10, 12, 9, 8], [-12.0, -9, -14, -10, -6], [16.0, -8, 
 
 
 @lru_cache
-def gains(effect: str, parameter: str, value: float, joint: int) -> tuple[int, list[tuple[float, Hypothesis]]]:
+def gains(effect: str, parameter: str, value: float, joint: int) -> tuple[float, list[tuple[float, Hypothesis]]]:
     """Observations, and what every effect promises of releases of an arm with one effect at one joint."""
     model = with_dry_friction(load_model("lamecc_prototype.yaml"))
     hidden = effect_named(effect)
@@ -43,7 +43,7 @@ def gains(effect: str, parameter: str, value: float, joint: int) -> tuple[int, l
     problem, state = fitted_baseline(problem_of(Structure(model, with_tension=False), recordings))
     found, judge = Found(linearise(problem, state), ()), OutputError(problem, recordings)
     fit = judge.fit(found, [])
-    return fit.errors.size * 5, expected_gains(judge, fit, found.lin.library)
+    return fit.observations, expected_gains(judge, fit, found.lin.library)
 
 
 @pytest.mark.parametrize(

@@ -32,12 +32,12 @@ class Candidate:
     Attributes:
         effects: of the set; empty for the refitted baseline.
         errors: of open-loop simulations, root mean square by segment, (segments,) [rad]; NaN where one failed.
-        n_joints: of the arm.
+        observations: residuals that are independent of each other, their number.
     """
 
     effects: Key
     errors: Array
-    n_joints: int
+    observations: float
 
     @property
     def completed(self) -> bool:

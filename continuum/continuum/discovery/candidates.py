@@ -40,8 +40,7 @@ class Examined:
     @property
     def candidate(self) -> Candidate:
         """For the decision."""
-        n_joints = self.found.lin.problem.structure.n
-        return Candidate(tuple(h.key for h in self.found.chosen), self.fit.errors, n_joints)
+        return Candidate(tuple(h.key for h in self.found.chosen), self.fit.errors, self.fit.observations)
 
 
 @dataclass(frozen=True)
@@ -130,17 +129,16 @@ class _Fits:
     def _to_expand(self) -> Examined | None:
         best = self.nearest
         parts = [self._by_key[best.found.with_only(h).key] for h in best.found.chosen]
-        able = parts if len(parts) == MOST else [best] if self._is_unexplained(best) else []
+        able = parts if len(parts) == MOST else [best] if self._is_unexplained(best) or not parts else []
         return next((one for one in able if one.found.key not in self._expanded), None)
 
     def _expand(self, about: Examined) -> None:
         """Fit sets that have one effect more."""
         self._expanded.add(about.found.key)
         found = with_library(self._problem, about.found) if about.found.chosen else about.found
-        observations = about.fit.errors.size * self._problem.structure.n
         gains = expected_gains(self.judge, about.fit, found.lin.library)
         self.log.append(f"about {found.label}: " + ", ".join(f"{h.label} {gain:.2f}" for gain, h in gains[:5]))
-        gains = [(gain, h) for gain, h in gains if is_worth(gain / RUNNER_UP, observations)]
+        gains = [(gain, h) for gain, h in gains if is_worth(gain / RUNNER_UP, about.fit.observations)]
         for number, one in enumerate(with_one_more(self._problem, found, gains)):
             self._progress(f"simulating with {one.label}", 0.3 + 0.05 * number + 0.2 * bool(found.chosen))
             self._try(one, about)

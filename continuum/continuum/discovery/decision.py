@@ -67,7 +67,7 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
         tolerance: error that a user accepts [rad].
         whole: error of the baseline's simulations of whole recordings [rad].
     """
-    floor = least_error([baseline, *others], floor)
+    noise = noise_in_segments([baseline, *others], floor)
     others = sorted((one for one in others if one.completed), key=lambda one: (log_error(one), str(one.effects)))
     lowest = log_error(others[0]) if others else np.inf
     alike = ALIKE * max(log_error(baseline) - lowest, 0.0)
@@ -77,7 +77,7 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
         return any(not is_farther(part, one, alike) or not is_probable(one, part) for part in parts)
 
     probable = [one for one in others if is_probable(one, baseline) and not is_needless(one)]
-    possible = [one for one in probable if closed(baseline, one, floor)[1] > LEAST_SHARE]
+    possible = [one for one in probable if closed(baseline, one, noise)[1] > LEAST_SHARE]
     if not possible:
         if whole < tolerance or (baseline.error < tolerance and not probable):
             return Verdict(Kind.ADEQUATE, ((),), (1.0,), not probable)
@@ -93,21 +93,26 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
 
 def is_probable(one: Candidate, part: Candidate) -> bool:
     """Whether a set gains more on a part of it than its further effects cost and chance gives."""
-    observations = one.n_joints * len(one.errors)
-    return is_worth(log_error(part) - log_error(one), observations, len(one.effects) - len(part.effects))
+    return is_worth(log_error(part) - log_error(one), one.observations, len(one.effects) - len(part.effects))
 
 
-def is_worth(gain: float, observations: int, effects: int = 1) -> bool:
+def is_worth(gain: float, observations: float, effects: int = 1) -> bool:
     """Whether a fall of the logarithm of the error is more than effects cost and chance gives.
 
-    Each joint in each segment is one observation of unknown variance.
+    Of so many independent residuals of unknown variance it is the gain in log-likelihood.
     """
     return gain * observations > PRICE * effects - log(CHANCE)
 
 
-def least_error(candidates: Sequence[Candidate], floor: float) -> float:
-    """The noise [rad]: no more than what the best simulation leaves."""
-    return min(floor, *(one.error for one in candidates))
+def noise_in_segments(candidates: Sequence[Candidate], floor: float) -> Array:
+    """The sensors' noise in each segment, (segments,) [rad]: what the best set leaves there, scaled to the floor.
+
+    All sets meet the same noise; what differs between them is told by comparing in pairs.
+    """
+    best = min((one for one in candidates if one.completed), key=lambda one: one.error, default=None)
+    if best is None:
+        return np.full(len(candidates[0].errors), floor)
+    return best.errors * min(1.0, floor / max(best.error, 1e-300))
 
 
 def log_error(one: Candidate) -> float:
@@ -129,13 +134,13 @@ def is_farther(one: Candidate, other: Candidate, by: float) -> bool:
     return bool(np.mean(fallen) - half > by)
 
 
-def closed(baseline: Candidate, one: Candidate, floor: float) -> tuple[float, float, float]:
+def closed(baseline: Candidate, one: Candidate, noise: Array) -> tuple[float, float, float]:
     """Closed share with its 95 % interval by the jackknife over segments; 0 where there is no distance to close.
 
     A simulation that fails counts as one that is off by twice the baseline's error.
     """
     gained: Array = np.where(np.isfinite(one.errors), baseline.errors - one.errors, -baseline.errors)
-    distance, n = baseline.errors - floor, len(gained)
+    distance, n = baseline.errors - noise, len(gained)
     whole = float(np.sum(distance))
     if not whole > 0:
         return 0.0, 0.0, 0.0

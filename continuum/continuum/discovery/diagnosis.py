@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidates import Examination, Examined, examine, silent
-from continuum.discovery.decision import Kind, Verdict, closed, decide, least_error
+from continuum.discovery.decision import Kind, Verdict, closed, decide, noise_in_segments
 from continuum.discovery.estimates import baseline_estimates, estimates_of
 from continuum.discovery.extended import model_of
 from continuum.discovery.missing_torque import missing_torque
@@ -89,8 +89,8 @@ def _answer(
 
 
 def _share(found: Examination, one: Examined) -> Share:
-    floor = least_error([other.candidate for other in (found.baseline, *found.others)], found.judge.floor)
-    return Share(*closed(found.baseline.candidate, one.candidate, floor))
+    noise = noise_in_segments([each.candidate for each in (found.baseline, *found.others)], found.judge.floor)
+    return Share(*closed(found.baseline.candidate, one.candidate, noise))
 
 
 def _causes(found: Examination, one: Examined) -> tuple[Cause, ...]:

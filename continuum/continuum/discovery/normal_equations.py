@@ -43,6 +43,9 @@ class Scale:
     Args:
         segments: from which the scale is taken.
         floor: standard deviation of the sensors' white noise [rad].
+
+    Attributes:
+        observations: residuals that are independent, their number.
     """
 
     def __init__(self, segments: Sequence[Segment], floor: float) -> None:
@@ -51,6 +54,7 @@ class Scale:
         rho = sum(one.product for one in segments) / squares if squares > 0 else 0.0
         rho = min(max(rho, 0.0), _MOST_CORRELATION) if np.isfinite(rho) else _MOST_CORRELATION
         self._independent = (1 - rho) / (1 + rho)
+        self.observations: float = self._independent * sum(one.readings.size for one in segments)
         self._typical = float(np.mean([max(one.error, floor) for one in segments]))
 
     def weight(self, one: Segment) -> float:

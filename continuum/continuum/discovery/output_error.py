@@ -71,6 +71,7 @@ class Fitted:
         own_sd: standard deviations of each recording's own.
         errors: root mean square over rows and joints of each segment, with what the other segments say of all that
             recordings have in common, (segments,) [rad]; NaN where a simulation failed.
+        observations: residuals that are independent of each other, their number.
     """
 
     state: State
@@ -79,6 +80,7 @@ class Fitted:
     covariance: Array
     own_sd: tuple[Array, ...]
     errors: Array
+    observations: float
 
     @property
     def error(self) -> float:
@@ -163,7 +165,7 @@ class OutputError:
 
     def _gains_nothing(self, found: Found, there: _Iterate, part: Fitted) -> bool:
         """Whether a set's further effects are not worth it on a part of it, so far."""
-        observations = len(there.segments) * self._problem.structure.n
+        observations = Scale(there.segments, self.floor).observations
         return part.key < found.key and not is_worth(np.log(part.error / there.error), observations)
 
     def further(self, found: Found, fit: Fitted) -> Fitted:
@@ -249,9 +251,10 @@ class OutputError:
         if not at.completed:
             none = tuple(np.full(len(own), np.nan) for own in values.own)
             failed = np.full(len(at.segments), np.nan)
-            return Fitted(state, unknowns, values, np.full((k, k), np.nan), none, failed)
+            return Fitted(state, unknowns, values, np.full((k, k), np.nan), none, failed, 0.0)
         normal = self._normal(at)
-        return Fitted(state, unknowns, values, normal.covariance, normal.own_sd(), normal.predicted_errors())
+        found = Scale(at.segments, self.floor).observations
+        return Fitted(state, unknowns, values, normal.covariance, normal.own_sd(), normal.predicted_errors(), found)
 
 
 def _at_rest(rise: float) -> Start:
