@@ -69,8 +69,8 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Simulate, print a summary, and write what was asked for; 1 where the integration fails."""
     # Here, so that the other commands need neither CasADi and numba nor the time to load them and Matplotlib.
-    from continuum.cli.simulated_readings import as_read
     from continuum.cli.simulation_hints import beyond_contact, hints
+    from continuum.dynamics.measuring import as_read
     from continuum.dynamics.model_file import load_model
     from continuum.dynamics.model_inputs import undriven
     from continuum.dynamics.trajectory import SimulationStatus

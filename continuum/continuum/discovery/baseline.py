@@ -9,8 +9,9 @@ import numpy as np
 
 from continuum.discovery.coordinates import coordinates
 from continuum.discovery.gauss_newton import modes_along, moved
-from continuum.discovery.problem import Problem, State, given_delay, linearise, near
+from continuum.discovery.problem import Problem, State, linearise, near
 from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.measuring import lateness
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
 from continuum.estimation.friction_modes import friction_modes
@@ -43,7 +44,7 @@ def run_of(recording: Recording, model: Model, with_rates: bool = True) -> Run:
     n = recording.n_joints
     if recording.times.size < 8:
         raise InvalidValueError(f"rows of {recording.name}", recording.times.size, "8 or more")
-    inputs = recording.inputs_for(model).later(given_delay(model))
+    inputs = recording.inputs_for(model).later(lateness(model))
     readings = (
         np.hstack([recording.theta, recording.theta_rate])
         if with_rates and recording.theta_rate is not None

@@ -112,7 +112,7 @@ def noise_in_segments(candidates: Sequence[Candidate], floor: float) -> Array:
     best = min((one for one in candidates if one.completed), key=lambda one: one.error, default=None)
     if best is None:
         return np.full(len(candidates[0].errors), floor)
-    return best.errors * min(1.0, floor / max(best.error, 1e-300))
+    return best.errors * min(1.0, floor / best.error)
 
 
 def log_error(one: Candidate) -> float:

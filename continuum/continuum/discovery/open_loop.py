@@ -10,10 +10,11 @@ from itertools import pairwise
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.problem import Problem, State, given_delay, point_of
+from continuum.discovery.problem import Problem, State, point_of
 from continuum.discovery.unknowns import STEP, Unknown, shifted
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.measuring import lateness
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
@@ -89,7 +90,7 @@ class Simulators:
         """What drives a run, as late as the state says."""
         s = self.problem.structure
         delay = sum(float(own[name][0]) for e in s.late if (own := state.active.get(e.name)) for name in e.parameters)
-        delay += given_delay(s.given)
+        delay += lateness(s.given)
         inputs = self._recordings[run].inputs_for(s.given)
         return replace(inputs, held=self.problem.runs[run].held).later(delay)
 

@@ -20,7 +20,7 @@ from continuum.discovery.normal_equations import NormalEquations, Scale, Values,
 from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut
 from continuum.discovery.problem import Problem, State
 from continuum.discovery.search import Found
-from continuum.discovery.unknowns import Start, Unknowns
+from continuum.discovery.unknowns import Start, Unknowns, linear_unknown
 from continuum.recordings.recording import Recording
 
 SEGMENT = 0.5
@@ -37,7 +37,7 @@ _ITERATIONS = 5  # further steps at most
 _FAR = 2.0  # times the error of another set's fit, with which a set is not fitted further
 _SETTLED, _STILL = 0.01, 2  # relative fall of the cost; steps in a row with less, or one that promises less, end a fit
 _RISE = 0.2  # relative rise of the cost that a step may have
-_DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises
+DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises
 _BEGINNING = (0.1, 1.0)  # rad, rad/s: prior of a segment's beginning about the smoothed state
 
 
@@ -192,8 +192,9 @@ class OutputError:
         """
         place, had = fit.place, fit.key
         if had <= found.key:
-            linear = [one for one in Unknowns(self._problem, found, {}).common if not one.is_log]
-            place = {one.place: 0.0 for one in linear if one.hypothesis and one.hypothesis.key not in had} | place
+            new, library = [h for h in found.chosen if h.key not in had], found.lin.library
+            slots = [(h, k) for h in new for k, c in enumerate(h.coefficients) if c.kind == "slot"]
+            place = {linear_unknown(h, k, library).place: 0.0 for h, k in slots} | place
         return place, fit.values.local if fit.state.ways is found.lin.state.ways else None
 
     def _begun(self, found: Found, start: Start, local: Sequence[Array] | None) -> _Iterate:
@@ -206,7 +207,7 @@ class OutputError:
 
     def _optimum(self, here: _Iterate, iterations: int) -> _Iterate:
         """The best of some Levenberg-Marquardt steps."""
-        best, damping, still = here, _DAMPING, 0
+        best, damping, still = here, DAMPING, 0
         for _ in range(iterations):
             if not here.completed:
                 break
@@ -217,7 +218,7 @@ class OutputError:
             there = _Iterate(here.unknowns, trial, self.simulated(here.unknowns, trial))
             fall = (cost - self._cost(there, scale)) / cost
             if fall > -_RISE:
-                here, damping = there, max(damping / _MORE, _DAMPING)
+                here, damping = there, max(damping / _MORE, DAMPING)
             else:
                 damping *= _MORE
             if fall > 0:

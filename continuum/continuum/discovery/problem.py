@@ -11,7 +11,6 @@ from continuum.arrays import Array
 from continuum.discovery.coordinates import Coordinates
 from continuum.discovery.evidence import Evidence, Nuisance
 from continuum.discovery.library import Library
-from continuum.dynamics.model import Model
 from continuum.estimation.augmented_filter import Measurement, RunLikelihood, run_likelihood
 from continuum.estimation.columns import Scene, assembled, to_states
 from continuum.estimation.friction_modes import FrictionModes
@@ -96,11 +95,6 @@ class _Run:
     step: Transition
     seen: Measurement
     columns: tuple[Array, Array]
-
-
-def given_delay(model: Model) -> float:
-    """By how much readings are later than inputs in a model [s]."""
-    return sum(float(np.asarray(a.effect.late(a.values)).sum()) for a in model.effects)
 
 
 def point_of(problem: Problem, state: State) -> Point:

@@ -15,10 +15,8 @@ from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values
 from continuum.discovery.open_loop import Segment
-from continuum.discovery.output_error import Fitted, OutputError
+from continuum.discovery.output_error import DAMPING, Fitted, OutputError
 from continuum.discovery.unknowns import Unknown, Unknowns, linear_unknown, own_unknowns
-
-_DAMPING = 1e-4
 
 
 def expected_gains(judge: OutputError, fit: Fitted, library: Library) -> list[tuple[float, Hypothesis]]:
@@ -43,7 +41,7 @@ def expected_gains(judge: OutputError, fit: Fitted, library: Library) -> list[tu
         part = _joined(fit.unknowns, more, more_own)
         chosen = [_columns(one, wide, part, fit.unknowns) for one in segments]
         normal = NormalEquations(part, _values(fit.values, part), chosen, scale, judge.local_precision)
-        squares = np.array(normal.expected_squares(normal.stepped(_DAMPING)))
+        squares = np.array(normal.expected_squares(normal.stepped(DAMPING)))
         return mean_error(np.sqrt(squares / [one.readings.size for one in segments]))
 
     alone = error([], [[] for _ in runs])

@@ -36,12 +36,14 @@ def warm_up() -> None:
 
 
 def _compile_simulators(structure: Structure) -> None:
-    """Of open-loop fits: with ordinary differences of parts, and with each one effect more."""
+    """Of open-loop fits, with ordinary differences of parts and one effect more; of screening, with all effects."""
     model, n = structure.model, structure.n
     always = {a.effect.name for a in model.effects if any(p.ordinary for p in a.effect.parameters.values())}
     stateful = [ActiveEffect(along.effect, absent_values(along.effect, n)) for along in structure.stateful.values()]
-    for added in (None, *model.effects, *stateful):
-        names = always | ({added.effect.name} if added else set())
+    fitted = [always | {a.effect.name} for a in (*model.effects, *stateful)]
+    plain = {a.effect.name for a in model.effects}
+    screened = [plain, *(plain | {a.effect.name} for a in stateful)]
+    for names in (always, *fitted, *screened):
         effects = tuple(a for a in (*model.effects, *stateful) if a.effect.name in names)
         equations = CompiledEquations(replace(model, effects=effects))
         _ = equations.residual, equations.stage, equations.slopes
