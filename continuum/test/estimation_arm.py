@@ -101,7 +101,7 @@ def scene_along(
     times = np.concatenate([[0.0], np.cumsum(along.length)])
     still = np.zeros((times.size, N))
     run, way = run_over(times), Trajectory(still, still, still, still)
-    return Scene(structure(), Point(values, {}, 0.0, (own or {},)), 0, run, way, along, np.ones((len(along.length), N)))
+    return Scene(structure(), Point(values, {}, (own or {},)), 0, run, way, along, np.ones((len(along.length), N)))
 
 
 def slipping(sign: np.ndarray, torque_noise: float = 1e-3) -> FrictionModes:

@@ -77,22 +77,7 @@ def test_the_order_of_runs_and_of_hypotheses_does_not_matter(seed: int) -> None:
     first = drawn.evidence(*chosen)
     again = drawn.evidence(drawn.own, drawn.pair, runs=[[at[k] for k in order] for at in drawn.runs])
     np.testing.assert_allclose(again.by_level(chosen[::-1]), first.by_level(chosen), rtol=1e-9)
-    np.testing.assert_allclose(again.by_run(chosen, 0), first.by_run(chosen, 0)[order], rtol=1e-7, atol=1e-9)
     np.testing.assert_allclose(again.optimum(chosen, 0).local, first.optimum(chosen, 0).local[order], atol=1e-7)
-
-
-@LAW
-@given(SEEDS)
-def test_a_run_s_share_is_the_evidence_with_it_less_that_without(seed: int) -> None:
-    drawn = Drawn.by(seed)
-    for chosen in ((), (drawn.pair,), (drawn.own,), (drawn.pair, drawn.own)):
-        whole = drawn.evidence(*chosen)
-        for level in (0, 1):
-            shares = whole.by_run(chosen, level)
-            for r in range(3):
-                others = [at[:r] + at[r + 1 :] for at in drawn.runs]
-                left = drawn.evidence(*chosen, runs=others).by_level(chosen)[level]
-                np.testing.assert_allclose(shares[r], whole.by_level(chosen)[level] - left, rtol=1e-7, atol=1e-7)
 
 
 @LAW
@@ -112,7 +97,6 @@ def test_units_of_a_coefficient_do_not_matter(seed: int, unit: float, unit_of_ow
     one = Evidence(drawn.runs, drawn.nuisance, chosen, WIDTH, 2)
     other = Evidence(runs, nuisance, rescaled, WIDTH, 2)
     np.testing.assert_allclose(other.by_level(rescaled), one.by_level(chosen), rtol=1e-7, atol=1e-7)
-    np.testing.assert_allclose(other.by_run(rescaled, 0), one.by_run(chosen, 0), rtol=1e-6, atol=1e-6)
     best = one.optimum(chosen, 0)
     np.testing.assert_allclose(other.optimum(rescaled, 0).theta * scale, best.theta, rtol=1e-5, atol=1e-7)
     np.testing.assert_allclose(other.optimum(rescaled, 0).sd * [1, unit], best.sd, rtol=1e-6)

@@ -40,10 +40,11 @@ class Drawn:
             for r, width in widths
         ]
         self.scale = Scale(self.segments, FLOOR)
+        self.weights = self.scale.weights([one.error for one in self.segments])
 
     @property
     def normal(self) -> NormalEquations:
-        return NormalEquations(self.unknowns, self.values, self.segments, self.scale, self.precision)  # type: ignore[arg-type]
+        return NormalEquations(self.unknowns, self.values, self.segments, self.weights, self.precision)  # type: ignore[arg-type]
 
     def columns(self, number: int) -> np.ndarray:
         """Where a segment's unknowns stand in the one vector."""
@@ -62,7 +63,7 @@ class Drawn:
         A, b = np.diag(precision), -precision * (x - mean)
         for i, one in enumerate(self.segments):
             if i != left_out:
-                at, w = self.columns(i), self.scale.weight(one)
+                at, w = self.columns(i), self.weights[i]
                 J, r = one.slopes[:, :-1], one.slopes[:, -1]
                 A[np.ix_(at, at)] += w * J.T @ J
                 b[at] -= w * J.T @ r
@@ -101,7 +102,7 @@ def test_a_step_keeps_within_bounds(seed: int) -> None:
 def test_errors_are_predicted_by_the_other_segments(seed: int) -> None:
     """The common ones and its recording's by all rows but its own, those of the segment by its own rows."""
     drawn = Drawn(seed)
-    errors, shared = drawn.normal.predicted_errors(), COMMON + sum(OWN)
+    errors, shared = drawn.normal.without_each()[1], COMMON + sum(OWN)
     A, b = drawn.dense()
     for i, one in enumerate(drawn.segments):
         others = np.linalg.solve(*drawn.dense(left_out=i))[:shared]
@@ -130,4 +131,4 @@ def test_a_cost_falls_where_its_gradient_points(seed: int, stretch: float) -> No
     small = Segment(0, one.rows, one.readings, one.slopes * (stretch * FLOOR / one.error))
     grown = Segment(0, one.rows, one.readings, small.slopes * (1 + 1e-6))
     slope = (drawn.scale.cost(grown) - drawn.scale.cost(small)) / (0.5 * (grown.square - small.square))
-    np.testing.assert_allclose(slope, drawn.scale.weight(small), rtol=1e-3)
+    np.testing.assert_allclose(slope, drawn.scale.weights([small.error])[0], rtol=1e-3)

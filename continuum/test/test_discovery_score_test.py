@@ -11,10 +11,9 @@ import pytest
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
 from continuum.discovery.decision import is_worth
-from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import linearise
-from continuum.discovery.score_test import expected_gains
+from continuum.discovery.score_test import Promise, promises
 from continuum.discovery.search import Found
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.effect_lookup import effect_named
@@ -29,8 +28,8 @@ BENDS = np.radians([[14.0, 10, 12, 9, 8], [-12.0, -9, -14, -10, -6], [16.0, -8, 
 
 
 @lru_cache
-def gains(effect: str, parameter: str, value: float, joint: int) -> tuple[float, list[tuple[float, Hypothesis]]]:
-    """Observations, and what every effect promises of releases of an arm with one effect at one joint."""
+def promised(effect: str, parameter: str, value: float, joint: int) -> list[Promise]:
+    """What every effect promises of releases of an arm with one effect at one joint."""
     model = with_dry_friction(load_model("lamecc_prototype.yaml"))
     hidden = effect_named(effect)
     values: Mapping[str, np.ndarray] = absent_values(hidden, 5)
@@ -43,7 +42,7 @@ def gains(effect: str, parameter: str, value: float, joint: int) -> tuple[float,
     problem, state = fitted_baseline(problem_of(Structure(model, with_tension=False), recordings))
     found, judge = Found(linearise(problem, state), ()), OutputError(problem, recordings)
     fit = judge.fit(found, [])
-    return fit.observations, expected_gains(judge, fit, found.lin.library)
+    return promises(judge, fit, found.lin.library)
 
 
 @pytest.mark.parametrize(
@@ -51,14 +50,13 @@ def gains(effect: str, parameter: str, value: float, joint: int) -> tuple[float,
     [("joint_stiffness", "excess", 0.4, 1), ("rest_angle", "angle", 0.08, 3)],
 )
 def test_what_is_hidden_promises_most(effect: str, parameter: str, value: float, joint: int) -> None:
-    observations, ranked = gains(effect, parameter, value, joint)
-    best = next(h for _, h in ranked if h.effect == effect)
-    promised = next(gain for gain, h in ranked if h is best)
-    assert best.joints == (joint,)
-    assert is_worth(promised, observations)
-    assert promised > 0.6 * ranked[0][0]
+    ranked = promised(effect, parameter, value, joint)
+    best = next(one for one in ranked if one.hypothesis.effect == effect)
+    assert best.hypothesis.joints == (joint,)
+    assert is_worth(best.gain, best.observations)
+    assert best.gain > 0.6 * ranked[0].gain
 
 
 def test_where_nothing_is_hidden_nothing_is_worth_it() -> None:
-    observations, ranked = gains("joint_stiffness", "excess", 0.0, 0)
-    assert not is_worth(ranked[0][0], observations)
+    best = promised("joint_stiffness", "excess", 0.0, 0)[0]
+    assert not is_worth(best.gain, best.observations)

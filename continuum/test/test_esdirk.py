@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 from dynamics_laws import FRICTIONLESS, prototype_model, random_model
 
+from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.integration.esdirk_tableau import Tableau, fourth_order, third_order
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import Model
 from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
 
 each_method = pytest.mark.parametrize("method", [third_order, fourth_order])
@@ -119,3 +121,13 @@ def test_steps_end_on_every_output(method: Method) -> None:
     found = Simulator(oscillator(), Tolerances(1e-8, 1e-9, 1.0), method()).run(np.array([0.4]), times)
     np.testing.assert_allclose(found.theta[:, 0], oscillation(times - times[0], 0.4), rtol=0, atol=1e-6)
     assert found.steps >= 49
+
+
+def test_a_stuck_arm_is_stepped_over_commands_that_jump() -> None:
+    """Dry friction takes up what changes; Newton's method begins where the joints stick, not where they would go."""
+    times, random = np.arange(0.0, 1.0, 0.01), np.random.default_rng(2)
+    arm = with_dry_friction(prototype_model(5)).with_values({"stribeck_gain": 0.0})
+    pulls = Tensions(times, np.column_stack([random.uniform(0, 0.5, times.size), np.zeros(times.size)]), held=True)
+    found = Simulator(arm, Tolerances(1e-3, 1e-4, 0.01)).run(np.zeros(5), times, pulls)
+    assert np.abs(found.theta).max() < 1e-3
+    assert found.refused < times.size / 10

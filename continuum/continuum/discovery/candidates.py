@@ -10,11 +10,20 @@ import numpy as np
 
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of
 from continuum.discovery.candidate import Candidate
-from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_worth
+from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_needless, is_worth
 from continuum.discovery.output_error import Fitted, OutputError
 from continuum.discovery.problem import Problem, linearise
-from continuum.discovery.score_test import expected_gains
-from continuum.discovery.search import MOST, RUNNER_UP, Found, Progress, with_library, with_one_more, with_unseen
+from continuum.discovery.score_test import Promise, is_linear, promises
+from continuum.discovery.search import (
+    MOST,
+    RUNNER_UP,
+    Found,
+    Progress,
+    with_library,
+    with_linear,
+    with_one_more,
+    with_unseen,
+)
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
 from continuum.estimation.structure import Structure
@@ -99,22 +108,21 @@ class _Fits:
     @property
     def nearest(self) -> Examined:
         """The set whose simulations err least, its effects at their price."""
+        observations = min(self.examined, key=_error).fit.observations
 
         def cost(one: Examined) -> float:
-            effects, observations = len(one.found.chosen), one.fit.errors.size * self._problem.structure.n
-            return PRICE * effects + observations * log(one.fit.error) if np.isfinite(one.fit.error) else np.inf
+            return PRICE * len(one.found.chosen) + observations * log(one.fit.error)
 
-        return min(self.examined, key=cost)
+        return min((one for one in self.examined if np.isfinite(one.fit.error)), key=cost, default=self.examined[0])
 
     def search(self) -> None:
-        """Fit sets of one effect more about the nearest set, while it errs by more than the sensors.
-
-        Where the nearest set has two effects, each of these is tried against others, about the other one.
-        """
+        """Fit sets of one effect more about the nearest, while it errs by more than the sensors; then its like."""
         while (about := self._to_expand()) is not None:
             self._expand(about)
-            if self._is_unexplained(self.nearest):
-                self._keep(self.nearest.found, self.judge.further(self.nearest.found, self.nearest.fit))
+            nearest = self.nearest
+            if self._is_unexplained(nearest) and not nearest.fit.settled:
+                self._keep(nearest.found, self.judge.further(nearest.found, nearest.fit))
+        self._exchange(self.nearest)
         self._settle()
 
     def add(self, found: Found, near: Sequence[Fitted]) -> None:
@@ -128,17 +136,16 @@ class _Fits:
 
     def _to_expand(self) -> Examined | None:
         best = self.nearest
-        parts = [self._by_key[best.found.with_only(h).key] for h in best.found.chosen]
-        able = parts if len(parts) == MOST else [best] if self._is_unexplained(best) or not parts else []
-        return next((one for one in able if one.found.key not in self._expanded), None)
+        effects, done = len(best.found.chosen), best.found.key in self._expanded
+        return best if effects < MOST and not done and (self._is_unexplained(best) or not effects) else None
 
     def _expand(self, about: Examined) -> None:
         """Fit sets that have one effect more."""
         self._expanded.add(about.found.key)
         found = with_library(self._problem, about.found) if about.found.chosen else about.found
-        gains = expected_gains(self.judge, about.fit, found.lin.library)
-        self.log.append(f"about {found.label}: " + ", ".join(f"{h.label} {gain:.2f}" for gain, h in gains[:5]))
-        gains = [(gain, h) for gain, h in gains if is_worth(gain / RUNNER_UP, about.fit.observations)]
+        promised = promises(self.judge, about.fit, found.lin.library)
+        self.log.append(f"about {found.label}: {_labels(promised)}")
+        gains = [(one.gain, one.hypothesis) for one in promised if is_worth(one.gain / RUNNER_UP, one.observations)]
         for number, one in enumerate(with_one_more(self._problem, found, gains)):
             self._progress(f"simulating with {one.label}", 0.3 + 0.05 * number + 0.2 * bool(found.chosen))
             self._try(one, about)
@@ -146,6 +153,19 @@ class _Fits:
         for one in with_unseen(self._problem, found) if stays else []:
             self._progress(f"simulating with {one.label}", 0.7)
             self._try(one, about)
+
+    def _exchange(self, best: Examined) -> None:
+        """Fit sets in which another effect stands for one of the best set's, by sensitivities about that set."""
+        gained = log(self.examined[0].fit.error / best.fit.error) if best.found.chosen else 0.0
+        for left in filter(is_linear, best.found.chosen):
+            rest = self._by_key[frozenset(h.key for h in best.found.chosen if h is not left)]
+            found = with_library(self._problem, rest.found) if rest.found.chosen else rest.found
+            promised = promises(self.judge, best.fit, found.lin.library, left)
+            self.log.append(f"in {best.found.label} for {left.label}: {_labels(promised)}")
+            alike = [(one.gain + gained, one.hypothesis) for one in promised if one.gain > (RUNNER_UP - 1) * gained]
+            for one in with_linear(found, alike):
+                self._progress(f"simulating with {one.label}", 0.8)
+                self._try(one, rest)
 
     def _try(self, found: Found, about: Examined) -> None:
         """Fit a set that was not yet, from where the set that it extends ended, and from where the nearest did."""
@@ -156,9 +176,12 @@ class _Fits:
         """Fit the baseline from where the nearest set ended, and parts of all sets that may be named."""
         best, base = min(self.examined, key=_error), self.examined[0]
         if best is not base:
-            self._keep(base.found, self.judge.further(base.found, best.fit))
+            self._keep(base.found, self.judge.further(base.found, best.fit, base.fit.error))
+        alike = ALIKE * log(base.fit.error / best.fit.error)
         for one in self.examined:
-            if not is_farther(one.candidate, best.candidate, ALIKE * log(base.fit.error / best.fit.error)):
+            fitted = [other.candidate for other in self.examined[1:]]
+            is_named = not is_farther(one.candidate, best.candidate, alike)
+            if is_named and not is_needless(one.candidate, fitted, alike):
                 self._add_parts(one, missing=True)
 
     def _add_parts(self, whole: Examined, missing: bool = False) -> None:
@@ -170,6 +193,10 @@ class _Fits:
         """The nearer fit of a set."""
         new = Examined(found, fit)
         self._by_key[found.key] = min(self._by_key.get(found.key, new), new, key=_error)
+
+
+def _labels(promised: Sequence[Promise]) -> str:
+    return ", ".join(f"{one.hypothesis.label} {one.gain:.2f}" for one in promised[:5])
 
 
 def _error(one: Examined) -> float:

@@ -13,7 +13,7 @@ from enum import Enum
 from math import exp, log
 
 import numpy as np
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Candidate, Key, log_errors
@@ -72,11 +72,7 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
     lowest = log_error(others[0]) if others else np.inf
     alike = ALIKE * max(log_error(baseline) - lowest, 0.0)
 
-    def is_needless(one: Candidate) -> bool:  # a part of it simulates as well
-        parts = [part for part in others if set(part.effects) < set(one.effects)]
-        return any(not is_farther(part, one, alike) or not is_probable(one, part) for part in parts)
-
-    probable = [one for one in others if is_probable(one, baseline) and not is_needless(one)]
+    probable = [one for one in others if is_probable(one, baseline) and not is_needless(one, others, alike)]
     possible = [one for one in probable if closed(baseline, one, noise)[1] > LEAST_SHARE]
     if not possible:
         if whole < tolerance or (baseline.error < tolerance and not probable):
@@ -94,6 +90,12 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
 def is_probable(one: Candidate, part: Candidate) -> bool:
     """Whether a set gains more on a part of it than its further effects cost and chance gives."""
     return is_worth(log_error(part) - log_error(one), one.observations, len(one.effects) - len(part.effects))
+
+
+def is_needless(one: Candidate, others: Sequence[Candidate], alike: float) -> bool:
+    """Whether a part of a set simulates as well."""
+    parts = [part for part in others if set(part.effects) < set(one.effects)]
+    return any(not is_farther(part, one, alike) or not is_probable(one, part) for part in parts)
 
 
 def is_worth(gain: float, observations: float, effects: int = 1) -> bool:
@@ -130,7 +132,7 @@ def is_farther(one: Candidate, other: Candidate, by: float) -> bool:
     fallen, n = log_errors(one.errors) - log_errors(other.errors), len(one.errors)
     if n == 1:
         return False
-    half = student.ppf(1 - CHANCE, n - 1) * np.std(fallen, ddof=1) / np.sqrt(n)
+    half = float(stdtrit(n - 1, 1 - CHANCE)) * np.std(fallen, ddof=1) / np.sqrt(n)
     return bool(np.mean(fallen) - half > by)
 
 
@@ -148,5 +150,5 @@ def closed(baseline: Candidate, one: Candidate, noise: Array) -> tuple[float, fl
     if n == 1:
         return share, -np.inf, np.inf
     without = (np.sum(gained) - gained) / np.maximum(whole - distance, 1e-3 * whole)
-    half = float(student.ppf(0.975, n - 1)) * float(np.sqrt((n - 1) / n * np.sum((without - without.mean()) ** 2)))
+    half = float(stdtrit(n - 1, 0.975)) * float(np.sqrt((n - 1) / n * np.sum((without - without.mean()) ** 2)))
     return share, share - half, share + half

@@ -20,8 +20,8 @@ _SHOWN = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", 
 def estimates_of(problem: Problem, fit: Fitted, hypothesis: Hypothesis) -> tuple[Estimate, ...]:
     """Values of one effect of a set."""
     effect = next(e for e in problem.structure.offered if e.name == hypothesis.effect)
-    sds, out = np.sqrt(np.diag(fit.covariance)), list[Estimate]()
-    for one, value, sd in zip(fit.unknowns.common, fit.values.common, sds, strict=True):
+    out = list[Estimate]()
+    for one, value, sd in zip(fit.unknowns.common, fit.values.common, fit.sd, strict=True):
         if one.hypothesis is hypothesis:
             out += _estimates(effect.parameters, one, float(value), float(sd))
     for run, those, values, own_sds in zip(problem.runs, fit.unknowns.own, fit.values.own, fit.own_sd, strict=True):

@@ -230,14 +230,6 @@ class Evidence:
         columns = np.array(local_of(chosen)[0], dtype=int)
         return Optimum(theta, a[at:], np.sqrt(np.diag(covariance)), columns, local, rise, covariance)
 
-    def by_run(self, chosen: Set, level: int) -> Array:
-        """Log predictive density of each run given the others, (runs,): leave-one-run-out."""
-        _, sd, runs, _ = self.system(chosen, level)
-        A = np.sum([L for L, _, _ in runs], axis=0) + np.diag(sd**-2.0)
-        b: Array = np.sum([e for _, e, _ in runs], axis=0)
-        whole = _half_form(A, b)
-        return np.array([c + whole - _half_form(A - L, b - e) for L, e, c in runs])
-
 
 def local_of(chosen: Set) -> tuple[tuple[int, ...], tuple[float, ...]]:
     """Columns that each run has a coefficient of its own for, and their prior standard deviations."""

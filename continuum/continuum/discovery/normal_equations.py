@@ -6,7 +6,7 @@ their correlation from row to row (Bayley and Hammersley, JRSS suppl. 8, 1946), 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,23 +50,24 @@ class Scale:
 
     def __init__(self, segments: Sequence[Segment], floor: float) -> None:
         self._floor = floor
-        squares = sum(one.square for one in segments)
-        rho = sum(one.product for one in segments) / squares if squares > 0 else 0.0
-        rho = min(max(rho, 0.0), _MOST_CORRELATION) if np.isfinite(rho) else _MOST_CORRELATION
-        self._independent = (1 - rho) / (1 + rho)
+        self._independent = independent(sum(one.square for one in segments), sum(one.product for one in segments))
         self.observations: float = self._independent * sum(one.readings.size for one in segments)
-        self._typical = float(np.mean([max(one.error, floor) for one in segments]))
 
-    def weight(self, one: Segment) -> float:
-        """Of a segment's squared residuals [1/rad^2]."""
-        return self._independent / (self._typical * max(one.error, self._floor))
+    def weights(self, errors: Sequence[float]) -> list[float]:
+        """Of squared residuals of segments with these errors [1/rad^2]."""
+        return [self._independent / max(error, self._floor) ** 2 for error in errors]
 
     def cost(self, one: Segment) -> float:
         """Minus the log-likelihood of a segment, less a constant."""
-        error = one.error
-        if error < self._floor:
-            error = 0.5 * (error**2 / self._floor + self._floor)
-        return self._independent * one.readings.size * error / self._typical
+        size = one.error / self._floor
+        return self._independent * one.readings.size * (np.log(size) if size > 1 else 0.5 * (size**2 - 1))
+
+
+def independent(square: float, product: float) -> float:
+    """Share of residuals that are independent, by the sum of their squares and that of products one row apart."""
+    rho = product / square if square > 0 else 0.0
+    rho = min(max(rho, 0.0), _MOST_CORRELATION) if np.isfinite(rho) else _MOST_CORRELATION
+    return (1 - rho) / (1 + rho)
 
 
 def prior_cost(unknowns: Unknowns, values: Values, local_precision: Array) -> float:
@@ -117,22 +118,28 @@ class NormalEquations:
     Args:
         unknowns, values: where.
         segments: simulated there.
-        scale: how their residuals count.
+        weights: of their squared residuals [1/rad^2].
         local_precision: inverse prior variances of a segment's own unknowns, (3 n,).
     """
 
     def __init__(
-        self, unknowns: Unknowns, values: Values, segments: Sequence[Segment], scale: Scale, local_precision: Array
+        self,
+        unknowns: Unknowns,
+        values: Values,
+        segments: Sequence[Segment],
+        weights: Sequence[float],
+        local_precision: Array,
     ) -> None:
-        self._unknowns, self._values, self._segments, self._scale = unknowns, values, segments, scale
-        self._local_precision, local = local_precision, iter(values.local)
+        self._unknowns, self._values, self._segments, self._weights = unknowns, values, segments, weights
+        self._local_precision, local = local_precision, iter(zip(weights, values.local, strict=True))
         self._runs: list[_Run] = []
         for r, (own, those) in enumerate(zip(values.own, unknowns.own, strict=True)):
             k, parts, systems = len(values.common) + len(own), list[Array](), list[tuple[Array, Array]]()
             for one in self._of(r):
-                G, h = scale.weight(one) * one.gram[:-1, :-1], -scale.weight(one) * one.gram[:-1, -1]
+                weight, mine = next(local)
+                G, h = weight * one.gram[:-1, :-1], -weight * one.gram[:-1, -1]
                 G[k:, k:] += np.diag(local_precision)
-                h[k:] -= local_precision * next(local)
+                h[k:] -= local_precision * mine
                 A, b, part = _eliminated(G, h, k)
                 systems.append((A, b))
                 parts.append(part)
@@ -163,20 +170,28 @@ class NormalEquations:
 
     def expected_squares(self, there: Values) -> list[float]:
         """Sums of the squared residuals of each segment at other values, by the linearised residuals [rad^2]."""
-        here, found = self._values, list[float]()
-        moves = iter([after - before for before, after in zip(here.local, there.local, strict=True)])
+        moves = zip(self._segments, self._moves(there), strict=True)
+        return [max(float(move @ one.gram @ move), 0.0) for one, move in moves]
+
+    def expected_residuals(self, there: Values) -> list[Array]:
+        """Residuals of each segment at other values, linearised, (rows, n) each [rad]."""
+        moves = zip(self._segments, self._moves(there), strict=True)
+        return [(one.slopes @ move).reshape(one.readings.shape) for one, move in moves]
+
+    def _moves(self, there: Values) -> Iterator[Array]:
+        """Changes of each segment's unknowns on the way to other values, and 1."""
+        here = self._values
+        local = iter([after - before for before, after in zip(here.local, there.local, strict=True)])
         for r, (before, after) in enumerate(zip(here.own, there.own, strict=True)):
-            for one in self._of(r):
-                move = np.concatenate([there.common - here.common, after - before, next(moves), [1.0]])
-                found.append(max(float(move @ one.gram @ move), 0.0))
-        return found
+            for _ in self._of(r):
+                yield np.concatenate([there.common - here.common, after - before, next(local), [1.0]])
 
     def expected_fall(self, there: Values) -> float:
         """Fall of minus the log-posterior on the way to other values, by the linearised residuals."""
         squares = self.expected_squares(there)
-        weighted = [self._scale.weight(a) * (a.square - b) for a, b in zip(self._segments, squares, strict=True)]
+        falls = [one.square - square for one, square in zip(self._segments, squares, strict=True)]
         priors = [prior_cost(self._unknowns, values, self._local_precision) for values in (self._values, there)]
-        return 0.5 * sum(weighted) + priors[0] - priors[1]
+        return 0.5 * float(np.dot(self._weights, falls)) + priors[0] - priors[1]
 
     def own_sd(self) -> tuple[Array, ...]:
         """Standard deviations of each recording's own unknowns."""
@@ -186,13 +201,15 @@ class NormalEquations:
             out.append(np.sqrt(np.diag(one.own_covariance + through @ self.covariance @ through.T)))
         return tuple(out)
 
-    def predicted_errors(self) -> Array:
-        """Root mean square error of each segment with what the others say of the common unknowns, (segments,) [rad].
+    def without_each(self) -> tuple[Array, Array]:
+        """What each segment's others say, one Newton step from the optimum.
 
-        One Newton step from the optimum leaves a segment out; what is the segment's own is fitted.
+        Returns:
+            Steps of the common unknowns, (segments, k), and root mean square errors of each segment there, what is the
+            segment's own being fitted, (segments,) [rad].
         """
         held = ((self._low > -_AT_BOUND) & (self._b < 0)) | ((self._high < _AT_BOUND) & (self._b > 0))
-        free, out = ~held, []
+        free, steps, errors = ~held, list[Array](), list[float]()
         for r, run in enumerate(self._runs):
             for i, one in enumerate(self._of(r)):
                 step, own = np.zeros(len(held)), run.own[:, -1]
@@ -205,8 +222,21 @@ class NormalEquations:
                 both = np.concatenate([step, own])
                 local = run.segments[i][:, -1] - run.segments[i][:, :-1] @ both
                 move = np.concatenate([both, local, [1.0]])
-                out.append(np.sqrt(max(float(move @ one.gram @ move), 0.0) / one.readings.size))
-        return np.array(out)
+                steps.append(step)
+                errors.append(np.sqrt(max(float(move @ one.gram @ move), 0.0) / one.readings.size))
+        return np.array(steps), np.array(errors)
+
+    def sd(self, steps: Array) -> Array:
+        """Standard deviations of the common unknowns, (k,): by residuals, or by what segments disagree about.
+
+        The jackknife (Tukey 1958) holds model error that residuals of a good fit do not show; the larger one counts.
+
+        Args:
+            steps: of the common unknowns without each segment, (segments, k).
+        """
+        n = len(steps)
+        jackknife = np.sqrt((n - 1) / n * np.sum((steps - steps.mean(axis=0)) ** 2, axis=0))
+        return np.maximum(np.sqrt(np.diag(self.covariance)), jackknife)
 
 
 def _run(systems: Sequence[tuple[Array, Array]], parts: Sequence[Array], values: Array, own: Sequence[Unknown]) -> _Run:

@@ -10,19 +10,20 @@ from itertools import pairwise
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.problem import Problem, State, point_of
+from continuum.discovery.problem import Problem, State, point_of, sensors_at
 from continuum.discovery.unknowns import STEP, Unknown, shifted
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.measuring import lateness
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.simulator import Simulator
-from continuum.dynamics.trajectory import SimulationStatus, Trajectory
+from continuum.dynamics.trajectory import SimulationStatus
 from continuum.dynamics.values import parameter_slots, parameter_vector, with_vector
 from continuum.recordings.recording import Recording
 
 _TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
 _LATER = 0.03  # step of a delay's logarithm: inputs jump, and an integration's steps with them
+_LEAD_IN = 0.25  # s, half a swing of an arm's slowest mode: what effects' states were before is forgotten in it
 _SHORT = 0.25  # part of a segment by which the last one may be longer
 
 
@@ -110,11 +111,9 @@ class RunSimulation:
         self._r, self._run, self._way = run, problem.runs[run], state.ways[run]
         self._model = extended_model(problem, state, run)
         self._simulator, self._inputs = simulators.of(self._model), simulators.inputs(state, run)
-        self._own = point_of(problem, state).by_run[run]
-        s = problem.structure
+        s, self._own = problem.structure, sensors_at(problem, state, run)
+        self._reads = s.reading_slopes(self._run, self._own)[: s.n]
         sensors, late = {e.name for e in s.sensors}, {e.name for e in s.late}
-        given = {a.effect.name for a in s.given.effects}
-        self._reads_plainly = not sensors & ({key[0] for key in (*state.shared, *state.own[run])} | given)
         slots = parameter_slots(self._model)
         self._directions = np.zeros((parameter_vector(self._model).size, len(unknowns)))
         self._sensors: dict[int, Mapping[str, Mapping[str, Array]]] = {}
@@ -124,7 +123,7 @@ class RunSimulation:
             if effects & late:
                 self._late[i] = simulators.inputs(shifted(state, unknown, run, _LATER), run)
             elif effects & sensors:
-                self._sensors[i] = point_of(problem, shifted(state, unknown, run)).by_run[run]
+                self._sensors[i] = sensors_at(problem, shifted(state, unknown, run), run)
             else:
                 for at, derivative in _direction(problem, state, slots, unknown).items():
                     self._directions[at, i] = derivative
@@ -149,9 +148,7 @@ class RunSimulation:
         q, w = found.theta, found.theta_rate
         read = self._read(rows, q, w, self._own)
         J = np.zeros((times.size, n, width + 1))
-        for i in range(k + 2 * n):
-            dq, dw = found.slopes[:, :n, i], found.slopes[:, n : 2 * n, i]
-            J[:, :, i] = dq if self._reads_plainly else self._read(rows, q + dq, w + dw, self._own) - read
+        J[:, :, : k + 2 * n] = self._reads @ found.slopes[:, : 2 * n]
         for i, own in self._sensors.items():
             J[:, :, i] = (self._read(rows, q, w, own) - read) / STEP
         for i, inputs in self._late.items():
@@ -196,25 +193,24 @@ class RunSimulation:
         ]
         return np.concatenate([np.zeros(0), *found])
 
-    @cached_property
-    def _whole(self) -> Trajectory:
-        """The run simulated from its smoothed beginning, by which effects' states amid it are known."""
-        x0, slopes = self._beginning(0, np.zeros(3 * self._problem.structure.n))
-        k = self._directions.shape[1]
-        return self._simulator.run(x0, self._run.times, self._inputs, free=self._directions, free_initial=slopes[:, :k])
-
     def _moved(self, row: int) -> tuple[Array, Array]:
-        """By how much effects' states are not those at rest, and the derivative of that, (n_z,) and (n_z, k)."""
-        n, found = self._problem.structure.n, self._whole
+        """By how much effects' states are not those at rest, and the derivative of that, (n_z,) and (n_z, k).
+
+        They are led in: simulated from what they would be at rest, from smoothed angles and rates a while before.
+        """
+        n, k, times = self._problem.structure.n, self._directions.shape[1], self._run.times
+        first = min(int(np.searchsorted(times, times[row] - _LEAD_IN)), row - 1)
+        q, w = self._way.q[first], self._way.w[first]
+        x0 = np.concatenate([q, w, self._at_rest(q, first)])
+        found = self._simulator.run(
+            x0, times[[first, row]], self._inputs, free=self._directions, free_initial=np.zeros((x0.size, k))
+        )
         if found.status is not SimulationStatus.COMPLETE:
-            nothing = self._at_rest(self._way.q[row], row) * 0.0
-            return nothing, np.zeros((nothing.size, self._directions.shape[1]))
-        return found.states[row, 2 * n :] - self._at_rest(found.theta[row], row), found.slopes[row, 2 * n :]
+            return np.zeros(x0.size - 2 * n), np.zeros((x0.size - 2 * n, k))
+        return found.states[-1, 2 * n :] - self._at_rest(found.theta[-1], row), found.slopes[-1, 2 * n :]
 
     def _read(self, rows: slice, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]]) -> Array:
         """Angles as the sensors read them but for their zeros, (rows, n) [rad]."""
-        if self._reads_plainly and own is self._own:
-            return q
         return self._problem.structure.readings(self._run, q, w, own, rows)[:, : q.shape[1]]
 
 

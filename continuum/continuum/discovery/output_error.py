@@ -8,7 +8,7 @@ cost: segments are short, so that most end before that, and Levenberg-Marquardt 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -67,20 +67,22 @@ class Fitted:
     Attributes:
         state: with the fitted values.
         unknowns, values: what was fitted, and the result.
-        covariance: of the common unknowns, (k, k).
+        sd: standard deviations of the common unknowns, (k,).
         own_sd: standard deviations of each recording's own.
         errors: root mean square over rows and joints of each segment, with what the other segments say of all that
             recordings have in common, (segments,) [rad]; NaN where a simulation failed.
         observations: residuals that are independent of each other, their number.
+        settled: whether further steps would change little.
     """
 
     state: State
     unknowns: Unknowns
     values: Values
-    covariance: Array
+    sd: Array
     own_sd: tuple[Array, ...]
     errors: Array
     observations: float
+    settled: bool
 
     @property
     def error(self) -> float:
@@ -101,11 +103,12 @@ class Fitted:
 
 @dataclass(frozen=True)
 class _Iterate:
-    """Values, and segments simulated there."""
+    """Values, segments simulated there, and whether steps settled there."""
 
     unknowns: Unknowns
     values: Values
     segments: Sequence[Segment]
+    settled: bool = False
 
     @property
     def completed(self) -> bool:
@@ -168,9 +171,10 @@ class OutputError:
         observations = Scale(there.segments, self.floor).observations
         return part.key < found.key and not is_worth(np.log(part.error / there.error), observations)
 
-    def further(self, found: Found, fit: Fitted) -> Fitted:
-        """Go on with a set's fit."""
-        return self._fitted(self._optimum(self._begun(found, *self._start(found, fit)), _ITERATIONS))
+    def further(self, found: Found, fit: Fitted, least: float = np.inf) -> Fitted:
+        """Go on with a set's fit, or begin it where another ended, while it errs by less than ``least`` [rad]."""
+        there = self._optimum(self._begun(found, *self._start(found, fit)), _FIRST)
+        return self._fitted(there if there.error > least else self._optimum(there, _ITERATIONS - _FIRST))
 
     def whole(self, fit: Fitted) -> OpenLoop:
         """Every recording simulated from where its first segment begins."""
@@ -213,24 +217,24 @@ class OutputError:
                 break
             normal, scale = self._normal(here), Scale(best.segments, self.floor)
             trial, cost = normal.stepped(damping), self._cost(best, scale)
-            if here is best and normal.expected_fall(trial) < _SETTLED * cost:
-                break
+            if here is best and normal.expected_fall(trial) < _SETTLED * scale.observations:
+                return replace(best, settled=True)
             there = _Iterate(here.unknowns, trial, self.simulated(here.unknowns, trial))
-            fall = (cost - self._cost(there, scale)) / cost
+            fall = (cost - self._cost(there, scale)) / scale.observations
+            still = 0 if fall > _SETTLED else still + 1
             if fall > -_RISE:
                 here, damping = there, max(damping / _MORE, DAMPING)
             else:
                 damping *= _MORE
             if fall > 0:
                 best = there
-            still = 0 if fall > _SETTLED else still + 1
             if still == _STILL:
-                break
+                return replace(best, settled=True)
         return best
 
     def _normal(self, at: _Iterate) -> NormalEquations:
-        scale = Scale(at.segments, self.floor)
-        return NormalEquations(at.unknowns, at.values, at.segments, scale, self.local_precision)
+        weights = Scale(at.segments, self.floor).weights([one.error for one in at.segments])
+        return NormalEquations(at.unknowns, at.values, at.segments, weights, self.local_precision)
 
     def _cost(self, at: _Iterate, scale: Scale) -> float:
         """Minus the log-posterior, less a constant; infinite where a simulation failed."""
@@ -252,10 +256,11 @@ class OutputError:
         if not at.completed:
             none = tuple(np.full(len(own), np.nan) for own in values.own)
             failed = np.full(len(at.segments), np.nan)
-            return Fitted(state, unknowns, values, np.full((k, k), np.nan), none, failed, 0.0)
+            return Fitted(state, unknowns, values, np.full(k, np.nan), none, failed, 0.0, True)
         normal = self._normal(at)
         found = Scale(at.segments, self.floor).observations
-        return Fitted(state, unknowns, values, normal.covariance, normal.own_sd(), normal.predicted_errors(), found)
+        steps, errors = normal.without_each()
+        return Fitted(state, unknowns, values, normal.sd(steps), normal.own_sd(), errors, found, at.settled)
 
 
 def _at_rest(rise: float) -> Start:

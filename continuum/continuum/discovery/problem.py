@@ -104,15 +104,8 @@ def point_of(problem: Problem, state: State) -> Point:
     values = problem.coordinates.values(base)
     _add(values, s, state.shared)
     by_run = []
-    for own in state.own:
-        mine: dict[str, dict[str, Array]] = {
-            e.name: absent_values(e, s.n) for e in s.sensors if e.name not in {a.effect.name for a in s.given.effects}
-        }
-        mine |= {a.effect.name: dict(a.values) for a in s.given.effects if a.effect in s.sensors}
-        for (effect, name, joint), value in (*state.shared.items(), *own.items()):
-            if effect in mine:
-                mine[effect][name] = mine[effect][name].copy()
-                mine[effect][name][max(joint, 0)] += value
+    for run, own in enumerate(state.own):
+        mine = sensors_at(problem, state, run)
         for (effect, name, joint), value in own.items():
             if (slot := s.slots.get(f"{effect}.{name}")) is not None:
                 now = values[slot].copy()
@@ -120,7 +113,19 @@ def point_of(problem: Problem, state: State) -> Point:
                 mine.setdefault(effect, {})[name] = now
         by_run.append(mine)
     stateful = {name: own for name, own in state.active.items() if name in s.stateful}
-    return Point(values, stateful, 0.0, tuple(by_run))
+    return Point(values, stateful, tuple(by_run))
+
+
+def sensors_at(problem: Problem, state: State, run: int) -> dict[str, dict[str, Array]]:
+    """Values of the effects on sensors in a recording, by effect and parameter."""
+    s = problem.structure
+    given = {a.effect.name: dict(a.values) for a in s.given.effects if a.effect in s.sensors}
+    found = given | {e.name: absent_values(e, s.n) for e in s.sensors if e.name not in given}
+    for (effect, name, joint), value in (*state.shared.items(), *state.own[run].items()):
+        if effect in found:
+            found[effect][name] = found[effect][name].copy()
+            found[effect][name][max(joint, 0)] += value
+    return found
 
 
 def _add(values: Array, s: Structure, coefficients: Values) -> None:

@@ -7,46 +7,92 @@ the same simulations that decide. One pass serves all effects whose sizes enter 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.discovery.candidate import mean_error
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.library import Library
-from continuum.discovery.normal_equations import NormalEquations, Scale, Values
+from continuum.discovery.normal_equations import NormalEquations, Scale, Values, independent
 from continuum.discovery.open_loop import Segment
 from continuum.discovery.output_error import DAMPING, Fitted, OutputError
 from continuum.discovery.unknowns import Unknown, Unknowns, linear_unknown, own_unknowns
 
 
-def expected_gains(judge: OutputError, fit: Fitted, library: Library) -> list[tuple[float, Hypothesis]]:
-    """By how much each hypothesis lowers the logarithm of the error, the best first.
+class Promise(NamedTuple):
+    """What one step with a hypothesis promises.
+
+    Attributes:
+        gain: by how much it lowers the logarithm of the error, less what as many unknowns gain by chance (Akaike 1974).
+        observations: residuals that are independent after it, their number.
+        hypothesis: which.
+    """
+
+    gain: float
+    observations: float
+    hypothesis: Hypothesis
+
+
+def promises(judge: OutputError, fit: Fitted, library: Library, instead_of: Hypothesis | None = None) -> list[Promise]:
+    """What each hypothesis whose size enters linearly promises, the best first.
 
     Args:
         judge: by which the set was fitted.
         fit: of a set.
         library: with the hypotheses.
+        instead_of: one of the set, whose size enters linearly, that leaves it for the other.
     """
     runs = range(len(fit.values.own))
-    linear = [h for h in library.hypotheses if h.start is None and all(c.kind == "slot" for c in h.coefficients)]
+    linear = [h for h in library.hypotheses if is_linear(h)]
     common = [[linear_unknown(h, k, library) for k in range(len(h.coefficients))] for h in linear]
     own = [[own_unknowns(h, library, r, {}) for h in linear] for r in runs]
     wide = _joined(fit.unknowns, _once(common), [_once(own[r]) for r in runs])
     segments = judge.simulated(wide, _values(fit.values, wide))
     if not all(np.isfinite(one.square) for one in segments):
         return []
-    scale = Scale(segments, judge.floor)
+    weights = Scale(segments, judge.floor).weights([one.error for one in segments])
 
-    def error(more: list[Unknown], more_own: list[list[Unknown]]) -> float:
-        part = _joined(fit.unknowns, more, more_own)
-        chosen = [_columns(one, wide, part, fit.unknowns) for one in segments]
-        normal = NormalEquations(part, _values(fit.values, part), chosen, scale, judge.local_precision)
-        squares = np.array(normal.expected_squares(normal.stepped(DAMPING)))
-        return mean_error(np.sqrt(squares / [one.readings.size for one in segments]))
+    def after(left: Hypothesis | None, more: Sequence[Unknown], more_own: Sequence[list[Unknown]]) -> list[Array]:
+        """Residuals after a step, without one hypothesis and with further unknowns."""
+        kept, values = _without(fit, left)
+        part = _joined(kept, more, more_own)
+        chosen = [_columns(one, wide, part, fit.values, left) for one in segments]
+        normal = NormalEquations(part, _values(values, part), chosen, weights, judge.local_precision)
+        return normal.expected_residuals(normal.stepped(DAMPING))
 
-    alone = error([], [[] for _ in runs])
-    gains = [np.log(alone / error(common[i], [own[r][i] for r in runs])) for i in range(len(linear))]
-    return sorted(zip(map(float, gains), linear, strict=True), key=lambda pair: -pair[0])
+    before, found = _log_error(after(None, [], [[] for _ in runs])), list[Promise]()
+    for h, more, more_own in zip(linear, common, zip(*own, strict=True), strict=True):
+        residuals = after(instead_of, more, list(more_own))
+        squares, products = [np.sum(r**2) for r in residuals], [np.sum(r[1:] * r[:-1]) for r in residuals]
+        observations = independent(sum(squares), sum(products)) * sum(r.size for r in residuals)
+        by_chance = (len(more) + sum(map(len, more_own))) / (2 * observations)
+        found.append(Promise(before - _log_error(residuals) - by_chance, observations, h))
+    return sorted(found, key=lambda one: -one.gain)
+
+
+def _log_error(residuals: Sequence[Array]) -> float:
+    return float(np.log(mean_error(np.array([np.sqrt(np.mean(r**2)) for r in residuals]))))
+
+
+def is_linear(h: Hypothesis) -> bool:
+    """Whether sizes of a hypothesis enter linearly."""
+    return h.start is None and all(c.kind == "slot" for c in h.coefficients)
+
+
+def _without(fit: Fitted, left: Hypothesis | None) -> tuple[Unknowns, Values]:
+    """Unknowns and values of a fit but those of one hypothesis."""
+    common = [k for k, one in enumerate(fit.unknowns.common) if left is None or one.hypothesis is not left]
+    own = [
+        [k for k, one in enumerate(those) if left is None or one.hypothesis is not left] for those in fit.unknowns.own
+    ]
+    unknowns = fit.unknowns.with_lists(
+        [fit.unknowns.common[k] for k in common],
+        [[those[k] for k in mine] for those, mine in zip(fit.unknowns.own, own, strict=True)],
+    )
+    by_run = tuple(x[mine] for x, mine in zip(fit.values.own, own, strict=True))
+    return unknowns, Values(fit.values.common[common], by_run, fit.values.local)
 
 
 def _joined(unknowns: Unknowns, more: Sequence[Unknown], more_own: Sequence[Sequence[Unknown]]) -> Unknowns:
@@ -66,16 +112,15 @@ def _values(values: Values, unknowns: Unknowns) -> Values:
     return Values(common, tuple(own), values.local)
 
 
-def _columns(one: Segment, wide: Unknowns, part: Unknowns, base: Unknowns) -> Segment:
-    """A segment with the derivatives by some of its unknowns only."""
+def _columns(one: Segment, wide: Unknowns, part: Unknowns, fitted: Values, left: Hypothesis | None) -> Segment:
+    """A segment with the derivatives by some of its unknowns only, and the residuals without what has left the set."""
     K, M = len(wide.common), len(wide.own[one.run])
-    common = _positions(wide.common, part.common, len(base.common))
-    own = _positions(wide.own[one.run], part.own[one.run], len(base.own[one.run]))
-    rest = range(K + M, one.slopes.shape[1])
-    return Segment(one.run, one.rows, one.readings, one.slopes[:, [*common, *(K + i for i in own), *rest]])
-
-
-def _positions(wide: Sequence[Unknown], part: Sequence[Unknown], base: int) -> list[int]:
-    """Where a part's unknowns stand, the first ones being those of the fit."""
-    at = {one.place: base + i for i, one in enumerate(wide[base:])}
-    return [*range(base), *(at[one.place] for one in part[base:])]
+    every, some = [*wide.common, *wide.own[one.run]], [*part.common, *part.own[one.run]]
+    at = {unknown.place: k for k, unknown in enumerate(every)}
+    slopes = one.slopes[:, [*(at[unknown.place] for unknown in some), *range(K + M, one.slopes.shape[1])]]
+    if left is not None:
+        values = np.zeros(K + M)
+        values[: len(fitted.common)], values[K : K + len(fitted.own[one.run])] = fitted.common, fitted.own[one.run]
+        gone = [k for k, unknown in enumerate(every) if unknown.hypothesis is left]
+        slopes[:, -1] -= one.slopes[:, gone] @ values[gone]
+    return Segment(one.run, one.rows, one.readings, slopes)

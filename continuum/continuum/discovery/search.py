@@ -85,9 +85,7 @@ def with_one_more(problem: Problem, about: Found, linear: Sequence[tuple[float, 
         about: a set with all hypotheses about its state.
         linear: gains that open-loop sensitivities promise, the best first.
     """
-    able = [(gain, h) for gain, h in linear if _may_join(about.chosen, h)]
-    promising = [(gain, h) for gain, h in able if gain > RUNNER_UP * able[0][0]]
-    out = [Found(about.lin, (*about.chosen, h)) for _, h in _by_effect(promising)[:FAMILIES]]
+    out = with_linear(about, linear)
     evidence, alone = about.lin.evidence, about.log_evidence
     sets: list[Set] = [(*about.chosen, h) for h in about.lin.library.hypotheses if _may_join(about.chosen, h)]
     if not sets:
@@ -98,6 +96,13 @@ def with_one_more(problem: Problem, about: Found, linear: Sequence[tuple[float, 
         if gain > least and (found := refined(problem, about.lin, (*about.chosen, h))) is not None:
             out.append(found)
     return out
+
+
+def with_linear(about: Found, linear: Sequence[tuple[float, Hypothesis]]) -> list[Found]:
+    """Sets with one more effect whose size enters linearly, by the gains that these promise, the best first."""
+    able = [(gain, h) for gain, h in linear if _may_join(about.chosen, h)]
+    promising = [(gain, h) for gain, h in able if gain > RUNNER_UP * able[0][0]]
+    return [Found(about.lin, (*about.chosen, h)) for _, h in _by_effect(promising)[:FAMILIES]]
 
 
 def with_unseen(problem: Problem, about: Found) -> list[Found]:

@@ -8,7 +8,7 @@ compared: they are part of the likelihood.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -42,21 +42,8 @@ class FrictionModes:
     torque_noise: Array
     acceleration: Array
 
-    def released(self, free: Array) -> FrictionModes:
-        """The same, with friction unknown in some intervals of all joints, (n_times - 1,) of bool."""
-        free = free[:, None] & np.ones_like(self.sign, dtype=bool)
-        slipping = free & (self.sign != 0)
-        return replace(
-            self,
-            sign=np.where(free, 0.0, self.sign),
-            rate_noise=np.where(slipping, _REVERSING, self.rate_noise),
-            torque_noise=np.where(free, 0.0, self.torque_noise),
-        )
 
-
-def friction_modes(
-    run: Run, way: Trajectory, stribeck_torque: Array, rate_sd: Array | None = None, base_rate: Array | None = None
-) -> FrictionModes:
+def friction_modes(run: Run, way: Trajectory, stribeck_torque: Array, rate_sd: Array | None = None) -> FrictionModes:
     """Modes along a trajectory.
 
     Args:
@@ -64,20 +51,15 @@ def friction_modes(
         way: the smoothed trajectory.
         stribeck_torque: by which friction at rest exceeds that of fast motion, (n,) [N m].
         rate_sd: standard deviation of the smoothed rates, (n_times, n) [rad/s].
-        base_rate: of the plate under joint 1, which that joint's friction does not see, (n_times,) [rad/s].
     """
-    w, h = way.w.copy(), run.intervals[:, None]
-    if base_rate is not None:
-        w[:, 0] -= base_rate
+    w, h = way.w, run.intervals[:, None]
     least = SLIPPING if rate_sd is None else np.maximum(SLIPPING, _SURE * rate_sd)
     moving = np.where(np.abs(w) < least, 0.0, np.sign(w))
     one_sided = _without_creep(moving)
     sign = np.where(one_sided[:-1] == one_sided[1:], one_sided[:-1], 0.0)
-    sign = np.where(sign * _measured_rate(run, base_rate) >= _MOVED * SLIPPING, sign, 0.0)
+    sign = np.where(sign * _measured_rate(run) >= _MOVED * SLIPPING, sign, 0.0)
     stuck = (moving[:-1] == 0) & (moving[1:] == 0)
     noise = np.where(stuck, _STUCK, _REVERSING) * np.sqrt(h / _SAMPLE)
-    if base_rate is not None:  # stuck to a plate that moves
-        noise[:, 0] = _REVERSING * np.sqrt(h[:, 0] / _SAMPLE)
     slowest = _slowest_nearby(np.abs(w))
     creep = stribeck_torque * np.exp(-((slowest / _SLOW) ** 2)) * np.sqrt(_SAMPLE)
     slips = sign != 0
@@ -95,7 +77,7 @@ def _without_creep(moving: Array) -> Array:
     return np.where(last == following, last, 0.0)
 
 
-def _measured_rate(run: Run, base_rate: Array | None) -> Array:
+def _measured_rate(run: Run) -> Array:
     """Rate of each interval by the readings alone, (n_times - 1, n) [rad/s]; 0 where a row was not measured."""
     n = run.n
     if run.has_rates:
@@ -104,10 +86,7 @@ def _measured_rate(run: Run, base_rate: Array | None) -> Array:
     else:
         live = run.live
         rate = np.diff(run.readings, axis=0) / run.intervals[:, None]
-    rate = np.where((live[:-1] > 0) & (live[1:] > 0), rate, 0.0)
-    if base_rate is not None:
-        rate[:, 0] -= 0.5 * (base_rate[:-1] + base_rate[1:])
-    return np.asarray(rate)
+    return np.where((live[:-1] > 0) & (live[1:] > 0), rate, 0.0)
 
 
 def _slowest_nearby(speed: Array) -> Array:

@@ -91,7 +91,11 @@ class Structure:
             run, way: rows and trajectory.
             own: values of the effects on sensors, by effect and parameter.
         """
-        expected = self.readings(run, way.q, way.w, own)
+        expected, H = self.readings(run, way.q, way.w, own), self.reading_slopes(run, own)
+        return Measurement(expected, np.ascontiguousarray(H if run.has_rates else H[: self.n]))
+
+    def reading_slopes(self, run: Run, own: Mapping[str, Mapping[str, Array]]) -> Array:
+        """Derivatives of angles and rates as they are read by those that are, the same in every row, (2 n, 2 n)."""
         n, unit = self.n, np.eye(self.n)
         still = np.zeros((n + 1, n))
         at = run.times[: n + 1]
@@ -99,8 +103,7 @@ class Structure:
         by_angle = self._read(at, moved, still, own, run.times[0])
         by_rate = self._read(at, still, moved, own, run.times[0])
         nothing = self._read(at, still, still, own, run.times[0])
-        H = np.hstack([(by_angle - nothing)[:n].T, (by_rate - nothing)[:n].T])
-        return Measurement(expected, np.ascontiguousarray(H if run.has_rates else H[:n]))
+        return np.hstack([(by_angle - nothing)[:n].T, (by_rate - nothing)[:n].T])
 
     def readings(
         self, run: Run, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]], rows: slice = _ALL
@@ -124,13 +127,11 @@ class Point:
     Attributes:
         values: of the compiled model, (n_p,).
         stateful: of the effects with states that are in the model, by effect and parameter.
-        delay: by which readings are later than inputs [s].
         by_run: of what each recording has for itself, and of the sensors, by effect and parameter.
     """
 
     values: Array
     stateful: Mapping[str, Mapping[str, Array]]
-    delay: float
     by_run: tuple[Mapping[str, Mapping[str, Array]], ...]
 
     def values_in(self, structure: Structure, run: int) -> Array:

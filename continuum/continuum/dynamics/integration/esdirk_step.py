@@ -27,9 +27,11 @@ def solve_stages(problem, method, work, t, x, step):  # type: ignore[no-untyped-
     for i in range(1, method.c.size):
         _stage_base(work.base, x, step, method.a[i, :i], work.rates)
         v = work.rates[i, n:]
-        v[:] = work.rates[i - 1, n:]
+        hg = step * method.a[i, i]
+        before = x if i == 1 else work.states[i - 1]
+        v[:] = (before[n:] - work.base[n:]) / hg
         inputs_at(t, t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
-        if not solve_stage(problem, method, work, work.base, v, step * method.a[i, i], i > 1):
+        if not solve_stage(problem, method, work, work.base, v, hg, i > 1):
             return False
         work.states[i] = work.packed[: x.size]
         work.rates[i, :n] = work.states[i, n : 2 * n]

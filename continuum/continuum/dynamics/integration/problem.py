@@ -57,7 +57,7 @@ class Work(NamedTuple):
         u: the inputs in it.
         out: what the equations answer.
         matrix, pivots: of Newton's method, factorised, (n_v, n_v) and (n_v,).
-        change: of the rates in one iteration, (n_v, 1).
+        change, further: of the rates in one iteration and in the next, (n_v, 1).
         row: of a matrix of slopes, (n_free,).
         base, base_slope: a stage's state but for its own rates, and its slope, (n_x,) and (n_x, n_free).
         states, rates, rate_slopes: of every stage, (stages, n_x), (stages, n_x) and (stages, n_x, n_free).
@@ -69,6 +69,7 @@ class Work(NamedTuple):
     matrix: Array
     pivots: Array
     change: Array
+    further: Array
     row: Array
     base: Array
     base_slope: Array
@@ -90,6 +91,7 @@ def work_for(problem, n_x, n_free, stages):  # type: ignore[no-untyped-def]
         matrix=np.empty((n_v, n_v)),
         pivots=np.zeros(n_v, dtype=np.int64),
         change=np.empty((n_v, 1)),
+        further=np.empty((n_v, 1)),
         row=np.empty(n_free),
         base=np.empty(n_x),
         base_slope=np.empty((n_x, n_free)),

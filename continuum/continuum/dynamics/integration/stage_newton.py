@@ -3,6 +3,10 @@
 The state is x = (theta, theta', z), its rates are (theta', v) with v = (theta'', z'). Eliminating theta leaves one
 matrix of the size of v: dr/dv + h g dr/d(theta', z) + (h g)^2 dr/dtheta. It is exact, and kept, from stage to stage
 of a step too, as long as the iteration converges fast with it: the residual alone costs a fraction of it.
+
+Dry friction saturates, so that a full step away from a stuck joint would overshoot without end: a step is shortened
+until the one that follows with the same matrix is shorter (natural monotonicity test: Deuflhard, Newton Methods for
+Nonlinear Problems, 2004, section 3.3).
 """
 
 from __future__ import annotations
@@ -13,9 +17,12 @@ from continuum.dynamics.integration.call_at import call_at
 from continuum.dynamics.integration.compiled_loops import compiled
 from continuum.dynamics.integration.linear_solve import factorise, solve_factorised
 
-_MOST_ITERATIONS = 12
+_MOST_ITERATIONS = 8  # matrices
 _FAST = 0.4  # a change this much smaller than the one before it
 _SOLVED = 0.01  # a change of the state this small, in units of the tolerance
+_LEAST_SHARE = 0.05  # of a step
+_MOST_SHORTENED, _LEAST_SHORTENED = 0.1, 0.5  # factors
+_DONE, _SLOW, _STUCK = range(3)  # how steps with one matrix end
 
 
 @compiled
@@ -50,11 +57,10 @@ def solve_stage(problem, method, work, base, v, hg, matrix_serves):  # type: ign
         hg: h g [s].
         matrix_serves: whether ``work`` holds the matrix of another stage with the same ``hg``.
     """
-    n, change_before = problem.n_joints, np.inf
     packed, out, matrix, pivots, step = work.packed, work.out, work.matrix, work.pivots, work.change
     packed[-1] = hg
     for _ in range(_MOST_ITERATIONS):
-        place_stage(packed, base, v, hg, n)
+        place_stage(packed, base, v, hg, problem.n_joints)
         if matrix_serves:
             call_at(problem.residual, packed, out)
         else:
@@ -63,15 +69,76 @@ def solve_stage(problem, method, work, base, v, hg, matrix_serves):  # type: ign
                 return False
         step[:, 0] = out[: v.size]
         solve_factorised(matrix, pivots, step)
-        change = 0.0
-        for r in range(v.size):
-            v[r] -= step[r, 0]
-            change = max(change, hg * abs(step[r, 0]) / (method.absolute + method.relative * abs(packed[n + r])))
-        if not np.isfinite(change):
-            return False
-        if change < _SOLVED:
-            place_stage(packed, base, v, hg, n)
+        end = _follow(problem, method, work, base, v, hg)
+        if end == _DONE:
             return True
-        matrix_serves = change < _FAST * change_before
-        change_before = change
+        if end == _STUCK and not matrix_serves:
+            return False
+        matrix_serves = False
     return False
+
+
+@compiled
+def _follow(problem, method, work, base, v, hg):  # type: ignore[no-untyped-def]
+    """Take the step ``work.change`` and those that follow with the same matrix, while they get shorter fast."""
+    n, packed, out, step, further = problem.n_joints, work.packed, work.out, work.change, work.further
+    share, change = 1.0, _size(step, packed, hg, n, method)
+    if not np.isfinite(change):
+        return _STUCK
+    while share > _LEAST_SHARE:
+        for r in range(v.size):
+            v[r] -= share * step[r, 0]
+        place_stage(packed, base, v, hg, n)
+        if share == 1.0 and change < _SOLVED:
+            return _DONE
+        call_at(problem.residual, packed, out)
+        further[:, 0] = out[: v.size]
+        solve_factorised(work.matrix, work.pivots, further)
+        left = _size(further, packed, hg, n, method)
+        if left < (1 - 0.5 * share) * change:
+            if share < 1.0 or not left < _FAST * change:
+                return _SLOW
+            step[:], change = further, left
+            continue
+        if share == 1.0 and _stopped(packed, step, base, v, hg, n):
+            return _SLOW
+        for r in range(v.size):
+            v[r] += share * step[r, 0]
+        share *= _shortened(step, further)
+    return _STUCK
+
+
+@compiled
+def _stopped(packed, step, base, v, hg, n):  # type: ignore[no-untyped-def]
+    """Let joints that a step turns back stop instead; whether there are any."""
+    any_stopped = False
+    for r in range(n):
+        now = packed[n + r]
+        if now * (now + hg * step[r, 0]) < 0.0:
+            v[r] = -base[n + r] / hg
+            any_stopped = True
+    return any_stopped
+
+
+@compiled
+def _size(step, packed, hg, n, method):  # type: ignore[no-untyped-def]
+    """Largest change of the state by a step of the rates, in units of the tolerance."""
+    largest = 0.0
+    for r in range(step.shape[0]):
+        if not np.isfinite(step[r, 0]):
+            return np.inf
+        change = hg * abs(step[r, 0]) / (method.absolute + method.relative * abs(packed[n + r]))
+        largest = max(largest, change)
+    return largest
+
+
+@compiled
+def _shortened(step, further):  # type: ignore[no-untyped-def]
+    """Factor that leads to the root of a straight line along the step."""
+    along = length = 0.0
+    for r in range(step.shape[0]):
+        along += step[r, 0] * further[r, 0]
+        length += step[r, 0] ** 2
+    if not along < 0.0:  # or it is not finite
+        return _LEAST_SHORTENED
+    return min(max(length / (length - along), _MOST_SHORTENED), _LEAST_SHORTENED)
