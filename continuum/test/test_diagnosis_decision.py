@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum.discovery.candidate import Candidate, Key
-from continuum.discovery.decision import ALIKE, LEAST_SHARE, Kind, Verdict, closed, decide, is_farther
+from continuum.discovery.decision import (
+    ALIKE,
+    CHANCE,
+    LEAST_SHARE,
+    Kind,
+    Verdict,
+    closed,
+    decide,
+    is_farther,
+    is_steady,
+)
 
 FLOOR, SEGMENTS, OBSERVATIONS = 0.003, 16, 80.0
 NOISE = np.full(SEGMENTS, FLOOR)
@@ -136,3 +148,12 @@ def test_errors_that_fall_by_chance_are_no_lower() -> None:
         one, two = (Candidate(NONE, 0.01 * np.exp(0.2 * random.standard_normal(8)), OBSERVATIONS) for _ in range(2))
         found += is_farther(one, two, 0.0)
     assert abs(found / n - 0.05) < 4 * np.sqrt(0.05 * 0.95 / n)
+
+
+def test_sizes_that_segments_disagree_about_leave_something_unknown() -> None:
+    """By chance one in twenty does."""
+    one = replace(candidate(SPRING, 0.0031), disagreement=3.0)
+    assert (verdict(one).kind, verdict(one).complete, verdict(one).steady) == (Kind.CAUSE, False, False)
+    random = np.random.default_rng(1).chisquare(SEGMENTS - 1, 2000) / (SEGMENTS - 1)
+    told = np.mean([is_steady(replace(one, disagreement=float(ratio))) for ratio in random])
+    np.testing.assert_allclose(told, 1 - CHANCE, atol=0.015)

@@ -132,3 +132,26 @@ def test_a_cost_falls_where_its_gradient_points(seed: int, stretch: float) -> No
     grown = Segment(0, one.rows, one.readings, small.slopes * (1 + 1e-6))
     slope = (drawn.scale.cost(grown) - drawn.scale.cost(small)) / (0.5 * (grown.square - small.square))
     np.testing.assert_allclose(slope, drawn.scale.weights([small.error])[0], rtol=1e-3)
+
+
+def disagreement(seed: int, shift: float) -> np.ndarray:
+    """Jackknife variances over expected ones, where a size is larger by ``shift`` in the second half of 16 segments."""
+    random, count, rows = np.random.default_rng(seed), 16, 40
+    slopes = random.normal(0, 1, (count, rows * N, COMMON + LOCAL + 1))
+    slopes[:, :, -1] *= FLOOR
+    slopes[count // 2 :, :, -1] -= shift * slopes[count // 2 :, :, 0]
+    segments = [Segment(0, slice(0, rows), np.zeros((rows, N)), one) for one in slopes]
+    unknowns = SimpleNamespace(common=[unknown(random) for _ in range(COMMON)], own=((),))
+    values = Values(np.zeros(COMMON), (np.zeros(0),), tuple(np.zeros((count, LOCAL))))
+    weights = Scale(segments, FLOOR).weights([one.error for one in segments])
+    normal = NormalEquations(unknowns, values, segments, weights, np.ones(LOCAL))  # type: ignore[arg-type]
+    expected, differing = normal.variances(normal.without_each()[0])
+    return differing / expected
+
+
+def test_segments_of_a_right_model_disagree_by_chance_only() -> None:
+    """Chi-square over its degrees of freedom on the average; larger where a size changes amid the recordings."""
+    ratios = np.array([disagreement(seed, 0.0) for seed in range(40)])
+    np.testing.assert_allclose(ratios.mean(axis=0), 1.0, atol=0.3)
+    changed = disagreement(0, FLOOR)
+    assert changed[0] > 3 * np.max(changed[1:])

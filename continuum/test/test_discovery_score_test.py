@@ -7,14 +7,13 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-import pytest
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
 from continuum.discovery.decision import is_worth
-from continuum.discovery.output_error import OutputError
+from continuum.discovery.output_error import Fitted, OutputError
 from continuum.discovery.problem import linearise
-from continuum.discovery.score_test import Promise, promises
-from continuum.discovery.search import Found
+from continuum.discovery.score_test import promises
+from continuum.discovery.search import RUNNER_UP, Found
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model import ActiveEffect
@@ -28,8 +27,8 @@ BENDS = np.radians([[14.0, 10, 12, 9, 8], [-12.0, -9, -14, -10, -6], [16.0, -8, 
 
 
 @lru_cache
-def promised(effect: str, parameter: str, value: float, joint: int) -> list[Promise]:
-    """What every effect promises of releases of an arm with one effect at one joint."""
+def fitted(effect: str, parameter: str, value: float, joint: int) -> tuple[OutputError, Found, Fitted]:
+    """The baseline, fitted to releases of an arm with one effect at one joint."""
     model = with_dry_friction(load_model("lamecc_prototype.yaml"))
     hidden = effect_named(effect)
     values: Mapping[str, np.ndarray] = absent_values(hidden, 5)
@@ -41,22 +40,29 @@ def promised(effect: str, parameter: str, value: float, joint: int) -> list[Prom
         recordings.append(Recording(f"run_{i}", TIMES, q + NOISE * random.standard_normal(q.shape)))
     problem, state = fitted_baseline(problem_of(Structure(model, with_tension=False), recordings))
     found, judge = Found(linearise(problem, state), ()), OutputError(problem, recordings)
-    fit = judge.fit(found, [])
-    return promises(judge, fit, found.lin.library)
+    return judge, found, judge.fit(found, [])
 
 
-@pytest.mark.parametrize(
-    ("effect", "parameter", "value", "joint"),
-    [("joint_stiffness", "excess", 0.4, 1), ("rest_angle", "angle", 0.08, 3)],
-)
-def test_what_is_hidden_promises_most(effect: str, parameter: str, value: float, joint: int) -> None:
-    ranked = promised(effect, parameter, value, joint)
-    best = next(one for one in ranked if one.hypothesis.effect == effect)
-    assert best.hypothesis.joints == (joint,)
+def test_what_is_hidden_promises_most() -> None:
+    judge, found, fit = fitted("joint_stiffness", "excess", 0.4, 1)
+    best = promises(judge, fit, found.lin.library)[0]
+    assert best.hypothesis.key == ("joint_stiffness", (1,))
     assert is_worth(best.gain, best.observations)
-    assert best.gain > 0.6 * ranked[0].gain
+
+
+def test_what_is_hidden_promises_as_much_as_what_is_like_it() -> None:
+    """Sensors at a joint that are off do nearly as a spring that rests elsewhere, and are found first."""
+    judge, found, fit = fitted("rest_angle", "angle", 0.08, 3)
+    offset = next(h for h in found.lin.library.hypotheses if h.key == ("angle_offset", (3,)) and h.local)
+    near = judge.fit(Found(found.lin, (offset,)), [fit])
+    ranked = promises(judge, near, found.lin.library, offset)
+    hidden = next(one for one in ranked if one.hypothesis.key == ("rest_angle", (3,)))
+    assert hidden.gain > (RUNNER_UP - 1) * np.log(fit.error / near.error)
+    itself = next(one for one in ranked if one.hypothesis is offset)
+    np.testing.assert_allclose(itself.gain, 0, atol=0.05)
 
 
 def test_where_nothing_is_hidden_nothing_is_worth_it() -> None:
-    best = promised("joint_stiffness", "excess", 0.0, 0)[0]
+    judge, found, fit = fitted("joint_stiffness", "excess", 0.0, 0)
+    best = promises(judge, fit, found.lin.library)[0]
     assert not is_worth(best.gain, best.observations)

@@ -49,7 +49,8 @@ class Examined:
     @property
     def candidate(self) -> Candidate:
         """For the decision."""
-        return Candidate(tuple(h.key for h in self.found.chosen), self.fit.errors, self.fit.observations)
+        fit = self.fit
+        return Candidate(tuple(h.key for h in self.found.chosen), fit.errors, fit.observations, fit.disagreement)
 
 
 @dataclass(frozen=True)

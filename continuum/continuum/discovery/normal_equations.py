@@ -168,11 +168,6 @@ class NormalEquations:
             tuple(x + move for x, move in zip(self._values.local, moves, strict=True)),
         )
 
-    def expected_squares(self, there: Values) -> list[float]:
-        """Sums of the squared residuals of each segment at other values, by the linearised residuals [rad^2]."""
-        moves = zip(self._segments, self._moves(there), strict=True)
-        return [max(float(move @ one.gram @ move), 0.0) for one, move in moves]
-
     def expected_residuals(self, there: Values) -> list[Array]:
         """Residuals of each segment at other values, linearised, (rows, n) each [rad]."""
         moves = zip(self._segments, self._moves(there), strict=True)
@@ -188,7 +183,7 @@ class NormalEquations:
 
     def expected_fall(self, there: Values) -> float:
         """Fall of minus the log-posterior on the way to other values, by the linearised residuals."""
-        squares = self.expected_squares(there)
+        squares = [float(np.sum(left**2)) for left in self.expected_residuals(there)]
         falls = [one.square - square for one, square in zip(self._segments, squares, strict=True)]
         priors = [prior_cost(self._unknowns, values, self._local_precision) for values in (self._values, there)]
         return 0.5 * float(np.dot(self._weights, falls)) + priors[0] - priors[1]
@@ -223,20 +218,19 @@ class NormalEquations:
                 local = run.segments[i][:, -1] - run.segments[i][:, :-1] @ both
                 move = np.concatenate([both, local, [1.0]])
                 steps.append(step)
-                errors.append(np.sqrt(max(float(move @ one.gram @ move), 0.0) / one.readings.size))
+                errors.append(float(np.sqrt(np.mean((one.slopes @ move) ** 2))))
         return np.array(steps), np.array(errors)
 
-    def sd(self, steps: Array) -> Array:
-        """Standard deviations of the common unknowns, (k,): by residuals, or by what segments disagree about.
+    def variances(self, steps: Array) -> tuple[Array, Array]:
+        """Of the common unknowns, (k,) each: by residuals, and by how much segments differ (jackknife, Tukey 1958).
 
-        The jackknife (Tukey 1958) holds model error that residuals of a good fit do not show; the larger one counts.
+        Where the model is right both are one, but for chance.
 
         Args:
             steps: of the common unknowns without each segment, (segments, k).
         """
         n = len(steps)
-        jackknife = np.sqrt((n - 1) / n * np.sum((steps - steps.mean(axis=0)) ** 2, axis=0))
-        return np.maximum(np.sqrt(np.diag(self.covariance)), jackknife)
+        return np.diag(self.covariance), (n - 1) / n * np.sum((steps - steps.mean(axis=0)) ** 2, axis=0)
 
 
 def _run(systems: Sequence[tuple[Array, Array]], parts: Sequence[Array], values: Array, own: Sequence[Unknown]) -> _Run:

@@ -7,7 +7,7 @@ cost: segments are short, so that most end before that, and Levenberg-Marquardt 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -35,8 +35,12 @@ of friction near rest, and a fit finds it from within some 0.3."""
 _FIRST = 2  # steps, after which the nearest start is followed, and what is far is given up
 _ITERATIONS = 5  # further steps at most
 _FAR = 2.0  # times the error of another set's fit, with which a set is not fitted further
-_SETTLED, _STILL = 0.01, 2  # relative fall of the cost; steps in a row with less, or one that promises less, end a fit
-_RISE = 0.2  # relative rise of the cost that a step may have
+_SETTLED, _STILL = (
+    1.0,
+    2,
+)  # fall of minus the log-posterior, which moves no decision; steps in a row with less end a fit
+_RISE = 0.2  # rise of errors that a step may have
+_SHARES = (0.5, 0.25)  # of a step of a segment's own unknowns where its error rises by more
 DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises
 _BEGINNING = (0.1, 1.0)  # rad, rad/s: prior of a segment's beginning about the smoothed state
 
@@ -67,11 +71,12 @@ class Fitted:
     Attributes:
         state: with the fitted values.
         unknowns, values: what was fitted, and the result.
-        sd: standard deviations of the common unknowns, (k,).
+        sd: standard deviations of the common unknowns, by residuals or by how segments differ, the larger, (k,).
         own_sd: standard deviations of each recording's own.
         errors: root mean square over rows and joints of each segment, with what the other segments say of all that
             recordings have in common, (segments,) [rad]; NaN where a simulation failed.
         observations: residuals that are independent of each other, their number.
+        disagreement: of segments about sizes of effects, as `Candidate.disagreement`.
         settled: whether further steps would change little.
     """
 
@@ -82,6 +87,7 @@ class Fitted:
     own_sd: tuple[Array, ...]
     errors: Array
     observations: float
+    disagreement: float
     settled: bool
 
     @property
@@ -217,12 +223,12 @@ class OutputError:
                 break
             normal, scale = self._normal(here), Scale(best.segments, self.floor)
             trial, cost = normal.stepped(damping), self._cost(best, scale)
-            if here is best and normal.expected_fall(trial) < _SETTLED * scale.observations:
+            if here is best and normal.expected_fall(trial) < _SETTLED:
                 return replace(best, settled=True)
-            there = _Iterate(here.unknowns, trial, self.simulated(here.unknowns, trial))
-            fall = (cost - self._cost(there, scale)) / scale.observations
+            there = self._stepped(here, trial)
+            fall = cost - self._cost(there, scale)
             still = 0 if fall > _SETTLED else still + 1
-            if fall > -_RISE:
+            if fall > -_RISE * scale.observations:
                 here, damping = there, max(damping / _MORE, DAMPING)
             else:
                 damping *= _MORE
@@ -231,6 +237,28 @@ class OutputError:
             if still == _STILL:
                 return replace(best, settled=True)
         return best
+
+    def _stepped(self, here: _Iterate, trial: Values) -> _Iterate:
+        """Every segment after a step."""
+        unknowns, found = here.unknowns, list[tuple[Segment, Array]]()
+        before = iter(zip(here.segments, here.values.local, trial.local, strict=True))
+        for run, rows in self._runs(unknowns, trial):
+            found += [self._shortened(run, one, *next(before)) for one in rows]
+        segments, local = zip(*found, strict=True)
+        return _Iterate(unknowns, replace(trial, local=local), segments)
+
+    def _shortened(
+        self, run: RunSimulation, rows: slice, before: Segment, begin: Array, end: Array
+    ) -> tuple[Segment, Array]:
+        """A segment after a step, and its own unknowns; their step is shortened where a joint came to rest elsewhere."""
+        best, local = run.segment(rows, end), end
+        for share in _SHARES:
+            if best.error < (1 + _RISE) * max(before.error, self.floor):
+                break
+            other = run.segment(rows, begin + share * (end - begin))
+            if not other.error > best.error:
+                best, local = other, begin + share * (end - begin)
+        return best, local
 
     def _normal(self, at: _Iterate) -> NormalEquations:
         weights = Scale(at.segments, self.floor).weights([one.error for one in at.segments])
@@ -243,12 +271,14 @@ class OutputError:
 
     def simulated(self, unknowns: Unknowns, values: Values) -> list[Segment]:
         """Every segment, with derivatives by all unknowns."""
+        local = iter(values.local)
+        return [run.segment(one, next(local)) for run, rows in self._runs(unknowns, values) for one in rows]
+
+    def _runs(self, unknowns: Unknowns, values: Values) -> Iterator[tuple[RunSimulation, Sequence[slice]]]:
+        """Each recording with the rows of its segments."""
         state = unknowns.state(values.common, values.own)
-        segments, local = list[Segment](), iter(values.local)
         for r, rows in enumerate(self._cuts):
-            run = RunSimulation(self._simulators, state, r, [*unknowns.common, *unknowns.own[r]])
-            segments += [run.segment(one, next(local)) for one in rows]
-        return segments
+            yield RunSimulation(self._simulators, state, r, [*unknowns.common, *unknowns.own[r]]), rows
 
     def _fitted(self, at: _Iterate) -> Fitted:
         unknowns, values = at.unknowns, at.values
@@ -256,11 +286,15 @@ class OutputError:
         if not at.completed:
             none = tuple(np.full(len(own), np.nan) for own in values.own)
             failed = np.full(len(at.segments), np.nan)
-            return Fitted(state, unknowns, values, np.full(k, np.nan), none, failed, 0.0, True)
+            return Fitted(state, unknowns, values, np.full(k, np.nan), none, failed, 0.0, np.inf, True)
         normal = self._normal(at)
         found = Scale(at.segments, self.floor).observations
         steps, errors = normal.without_each()
-        return Fitted(state, unknowns, values, normal.sd(steps), normal.own_sd(), errors, found, at.settled)
+        expected, differing = normal.variances(steps)
+        sd = np.sqrt(np.maximum(expected, differing))
+        of_effects = [one.hypothesis is not None for one in unknowns.common]
+        disagreement = float(np.max((differing / expected)[of_effects], initial=1.0))
+        return Fitted(state, unknowns, values, sd, normal.own_sd(), errors, found, disagreement, at.settled)
 
 
 def _at_rest(rise: float) -> Start:

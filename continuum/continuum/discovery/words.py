@@ -14,6 +14,7 @@ from continuum.identification.nrmse import nrmse
 
 _MORE_RUNS = "Record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
 
+_UNSTEADY = " Pieces of the recordings disagree about sizes: something else acts too, or in its place."
 _NOTHING_MORE = "Nothing in them calls for a further effect."
 _WITHIN_TOLERANCE = "An effect of the library would help, but what is missing is within the tolerance."
 
@@ -33,7 +34,7 @@ def verdict_in_words(result: Diagnosis) -> str:
             names = "; or ".join(" and ".join(map(in_full, causes)) or "nothing" for causes in result.sets)
             return (
                 f"Something is missing, but these recordings cannot tell which of these it is: {names}. "
-                f"To tell them apart: {_experiment(result)}"
+                f"To tell them apart: {_experiment(result)}{_UNSTEADY * (not verdict.steady)}"
             )
         case Kind.UNKNOWN if result.causes:
             helps = " with ".join(in_full(cause) for cause in result.causes)
@@ -126,7 +127,7 @@ def _closes(result: Diagnosis) -> str:
 def _rest(result: Diagnosis) -> str:
     if result.verdict.complete:
         return "No further torque is missing beyond what any model leaves."
-    return "A remainder stays, and its cause is unknown."
+    return "A remainder stays, and its cause is unknown." + _UNSTEADY * (not result.verdict.steady)
 
 
 def _error(result: Diagnosis) -> str:
