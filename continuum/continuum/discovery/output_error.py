@@ -250,7 +250,7 @@ class OutputError:
     def _shortened(
         self, run: RunSimulation, rows: slice, before: Segment, begin: Array, end: Array
     ) -> tuple[Segment, Array]:
-        """A segment after a step, and its own unknowns; their step is shortened where a joint came to rest elsewhere."""
+        """A segment after a step, and its own unknowns, whose step is shortened where it leads astray."""
         best, local = run.segment(rows, end), end
         for share in _SHARES:
             if best.error < (1 + _RISE) * max(before.error, self.floor):
