@@ -40,7 +40,8 @@ def recording() -> Recording:
 
 
 def simulation(recording: Recording, model: Model, sought: float | None) -> tuple[Simulators, State]:
-    problem, state = fitted_baseline(problem_of(Structure(model, ["sensor_delay"]), [recording]))
+    problem = problem_of(Structure(model, ["sensor_delay"]), [recording])
+    state = fitted_baseline(problem)
     active = {} if sought is None else {"sensor_delay": {"delay": np.array([sought])}}
     return Simulators(problem, (recording,)), replace(state, active=active)
 

@@ -47,7 +47,8 @@ def nominal() -> Model:
 
 @lru_cache
 def smoothed() -> Linearised:
-    problem, state = fitted_baseline(problem_of(Structure(nominal(), ["angle_offset"], False), recordings()))
+    problem = problem_of(Structure(nominal(), ["angle_offset"], False), recordings())
+    state = fitted_baseline(problem)
     return linearise(problem, state)
 
 

@@ -38,7 +38,8 @@ def fitted(effect: str, parameter: str, value: float, joint: int) -> tuple[Outpu
     for i, bend in enumerate(BENDS):
         q = simulator.run(bend, TIMES).theta
         recordings.append(Recording(f"run_{i}", TIMES, q + NOISE * random.standard_normal(q.shape)))
-    problem, state = fitted_baseline(problem_of(Structure(model, with_tension=False), recordings))
+    problem = problem_of(Structure(model, with_tension=False), recordings)
+    state = fitted_baseline(problem)
     found, judge = Found(linearise(problem, state), ()), OutputError(problem, recordings)
     return judge, found, judge.fit(found, [])
 

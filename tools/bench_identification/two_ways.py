@@ -54,7 +54,8 @@ def by_smoothing(arm: MeasuredArm) -> Answer:
     structure = Structure(with_dry_friction(load_model("lamecc_prototype.yaml")), with_tension=False)
     structure.compile()
     began = time.perf_counter()
-    problem, state = fitted_baseline(problem_of(structure, arm.runs))
+    problem = problem_of(structure, arm.runs)
+    state = fitted_baseline(problem)
     found = Found(linearise(problem, state, live=()), ())
     state = OutputError(problem, arm.runs).fit(found, []).state
     seconds = time.perf_counter() - began

@@ -56,11 +56,8 @@ def run_of(recording: Recording, model: Model, with_rates: bool = True) -> Run:
     )  # fmt: skip
 
 
-def fitted_baseline(problem: Problem) -> tuple[Problem, State]:
-    """Smooth and refit, with much missing torque allowed at first, then with as much as is most probable.
-
-    Whether inputs hold from row to row, as commands do, or change linearly, as measured ones, is what is more probable.
-    """
+def fitted_baseline(problem: Problem) -> State:
+    """Smooth and refit, with much missing torque allowed at first, then with as much as is most probable."""
     s = problem.structure
     stribeck = np.full(s.n, 0.0)
     ways = tuple(run.first_guess() for run in problem.runs)
@@ -71,7 +68,6 @@ def fitted_baseline(problem: Problem) -> tuple[Problem, State]:
         lin = linearise(problem, state, [level], live=())
         state = moved(lin, (), 0, level)
         state = replace(state, modes=modes_along(problem, state))
-    problem = _with_likelier_inputs(problem, state)
     before, levels = -np.inf, [*range(len(problem.levels))]
     for iteration in range(_MOST_ITERATIONS):
         lin = linearise(problem, state, levels, live=())
@@ -83,17 +79,17 @@ def fitted_baseline(problem: Problem) -> tuple[Problem, State]:
         if iteration == 0:  # rates are known better now; from here on modes are part of the likelihood
             state = replace(state, modes=modes_along(problem, state))
             before = -np.inf
-    return problem, state
+    return state
 
 
-def _with_likelier_inputs(problem: Problem, state: State) -> Problem:
+def with_linear_inputs(problem: Problem) -> Problem | None:
+    """The problem with inputs that change linearly from row to row, as measured ones do; None where none varies.
+
+    Commands hold from row to row. Either taken for the other is half a row early or late.
+    """
     if all(len(np.unique(run.signal[1], axis=0)) < _VARYING for run in problem.runs):
-        return problem
-    linear = replace(problem, runs=tuple(run.with_held(False) for run in problem.runs))
-    held, changing = (
-        linearise(one, state, [_FIRST_LEVELS[-1]], live=()).evidence.total(()) for one in (problem, linear)
-    )
-    return linear if changing > held else problem
+        return None
+    return replace(problem, runs=tuple(run.with_held(False) for run in problem.runs))
 
 
 def has_tension(recordings: Sequence[Recording], model: Model) -> bool:

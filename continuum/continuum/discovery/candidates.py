@@ -8,7 +8,7 @@ from math import log
 
 import numpy as np
 
-from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of
+from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of, with_linear_inputs
 from continuum.discovery.candidate import Candidate
 from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_needless, is_worth
 from continuum.discovery.output_error import Fitted, OutputError
@@ -84,21 +84,33 @@ def examine(
     structure = Structure(dry, effects, has_tension(recordings, dry))
     problem = problem_of(structure, recordings)
     progress("baseline", 0.1)
-    problem, start = fitted_baseline(problem)
-    fits = _Fits(problem, OutputError(problem, tuple(recordings)), progress)
-    fits.add(Found(linearise(problem, start), ()), ())
+    judge, baseline = _baseline(problem, recordings)
+    fits = _Fits(judge, baseline, progress)
     fits.search()
     base, *others = fits.examined
-    return Examination(problem, fits.judge, base, tuple(others), tuple(fits.log))
+    return Examination(judge.problem, judge, base, tuple(others), tuple(fits.log))
+
+
+def _baseline(problem: Problem, recordings: Sequence[Recording]) -> tuple[OutputError, Examined]:
+    """The refitted model alone, inputs taken as they simulate nearer: held from row to row, or linear between rows."""
+    start = fitted_baseline(problem)
+    judge, found = OutputError(problem, tuple(recordings)), Found(linearise(problem, start), ())
+    fit, linear = judge.fit(found, ()), with_linear_inputs(problem)
+    if linear is not None:
+        other = judge.around(linear)
+        nearer = other.fit(found, [fit])
+        if nearer.error < fit.error:
+            return other, Examined(Found(linearise(linear, start), ()), nearer)
+    return judge, Examined(found, fit)
 
 
 class _Fits:
     """Fits of sets, the baseline first, and the search from set to set."""
 
-    def __init__(self, problem: Problem, judge: OutputError, progress: Progress) -> None:
+    def __init__(self, judge: OutputError, baseline: Examined, progress: Progress) -> None:
         self.judge, self.log = judge, list[str]()
-        self._problem, self._progress = problem, progress
-        self._by_key: dict[frozenset[object], Examined] = {}
+        self._problem, self._progress = judge.problem, progress
+        self._by_key: dict[frozenset[object], Examined] = {baseline.found.key: baseline}
         self._expanded: set[frozenset[object]] = set()
 
     @property

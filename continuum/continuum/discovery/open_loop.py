@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -79,6 +80,12 @@ class Simulators:
     ) -> None:
         self.problem, self._recordings, self._tolerances = problem, recordings, tolerances
         self._compiled: dict[tuple[str, ...], Simulator] = {}
+
+    def around(self, problem: Problem) -> Simulators:
+        """The same compiled equations for another problem of the same structure."""
+        other = copy(self)
+        other.problem = problem
+        return other
 
     def of(self, model: Model) -> Simulator:
         """The compiled equations of a model's effects, with its values."""

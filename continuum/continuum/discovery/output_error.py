@@ -8,6 +8,7 @@ cost: segments are short, so that most end before that, and Levenberg-Marquardt 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -135,7 +136,7 @@ class OutputError:
     """
 
     def __init__(self, problem: Problem, recordings: Sequence[Recording]) -> None:
-        self._problem, self._simulators = problem, Simulators(problem, tuple(recordings))
+        self.problem, self._simulators = problem, Simulators(problem, tuple(recordings))
         n = problem.structure.n
         sd = np.concatenate([np.repeat(_BEGINNING, n), problem.noise.slow])
         self.local_precision = sd**-2.0
@@ -143,11 +144,17 @@ class OutputError:
         apart = max(1, round(sum(map(len, cuts)) / _ENOUGH))
         self._cuts = [rows[:: min(apart, max(1, len(rows) - 1))] for rows in cuts]  # two of each recording at least
 
+    def around(self, problem: Problem) -> OutputError:
+        """The same with another problem of the same structure, recordings and rows."""
+        other = copy(self)
+        other.problem, other._simulators = problem, self._simulators.around(problem)
+        return other
+
     @cached_property
     def floor(self) -> float:
         """Root mean square of the white noise of an angle [rad]."""
-        n = self._problem.structure.n
-        return float(np.sqrt(np.mean(np.diag(self._problem.noise.white)[:n])))
+        n = self.problem.structure.n
+        return float(np.sqrt(np.mean(np.diag(self.problem.noise.white)[:n])))
 
     def fit(self, found: Found, near: Sequence[Fitted]) -> Fitted:
         """Fit a set.
@@ -185,7 +192,7 @@ class OutputError:
     def whole(self, fit: Fitted) -> OpenLoop:
         """Every recording simulated from where its first segment begins."""
         number, found = 0, []
-        for r, run in enumerate(self._problem.runs):
+        for r, run in enumerate(self.problem.runs):
             simulation = RunSimulation(self._simulators, fit.state, r)
             found.append(simulation.readings(slice(0, len(run.times)), fit.values.local[number]))
             number += len(self._cuts[r])
@@ -193,7 +200,7 @@ class OutputError:
 
     def _as_given(self, found: Found) -> Start:
         """The model file's own values."""
-        return {one.place: 0.0 for one in Unknowns(self._problem, found, {}).common if one.hypothesis is None}
+        return {one.place: 0.0 for one in Unknowns(self.problem, found, {}).common if one.hypothesis is None}
 
     def _start(self, found: Found, fit: Fitted) -> tuple[Start, Sequence[Array] | None]:
         """Where another set's fit ended: common and own unknowns, and those of segments about the same trajectories.
@@ -209,7 +216,7 @@ class OutputError:
 
     def _begun(self, found: Found, start: Start, local: Sequence[Array] | None) -> _Iterate:
         """Where a fit begins, some unknowns being given."""
-        unknowns = Unknowns(self._problem, found, start)
+        unknowns = Unknowns(self.problem, found, start)
         none = np.zeros(len(self.local_precision))
         common = np.array([one.start for one in unknowns.common])
         values = Values(common, unknowns.own_start, tuple(local or (none for rows in self._cuts for _ in rows)))
