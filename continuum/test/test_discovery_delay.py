@@ -1,4 +1,4 @@
-"""Readings that are late: given in the model or sought, the same simulation; derivatives by a delay are differences."""
+"""Readings that are late, given in the model or sought; inputs that are half a row off where misunderstood."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
+from continuum.discovery.candidates import examine
 from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.problem import State
 from continuum.discovery.unknowns import Unknown
@@ -53,10 +54,7 @@ def test_a_given_delay_is_a_delay_that_was_sought(recording: Recording) -> None:
     angles = RunSimulation(simulators, state, 0).readings(ROWS, np.zeros(15))
     other, _ = simulation(recording, nominal(), None)
     sought = replace(state, active={"sensor_delay": {"delay": np.array([DELAY])}})
-    held = replace(
-        other.problem, runs=tuple(run.with_held(simulators.problem.runs[0].held) for run in other.problem.runs)
-    )
-    again = RunSimulation(Simulators(held, (recording,)), sought, 0).readings(ROWS, np.zeros(15))
+    again = RunSimulation(other, sought, 0).readings(ROWS, np.zeros(15))
     np.testing.assert_allclose(again, angles, atol=1e-9)
     assert np.sqrt(np.mean((angles - recording.theta[ROWS]) ** 2)) < 0.01
 
@@ -72,3 +70,15 @@ def test_the_derivative_by_a_delay_is_a_difference(recording: Recording) -> None
         ends.append(RunSimulation(simulators, moved, 0).readings(ROWS, np.zeros(15)).ravel())
     difference = (ends[1] - ends[0]) / 0.1
     assert np.linalg.norm(slope - difference) < 0.1 * np.linalg.norm(difference)
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_inputs_that_hold_are_told_from_those_that_change_linearly(held: bool) -> None:
+    """At 60 rows a second either taken for the other is 8 ms early or late."""
+    times = np.arange(0, 0.8, 1 / 60)
+    tensions = Tensions(times, pull(times), held=held)
+    moved = Simulator(nominal()).run(np.zeros(5), times, tensions)
+    noise = np.random.default_rng(0).standard_normal((2, times.size, 5)) * np.array([1e-3, 1e-2])[:, None, None]
+    seen = Recording("pull", times, moved.theta + noise[0], moved.theta_rate + noise[1], Tensions(times, pull(times)))
+    found = examine([seen], nominal(), effects=[])
+    assert [run.held for run in found.problem.runs] == [held]
