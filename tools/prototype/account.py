@@ -14,7 +14,7 @@ from continuum.discovery.baseline import run_of
 from continuum.discovery.candidates import Examination, Examined, examine
 from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.problem import Problem, State, point_of
-from continuum.discovery.score_test import expected_gains
+from continuum.discovery.score_test import promises
 from continuum.discovery.search import with_library
 from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
@@ -118,8 +118,8 @@ def simulated_from(problem: Problem, state: State, part: Recording, q: Array, w:
 def every_effect_alone(found: Examination) -> list[tuple[str, float]]:
     """Each effect whose sizes enter linearly, at the joints where it promises most, the most promising first."""
     base, best = found.baseline, dict[str, tuple[str, float]]()
-    for gain, h in expected_gains(found.judge, base.fit, base.found.lin.library):
-        best.setdefault(h.effect, (h.label, gain))
+    for one in promises(found.judge, base.fit, base.found.lin.library):
+        best.setdefault(one.hypothesis.effect, (one.hypothesis.label, one.gain))
     return list(best.values())
 
 
@@ -128,8 +128,8 @@ def guess_beside(found: Examination, best: Examined) -> tuple[str, float]:
     if THE_GUESS in {h.effect for h in best.found.chosen}:
         return "", 0.0
     library = with_library(found.problem, best.found).lin.library
-    gains = expected_gains(found.judge, best.fit, library)
-    return next((h.label, gain) for gain, h in gains if h.effect == THE_GUESS)
+    promised = promises(found.judge, best.fit, library)
+    return next((one.hypothesis.label, one.gain) for one in promised if one.hypothesis.effect == THE_GUESS)
 
 
 def ended_with(found: Examination, result: Diagnosis) -> Examined:

@@ -51,16 +51,19 @@ class Scale:
     def __init__(self, segments: Sequence[Segment], floor: float) -> None:
         self._floor = floor
         self._independent = independent(sum(one.square for one in segments), sum(one.product for one in segments))
+        self._typical = float(np.mean([max(one.error, floor) for one in segments]))
         self.observations: float = self._independent * sum(one.readings.size for one in segments)
 
     def weights(self, errors: Sequence[float]) -> list[float]:
         """Of squared residuals of segments with these errors [1/rad^2]."""
-        return [self._independent / max(error, self._floor) ** 2 for error in errors]
+        return [self._independent / (self._typical * max(error, self._floor)) for error in errors]
 
     def cost(self, one: Segment) -> float:
         """Minus the log-likelihood of a segment, less a constant."""
-        size = one.error / self._floor
-        return self._independent * one.readings.size * (np.log(size) if size > 1 else 0.5 * (size**2 - 1))
+        error = one.error
+        if error < self._floor:
+            error = 0.5 * (error**2 / self._floor + self._floor)
+        return self._independent * one.readings.size * error / self._typical
 
 
 def independent(square: float, product: float) -> float:
