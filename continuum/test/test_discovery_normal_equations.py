@@ -5,11 +5,12 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 from continuum_laws.strategies import LAW
 from hypothesis import given
 from hypothesis import strategies as st
 
-from continuum.discovery.normal_equations import NormalEquations, Scale, Values
+from continuum.discovery.normal_equations import NormalEquations, Scale, Values, WithoutEach
 from continuum.discovery.open_loop import Segment
 from continuum.discovery.unknowns import Unknown
 
@@ -102,7 +103,7 @@ def test_a_step_keeps_within_bounds(seed: int) -> None:
 def test_errors_are_predicted_by_the_other_segments(seed: int) -> None:
     """The common ones and its recording's by all rows but its own, those of the segment by its own rows."""
     drawn = Drawn(seed)
-    errors, shared = drawn.normal.without_each()[1], COMMON + sum(OWN)
+    errors, shared = drawn.normal.without_each().errors, COMMON + sum(OWN)
     A, b = drawn.dense()
     for i, one in enumerate(drawn.segments):
         others = np.linalg.solve(*drawn.dense(left_out=i))[:shared]
@@ -134,24 +135,23 @@ def test_a_cost_falls_where_its_gradient_points(seed: int, stretch: float) -> No
     np.testing.assert_allclose(slope, drawn.scale.weights([small.error])[0], rtol=1e-3)
 
 
-def disagreement(seed: int, shift: float) -> np.ndarray:
-    """Jackknife variances over expected ones, where a size is larger by ``shift`` in the second half of 16 segments."""
+def left_out(seed: int, shift: float, unequal: float = 0.0) -> WithoutEach:
+    """Of 16 segments in half of which a size is larger by ``shift``; they tell of it by logarithms with some spread."""
     random, count, rows = np.random.default_rng(seed), 16, 40
     slopes = random.normal(0, 1, (count, rows * N, COMMON + LOCAL + 1))
+    slopes[:, :, 0] *= np.exp(unequal * random.normal(size=(count, 1)))
     slopes[:, :, -1] *= FLOOR
     slopes[count // 2 :, :, -1] -= shift * slopes[count // 2 :, :, 0]
     segments = [Segment(0, slice(0, rows), np.zeros((rows, N)), one) for one in slopes]
     unknowns = SimpleNamespace(common=[unknown(random) for _ in range(COMMON)], own=((),))
     values = Values(np.zeros(COMMON), (np.zeros(0),), tuple(np.zeros((count, LOCAL))))
-    weights = Scale(segments, FLOOR).weights([one.error for one in segments])
-    normal = NormalEquations(unknowns, values, segments, weights, np.ones(LOCAL))  # type: ignore[arg-type]
-    expected, differing = normal.variances(normal.without_each()[0])
-    return differing / expected
+    weights = [one.readings.size / one.square for one in segments]
+    return NormalEquations(unknowns, values, segments, weights, np.ones(LOCAL)).without_each()  # type: ignore[arg-type]
 
 
-def test_segments_of_a_right_model_disagree_by_chance_only() -> None:
-    """Chi-square over its degrees of freedom on the average; larger where a size changes amid the recordings."""
-    ratios = np.array([disagreement(seed, 0.0) for seed in range(40)])
-    np.testing.assert_allclose(ratios.mean(axis=0), 1.0, atol=0.3)
-    changed = disagreement(0, FLOOR)
-    assert changed[0] > 3 * np.max(changed[1:])
+@pytest.mark.parametrize("unequal", [0.0, 1.0])
+def test_segments_of_a_right_model_disagree_by_chance_only(unequal: float) -> None:
+    """Also where few of them tell of a size: as often as the probability says."""
+    told = np.array([left_out(seed, 0.0, unequal).probability(range(COMMON)) for seed in range(400)])
+    assert np.mean(told < 0.05) < 0.09
+    assert left_out(0, FLOOR, unequal).probability(range(COMMON)) < 1e-3

@@ -33,13 +33,13 @@ class Candidate:
         effects: of the set; empty for the refitted baseline.
         errors: of open-loop simulations, root mean square by segment, (segments,) [rad]; NaN where one failed.
         observations: residuals that are independent of each other, their number.
-        disagreement: variance of the effects' sizes by how segments differ, in units of that by residuals; the largest.
+        agreement: probability that segments disagree as much about the effects' sizes, where these are constant.
     """
 
     effects: Key
     errors: Array
     observations: float
-    disagreement: float = 1.0
+    agreement: float = 1.0
 
     @property
     def completed(self) -> bool:

@@ -50,7 +50,7 @@ class Examined:
     def candidate(self) -> Candidate:
         """For the decision."""
         fit = self.fit
-        return Candidate(tuple(h.key for h in self.found.chosen), fit.errors, fit.observations, fit.disagreement)
+        return Candidate(tuple(h.key for h in self.found.chosen), fit.errors, fit.observations, fit.agreement)
 
 
 @dataclass(frozen=True)
@@ -97,10 +97,11 @@ def _baseline(problem: Problem, recordings: Sequence[Recording]) -> tuple[Output
     judge, found = OutputError(problem, tuple(recordings)), Found(linearise(problem, start), ())
     fit, linear = judge.fit(found, ()), with_linear_inputs(problem)
     if linear is not None:
-        other = judge.around(linear)
+        fit, other = fit if fit.settled else judge.further(found, fit), judge.around(linear)
         nearer = other.fit(found, [fit])
         if nearer.error < fit.error:
-            return other, Examined(Found(linearise(linear, start), ()), nearer)
+            found = Found(linearise(linear, fitted_baseline(linear)), ())
+            return other, Examined(found, other.fit(found, [nearer]))
     return judge, Examined(found, fit)
 
 
@@ -130,12 +131,15 @@ class _Fits:
 
     def search(self) -> None:
         """Fit sets of one effect more about the nearest, while it errs by more than the sensors; then its like."""
-        while (about := self._to_expand()) is not None:
-            self._expand(about)
-            nearest = self.nearest
-            if self._is_unexplained(nearest) and not nearest.fit.settled:
-                self._keep(nearest.found, self.judge.further(nearest.found, nearest.fit))
-        self._exchange(self.nearest)
+        best = None
+        while best is not self.nearest:
+            while (about := self._to_expand()) is not None:
+                self._expand(about)
+                nearest = self.nearest
+                if self._is_unexplained(nearest) and not nearest.fit.settled:
+                    self._keep(nearest.found, self.judge.further(nearest.found, nearest.fit))
+            best = self.nearest
+            self._exchange(best)
         self._settle()
 
     def add(self, found: Found, near: Sequence[Fitted]) -> None:
@@ -162,7 +166,7 @@ class _Fits:
         for number, one in enumerate(with_one_more(self._problem, found, gains)):
             self._progress(f"simulating with {one.label}", 0.3 + 0.05 * number + 0.2 * bool(found.chosen))
             self._try(one, about)
-        stays = self.nearest is about and self._is_unexplained(about)
+        stays = self.nearest.found.key == about.found.key and self._is_unexplained(about)
         for one in with_unseen(self._problem, found) if stays else []:
             self._progress(f"simulating with {one.label}", 0.7)
             self._try(one, about)
@@ -175,7 +179,11 @@ class _Fits:
             found = with_library(self._problem, rest.found) if rest.found.chosen else rest.found
             promised = promises(self.judge, best.fit, found.lin.library, left)
             self.log.append(f"in {best.found.label} for {left.label}: {_labels(promised)}")
-            alike = [(one.gain + gained, one.hypothesis) for one in promised if one.gain > (RUNNER_UP - 1) * gained]
+            alike = [
+                (one.gain + gained, one.hypothesis)
+                for one in promised
+                if one.gain > (RUNNER_UP - 1) * gained and rest.found.key | {one.hypothesis.key} not in self._by_key
+            ]
             for one in with_linear(found, alike):
                 self._progress(f"simulating with {one.label}", 0.8)
                 self._try(one, rest)
@@ -190,7 +198,7 @@ class _Fits:
         best, base = min(self.examined, key=_error), self.examined[0]
         if best is not base:
             self._keep(base.found, self.judge.further(base.found, best.fit, base.fit.error))
-        alike = ALIKE * log(base.fit.error / best.fit.error)
+        alike = ALIKE * log(self.examined[0].fit.error / best.fit.error)
         for one in self.examined:
             fitted = [other.candidate for other in self.examined[1:]]
             is_named = not is_farther(one.candidate, best.candidate, alike)

@@ -13,7 +13,7 @@ from enum import Enum
 from math import exp, log
 
 import numpy as np
-from scipy.special import chdtri, stdtrit
+from scipy.special import stdtrit
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Candidate, Key, log_errors
@@ -47,7 +47,7 @@ class Verdict:
         sets: of effects that the data leave possible, the best first; empty where unknown.
         probabilities: of these among each other.
         complete: whether nothing that matters stays unknown.
-        steady: whether the effects' sizes are the same in all segments.
+        steady: whether segments agree about the sizes of the first set's effects.
         helps: the set that helps most where the cause is unknown; empty where none does.
     """
 
@@ -84,7 +84,7 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
     sets = [one for one in probable if one is best or not is_farther(one, best, alike)]
     weights = np.array([exp(-max(log_error(one) - log_error(best), 0.0) / max(alike, 1e-9)) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
-    steady = is_steady(best)
+    steady = best.agreement > CHANCE
     complete = best.error < (1 + ALIKE) * floor and steady
     kind = Kind.AMBIGUOUS if len(sets) > 1 else Kind.CAUSE
     return Verdict(kind, tuple(one.effects for one in sets), probabilities, complete, steady)
@@ -107,12 +107,6 @@ def is_worth(gain: float, observations: float, effects: int = 1) -> bool:
     Of so many independent residuals of unknown variance it is the gain in log-likelihood.
     """
     return gain * observations > PRICE * effects - log(CHANCE)
-
-
-def is_steady(one: Candidate) -> bool:
-    """Whether segments disagree about the effects' sizes by no more than chance: a chi-square test."""
-    df = max(len(one.errors) - 1, 1)
-    return one.disagreement * df < float(chdtri(df, CHANCE))
 
 
 def noise_in_segments(candidates: Sequence[Candidate], floor: float) -> Array:

@@ -8,8 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.special import chdtrc
 
 from continuum.arrays import Array
 from continuum.discovery.open_loop import Segment
@@ -115,6 +118,33 @@ class _Run:
         return own, tuple(part[:, -1] - part[:, :-1] @ both for part in self.segments)
 
 
+class WithoutEach(NamedTuple):
+    """What changes where segments are left out, one after the other.
+
+    Attributes:
+        moves: of the common unknowns, (segments, k).
+        spreads: their standard deviations where the model is right, (segments, k).
+        errors: of the segment that is left out, root mean square, (segments,) [rad].
+    """
+
+    moves: Array
+    spreads: Array
+    errors: Array
+
+    @property
+    def disagreement(self) -> Array:
+        """Mean square of the moves in units of their spreads, (k,): about 1 where segments agree."""
+        size = np.divide(self.moves, self.spreads, out=np.zeros_like(self.moves), where=self.spreads > 0)
+        return np.asarray(np.mean(size**2, axis=0))
+
+    def probability(self, which: Sequence[int]) -> float:
+        """Of as much disagreement about any of some unknowns, where there is none: chi-square, Bonferroni."""
+        df = len(self.moves) - 1
+        if df < 1 or not len(which):
+            return 1.0
+        return min(1.0, len(which) * float(np.min(chdtrc(df, df * self.disagreement[list(which)]))))
+
+
 class NormalEquations:
     """About values at which the segments were simulated.
 
@@ -199,41 +229,36 @@ class NormalEquations:
             out.append(np.sqrt(np.diag(one.own_covariance + through @ self.covariance @ through.T)))
         return tuple(out)
 
-    def without_each(self) -> tuple[Array, Array]:
-        """What each segment's others say, one Newton step from the optimum.
-
-        Returns:
-            Steps of the common unknowns, (segments, k), and root mean square errors of each segment there, what is the
-            segment's own being fitted, (segments,) [rad].
-        """
+    def without_each(self) -> WithoutEach:
+        """One Newton step from the optimum for each segment left out; what is the segment's own is fitted to it."""
         held = ((self._low > -_AT_BOUND) & (self._b < 0)) | ((self._high < _AT_BOUND) & (self._b > 0))
-        free, steps, errors = ~held, list[Array](), list[float]()
+        free, k = ~held, len(held)
+        whole, covariance = _solved(self._A, self._b, free)
+        moves, spreads, errors = list[Array](), list[Array](), list[float]()
         for r, run in enumerate(self._runs):
             for i, one in enumerate(self._of(r)):
-                step, own = np.zeros(len(held)), run.own[:, -1]
+                step, own, variance = np.zeros(k), run.own[:, -1], np.zeros(k)
                 if len(self._segments) > 1:
                     A, b, of_own = run.without(i)
-                    A, b = self._A - run.A + A, self._b - run.b + b
-                    if np.any(free):
-                        step[free] = np.linalg.solve(A[np.ix_(free, free)], b[free])
+                    step, without = _solved(self._A - run.A + A, self._b - run.b + b, free)
+                    variance = np.diag(without) - np.diag(covariance)
                     own = of_own[:, -1] - of_own[:, :-1] @ step
                 both = np.concatenate([step, own])
                 local = run.segments[i][:, -1] - run.segments[i][:, :-1] @ both
                 move = np.concatenate([both, local, [1.0]])
-                steps.append(step)
+                moves.append(step - whole)
+                spreads.append(np.sqrt(np.maximum(variance, 0.0)))
                 errors.append(float(np.sqrt(np.mean((one.slopes @ move) ** 2))))
-        return np.array(steps), np.array(errors)
+        return WithoutEach(np.array(moves), np.array(spreads), np.array(errors))
 
-    def variances(self, steps: Array) -> tuple[Array, Array]:
-        """Of the common unknowns, (k,) each: by residuals, and by how much segments differ (jackknife, Tukey 1958).
 
-        Where the model is right both are one, but for chance.
-
-        Args:
-            steps: of the common unknowns without each segment, (segments, k).
-        """
-        n = len(steps)
-        return np.diag(self.covariance), (n - 1) / n * np.sum((steps - steps.mean(axis=0)) ** 2, axis=0)
+def _solved(A: Array, b: Array, free: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """Solution of A x = b and the inverse of A, some unknowns being held: these are zero."""
+    x, inverse = np.zeros_like(b), np.zeros_like(A)
+    if np.any(free):
+        inverse[np.ix_(free, free)] = np.linalg.inv(A[np.ix_(free, free)])
+        x = inverse @ b
+    return x, inverse
 
 
 def _run(systems: Sequence[tuple[Array, Array]], parts: Sequence[Array], values: Array, own: Sequence[Unknown]) -> _Run:

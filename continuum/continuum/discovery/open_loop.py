@@ -24,7 +24,7 @@ from continuum.recordings.recording import Recording
 
 _TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
 _LATER = 0.03  # step of a delay's logarithm: inputs jump, and an integration's steps with them
-_LEAD_IN = 0.25  # s, half a swing of an arm's slowest mode: what effects' states were before is forgotten in it
+_LEAD_IN = 1.0  # s, two swings of an arm's slowest mode: in it effects' states forget what they were before
 _SHORT = 0.25  # part of a segment by which the last one may be longer
 
 
@@ -125,6 +125,7 @@ class RunSimulation:
         self._directions = np.zeros((parameter_vector(self._model).size, len(unknowns)))
         self._sensors: dict[int, Mapping[str, Mapping[str, Array]]] = {}
         self._late: dict[int, InputSignal] = {}
+        self._shifted: dict[int, Model] = {}
         for i, unknown in enumerate(unknowns):
             effects = {effect for effect, _, _ in unknown.places}
             if effects & late:
@@ -134,6 +135,8 @@ class RunSimulation:
             else:
                 for at, derivative in _direction(problem, state, slots, unknown).items():
                     self._directions[at, i] = derivative
+                if effects & set(s.stateful):
+                    self._shifted[i] = extended_model(problem, shifted(state, unknown, run), run)
 
     def segment(self, rows: slice, local: Array) -> Segment:
         """One segment.
@@ -150,8 +153,7 @@ class RunSimulation:
         found = self._simulator.run(x0, times, self._inputs, free=free, free_initial=x0_slopes)
         width = k + 3 * n
         if found.status is not SimulationStatus.COMPLETE:
-            failed = np.full((times.size * n, width + 1), np.nan)
-            return Segment(self._r, rows, np.full((times.size, n), np.nan), failed)
+            return self._failed(rows, width)
         q, w = found.theta, found.theta_rate
         read = self._read(rows, q, w, self._own)
         J = np.zeros((times.size, n, width + 1))
@@ -160,11 +162,17 @@ class RunSimulation:
             J[:, :, i] = (self._read(rows, q, w, own) - read) / STEP
         for i, inputs in self._late.items():
             later = self._simulator.run(x0, times, inputs)
+            if later.status is not SimulationStatus.COMPLETE:
+                return self._failed(rows, width)
             J[:, :, i] = (self._read(rows, later.theta, later.theta_rate, self._own) - read) / _LATER
         J[:, :, k + 2 * n : width] = np.eye(n)
         J[:, :, -1] = read + zeros - np.nan_to_num(run.readings[rows, :n])
         J[run.live[rows, :n] <= 0] = 0.0
         return Segment(self._r, rows, read + zeros, J.reshape(-1, width + 1))
+
+    def _failed(self, rows: slice, width: int) -> Segment:
+        size, n = len(self._run.times[rows]), self._problem.structure.n
+        return Segment(self._r, rows, np.full((size, n), np.nan), np.full((size * n, width + 1), np.nan))
 
     def readings(self, rows: slice, local: Array) -> Array:
         """The same as `Segment.readings`, without derivatives, (rows, n) [rad]."""
@@ -183,22 +191,32 @@ class RunSimulation:
         slopes = np.zeros((2 * n + states.size, k + 2 * n))
         slopes[: 2 * n, k:] = np.eye(2 * n)
         if states.size:
-            for j, step in enumerate(STEP * np.eye(n)):
-                slopes[2 * n :, k + j] = (self._at_rest(q + step, row) - states) / STEP
+            by_angles, slopes[2 * n :, :k] = self._rest_slopes(q, row)
+            slopes[2 * n :, k : k + n] = by_angles
         if states.size and row:
-            moved, slopes[2 * n :, :k] = self._moved(row)
-            states = states + moved
+            moved, by_unknowns = self._moved(row)
+            states, slopes[2 * n :, :k] = states + moved, slopes[2 * n :, :k] + by_unknowns
         return np.concatenate([q, w, states]), slopes
 
-    def _at_rest(self, q: Array, row: int) -> Array:
+    def _at_rest(self, q: Array, row: int, model: Model | None = None) -> Array:
         """Effects' states in an arm that rests at angles q."""
-        u, p = self._run.inputs[self._run.first[row]], self._model.changed_parameters
+        model = self._model if model is None else model
+        u, p = self._run.inputs[self._run.first[row]], model.changed_parameters
         found = [
             np.asarray(a.effect.initial_state(q, u, a.values, p), dtype=float)
-            for a in self._model.effects
+            for a in model.effects
             if a.effect.n_states(q.size)
         ]
         return np.concatenate([np.zeros(0), *found])
+
+    def _rest_slopes(self, q: Array, row: int) -> tuple[Array, Array]:
+        """Derivatives of the states at rest by the angles (n_z, n), and by the effects' own values, (n_z, k)."""
+        at_rest = self._at_rest(q, row)
+        by_angles = [(self._at_rest(q + step, row) - at_rest) / STEP for step in STEP * np.eye(q.size)]
+        by_unknowns = np.zeros((at_rest.size, self._directions.shape[1]))
+        for i, model in self._shifted.items():
+            by_unknowns[:, i] = (self._at_rest(q, row, model) - at_rest) / STEP
+        return np.stack(by_angles, axis=1), by_unknowns
 
     def _moved(self, row: int) -> tuple[Array, Array]:
         """By how much effects' states are not those at rest, and the derivative of that, (n_z,) and (n_z, k).
@@ -209,12 +227,13 @@ class RunSimulation:
         first = min(int(np.searchsorted(times, times[row] - _LEAD_IN)), row - 1)
         q, w = self._way.q[first], self._way.w[first]
         x0 = np.concatenate([q, w, self._at_rest(q, first)])
-        found = self._simulator.run(
-            x0, times[[first, row]], self._inputs, free=self._directions, free_initial=np.zeros((x0.size, k))
-        )
+        begin = np.concatenate([np.zeros((2 * n, k)), self._rest_slopes(q, first)[1]])
+        found = self._simulator.run(x0, times[[first, row]], self._inputs, free=self._directions, free_initial=begin)
         if found.status is not SimulationStatus.COMPLETE:
             return np.zeros(x0.size - 2 * n), np.zeros((x0.size - 2 * n, k))
-        return found.states[-1, 2 * n :] - self._at_rest(found.theta[-1], row), found.slopes[-1, 2 * n :]
+        by_angles, by_unknowns = self._rest_slopes(found.theta[-1], row)
+        slopes = found.slopes[-1, 2 * n :] - by_angles @ found.slopes[-1, :n] - by_unknowns
+        return found.states[-1, 2 * n :] - self._at_rest(found.theta[-1], row), slopes
 
     def _read(self, rows: slice, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]]) -> Array:
         """Angles as the sensors read them but for their zeros, (rows, n) [rad]."""

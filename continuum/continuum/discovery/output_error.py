@@ -43,6 +43,7 @@ _SETTLED, _STILL = (
 _RISE = 0.2  # rise of errors that a step may have
 _SHARES = (0.5, 0.25)  # of a step of a segment's own unknowns where its error rises by more
 DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises
+_MOST_DAMPING = 1.0  # halves a step, and steps of all directions alike
 _BEGINNING = (0.1, 1.0)  # rad, rad/s: prior of a segment's beginning about the smoothed state
 
 
@@ -72,12 +73,12 @@ class Fitted:
     Attributes:
         state: with the fitted values.
         unknowns, values: what was fitted, and the result.
-        sd: standard deviations of the common unknowns, by residuals or by how segments differ, the larger, (k,).
+        sd: standard deviations of the common unknowns, larger where segments disagree, (k,).
         own_sd: standard deviations of each recording's own.
         errors: root mean square over rows and joints of each segment, with what the other segments say of all that
             recordings have in common, (segments,) [rad]; NaN where a simulation failed.
         observations: residuals that are independent of each other, their number.
-        disagreement: of segments about sizes of effects, as `Candidate.disagreement`.
+        agreement: of segments about sizes of effects, as `Candidate.agreement`.
         settled: whether further steps would change little.
     """
 
@@ -88,7 +89,7 @@ class Fitted:
     own_sd: tuple[Array, ...]
     errors: Array
     observations: float
-    disagreement: float
+    agreement: float
     settled: bool
 
     @property
@@ -225,24 +226,26 @@ class OutputError:
     def _optimum(self, here: _Iterate, iterations: int) -> _Iterate:
         """The best of some Levenberg-Marquardt steps."""
         best, damping, still = here, DAMPING, 0
-        for _ in range(iterations):
+        for _ in range(0 if here.settled else iterations):
             if not here.completed:
                 break
             normal, scale = self._normal(here), Scale(best.segments, self.floor)
             trial, cost = normal.stepped(damping), self._cost(best, scale)
-            if here is best and normal.expected_fall(trial) < _SETTLED:
+            if here is best and damping == DAMPING and normal.expected_fall(trial) < _SETTLED:
                 return replace(best, settled=True)
             there = self._stepped(here, trial)
             fall = cost - self._cost(there, scale)
-            still = 0 if fall > _SETTLED else still + 1
             if fall > -_RISE * scale.observations:
                 here, damping = there, max(damping / _MORE, DAMPING)
+                still = 0 if fall > _SETTLED else still + 1
             else:
                 damping *= _MORE
             if fall > 0:
                 best = there
             if still == _STILL:
                 return replace(best, settled=True)
+            if damping > _MOST_DAMPING:
+                break
         return best
 
     def _stepped(self, here: _Iterate, trial: Values) -> _Iterate:
@@ -263,7 +266,7 @@ class OutputError:
             if best.error < (1 + _RISE) * max(before.error, self.floor):
                 break
             other = run.segment(rows, begin + share * (end - begin))
-            if not other.error > best.error:
+            if other.error < best.error or not np.isfinite(best.error):
                 best, local = other, begin + share * (end - begin)
         return best, local
 
@@ -293,15 +296,13 @@ class OutputError:
         if not at.completed:
             none = tuple(np.full(len(own), np.nan) for own in values.own)
             failed = np.full(len(at.segments), np.nan)
-            return Fitted(state, unknowns, values, np.full(k, np.nan), none, failed, 0.0, np.inf, True)
+            return Fitted(state, unknowns, values, np.full(k, np.nan), none, failed, 0.0, 1.0, True)
         normal = self._normal(at)
         found = Scale(at.segments, self.floor).observations
-        steps, errors = normal.without_each()
-        expected, differing = normal.variances(steps)
-        sd = np.sqrt(np.maximum(expected, differing))
-        of_effects = [one.hypothesis is not None for one in unknowns.common]
-        disagreement = float(np.max((differing / expected)[of_effects], initial=1.0))
-        return Fitted(state, unknowns, values, sd, normal.own_sd(), errors, found, disagreement, at.settled)
+        left = normal.without_each()
+        sd = np.sqrt(np.diag(normal.covariance) * np.maximum(left.disagreement, 1.0))
+        agreement = left.probability([i for i, one in enumerate(unknowns.common) if one.hypothesis is not None])
+        return Fitted(state, unknowns, values, sd, normal.own_sd(), left.errors, found, agreement, at.settled)
 
 
 def _at_rest(rise: float) -> Start:

@@ -40,7 +40,7 @@ def as_mapping(result: Diagnosis) -> dict[str, Any]:
     return {
         "verdict": verdict.kind.value,
         "complete": bool(verdict.complete),
-        "steady": bool(verdict.steady),
+        "steady": bool(verdict.steady) if named else None,
         "sets": sets if named else [],
         "causes": effects[0] if named and effects else [],
         "alternatives": [cause for one in effects[1:] for cause in one] if named else [],
