@@ -10,8 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
+from continuum.discovery.fitted import Fitted
 from continuum.discovery.open_loop import RunSimulation, Simulators, cut
-from continuum.discovery.output_error import Fitted, OutputError
+from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Linearised, linearise, point_of
 from continuum.discovery.search import Found
 from continuum.discovery.unknowns import Unknowns

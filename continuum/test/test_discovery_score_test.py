@@ -10,7 +10,8 @@ import numpy as np
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
 from continuum.discovery.decision import is_worth
-from continuum.discovery.output_error import Fitted, OutputError
+from continuum.discovery.fitted import Fitted
+from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import linearise
 from continuum.discovery.score_test import promises
 from continuum.discovery.search import RUNNER_UP, Found

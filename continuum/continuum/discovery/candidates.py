@@ -11,7 +11,8 @@ import numpy as np
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of, with_linear_inputs
 from continuum.discovery.candidate import Candidate
 from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_needless, is_worth
-from continuum.discovery.output_error import Fitted, OutputError
+from continuum.discovery.fitted import Fitted
+from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem, linearise
 from continuum.discovery.score_test import Promise, is_linear, promises
 from continuum.discovery.search import (

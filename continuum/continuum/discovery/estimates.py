@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import Hypothesis
-from continuum.discovery.output_error import Fitted
 from continuum.discovery.problem import Problem, point_of
 from continuum.discovery.result import Estimate
 from continuum.discovery.unknowns import Unknown

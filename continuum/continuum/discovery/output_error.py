@@ -17,9 +17,10 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery.candidate import mean_error
 from continuum.discovery.decision import ALIKE, is_worth
+from continuum.discovery.fitted import Fitted, OpenLoop
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values, prior_cost
 from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut
-from continuum.discovery.problem import Problem, State
+from continuum.discovery.problem import Problem
 from continuum.discovery.search import Found
 from continuum.discovery.unknowns import Start, Unknowns, linear_unknown
 from continuum.recordings.recording import Recording
@@ -45,68 +46,6 @@ _SHARES = (0.5, 0.25)  # of a step of a segment's own unknowns where its error r
 DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises
 _MOST_DAMPING = 1.0  # halves a step, and steps of all directions alike
 _BEGINNING = (0.1, 1.0)  # rad, rad/s: prior of a segment's beginning about the smoothed state
-
-
-@dataclass(frozen=True)
-class OpenLoop:
-    """Simulations of all recordings from their beginnings.
-
-    Attributes:
-        angles: as the sensors would read them, by recording, (n_times, n) each [rad]; NaN where a simulation failed.
-        floor: of the error by the sensors' noise [rad].
-        of_segments: error of short segments, simulated each from its own beginning [rad].
-    """
-
-    angles: tuple[Array, ...]
-    floor: float
-    of_segments: float
-
-    def error(self, run: int, theta: Array) -> float:
-        """Root mean square distance from measured angles (n_times, n) [rad], over rows and joints."""
-        return float(np.sqrt(np.nanmean((self.angles[run] - theta) ** 2)))
-
-
-@dataclass(frozen=True)
-class Fitted:
-    """A set's fit.
-
-    Attributes:
-        state: with the fitted values.
-        unknowns, values: what was fitted, and the result.
-        sd: standard deviations of the common unknowns, larger where segments disagree, (k,).
-        own_sd: standard deviations of each recording's own.
-        errors: root mean square over rows and joints of each segment, with what the other segments say of all that
-            recordings have in common, (segments,) [rad]; NaN where a simulation failed.
-        observations: residuals that are independent of each other, their number.
-        agreement: of segments about sizes of effects, as `Candidate.agreement`.
-        settled: whether further steps would change little.
-    """
-
-    state: State
-    unknowns: Unknowns
-    values: Values
-    sd: Array
-    own_sd: tuple[Array, ...]
-    errors: Array
-    observations: float
-    agreement: float
-    settled: bool
-
-    @property
-    def error(self) -> float:
-        """Geometric mean of the errors [rad]; infinite where a simulation failed."""
-        return mean_error(self.errors)
-
-    @property
-    def key(self) -> frozenset[object]:
-        """Effects of the set with their places."""
-        return frozenset(one.hypothesis.key for one in self.unknowns.all if one.hypothesis)
-
-    @property
-    def place(self) -> dict[tuple[object, ...], float]:
-        """Where a fit of another set may begin."""
-        values = np.concatenate([self.values.common, *self.values.own])
-        return {one.place: float(value) for one, value in zip(self.unknowns.all, values, strict=True)}
 
 
 @dataclass(frozen=True)

@@ -13,11 +13,12 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import mean_error
+from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values, independent
 from continuum.discovery.open_loop import Segment
-from continuum.discovery.output_error import DAMPING, Fitted, OutputError
+from continuum.discovery.output_error import DAMPING, OutputError
 from continuum.discovery.unknowns import Unknown, Unknowns, linear_unknown, own_unknowns
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from continuum.discovery import Diagnosis
 from continuum.discovery.decision import Kind, Verdict
-from continuum.discovery.output_error import OpenLoop
+from continuum.discovery.fitted import OpenLoop
 from continuum.discovery.result import Cause, Estimate, Share
 from continuum.dynamics.model_file import load_model
 from continuum.recordings.recording import Recording
