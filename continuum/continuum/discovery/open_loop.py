@@ -22,7 +22,7 @@ from continuum.dynamics.trajectory import SimulationStatus
 from continuum.dynamics.values import parameter_slots, parameter_vector, with_vector
 from continuum.recordings.recording import Recording
 
-_TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
+_TOLERANCES = Tolerances(1e-3, 1e-4, 0.01, 2000)  # errors stay below a hundredth of a degree; what needs more diverges
 _LATER = 0.03  # step of a delay's logarithm: inputs jump, and an integration's steps with them
 _LEAD_IN = 1.0  # s, two swings of an arm's slowest mode: in it effects' states forget what they were before
 _SHORT = 0.25  # part of a segment by which the last one may be longer
@@ -228,7 +228,8 @@ class RunSimulation:
         q, w = self._way.q[first], self._way.w[first]
         x0 = np.concatenate([q, w, self._at_rest(q, first)])
         begin = np.concatenate([np.zeros((2 * n, k)), self._rest_slopes(q, first)[1]])
-        found = self._simulator.run(x0, times[[first, row]], self._inputs, free=self._directions, free_initial=begin)
+        led = times[first : row + 1]
+        found = self._simulator.run(x0, led, self._inputs, free=self._directions, free_initial=begin)
         if found.status is not SimulationStatus.COMPLETE:
             return np.zeros(x0.size - 2 * n), np.zeros((x0.size - 2 * n, k))
         by_angles, by_unknowns = self._rest_slopes(found.theta[-1], row)

@@ -129,10 +129,13 @@ def sensors_at(problem: Problem, state: State, run: int) -> dict[str, dict[str, 
 
 
 def _add(values: Array, s: Structure, coefficients: Values) -> None:
+    """Add coefficients of effects; sums stay what makes physical sense, as of an effect and an ordinary difference."""
     for (effect, name, joint), value in coefficients.items():
         slot = s.slots.get(f"{effect}.{name}")
         if effect and slot is not None:
-            values[slot.start + max(joint, 0)] += value
+            low, high = s.bounds[f"{effect}.{name}"]
+            at = slot.start + max(joint, 0)
+            values[at] = min(max(values[at] + value, low), high)
 
 
 def linearise(

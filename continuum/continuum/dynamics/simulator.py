@@ -86,8 +86,9 @@ class Simulator:
             n, p, input_times - times[0], rows_of_inputs, rows, columns, directions[rows, columns],
         )  # fmt: skip
         method = Method(
-            tableau.a, tableau.c, tableau.error, tableau.order, limits.relative, limits.absolute, limits.max_step
-        )
+            tableau.a, tableau.c, tableau.error, tableau.order, limits.relative, limits.absolute, limits.max_step,
+            limits.most_steps,
+        )  # fmt: skip
         states, slopes, taken, refused, status = integrate(
             problem, method, x0, times - times[0], np.ascontiguousarray(slope0)
         )

@@ -71,6 +71,8 @@ class Structure:
         self.sensors = [e for e in known if overrides(e, "measure")]
         self.late = [e for e in known if overrides(e, "late")]
         self.plain = plain
+        specs = {f"{e.name}.{name}": spec for e in plain for name, spec in e.parameters.items()}
+        self.bounds = {name: (spec.lower, spec.upper) for name, spec in specs.items()}
 
     def compile(self) -> None:
         """Make all machine code, or find it in its cache."""

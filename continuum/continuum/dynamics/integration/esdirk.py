@@ -23,7 +23,6 @@ from continuum.dynamics.trajectory import SimulationStatus
 STATUSES = (SimulationStatus.COMPLETE, SimulationStatus.STEP_TOO_SMALL, SimulationStatus.NOT_FINITE)
 """What the numbers mean with which `integrate` ends."""
 _COMPLETE, _STEP_TOO_SMALL, _NOT_FINITE = range(len(STATUSES))
-_MOST_STEPS = 200_000  # between two outputs
 _ONE_INSTANT = 1e-12  # apart [s], or in parts of the time: rounding, no time to step through
 
 
@@ -47,7 +46,7 @@ def _build(digest: str) -> Callable[..., Any]:
             return states, slopes, taken, refused, _NOT_FINITE
         wanted, size_before, just_refused = FIRST_STEP, 1.0, False
         for k in range(1, times.size):
-            most = taken + refused + _MOST_STEPS
+            most = taken + refused + method.most_steps
             while t < times[k]:
                 stop = min(times[k], _next_bend(problem.input_times, t))
                 shortest = _ONE_INSTANT * max(1.0, abs(t))

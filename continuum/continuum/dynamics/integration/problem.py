@@ -47,6 +47,7 @@ class Method(NamedTuple):
     relative: float
     absolute: float
     max_step: float
+    most_steps: int
 
 
 class Work(NamedTuple):

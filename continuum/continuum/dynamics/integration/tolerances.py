@@ -16,13 +16,15 @@ class Tolerances:
     Attributes:
         relative, absolute: local error allowed, the latter in the state's units [rad, rad/s].
         max_step: longest step [s].
+        most_steps: between two outputs; a simulation that needs more has failed.
     """
 
     relative: float = 1e-4
     absolute: float = 1e-5
     max_step: float = 0.01
+    most_steps: int = 200_000
 
     def __post_init__(self) -> None:
-        for name in ("relative", "absolute", "max_step"):
+        for name in ("relative", "absolute", "max_step", "most_steps"):
             if not 0 < getattr(self, name) < np.inf:
                 raise InvalidValueError(name, getattr(self, name), "a finite number > 0")
