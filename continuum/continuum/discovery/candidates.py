@@ -140,7 +140,9 @@ class _Fits:
                 if self._is_unexplained(nearest) and not nearest.fit.settled:
                     self._keep(nearest.found, self.judge.further(nearest.found, nearest.fit))
             best = self.nearest
-            self._exchange(best)
+            self._refit_baseline()
+            if best is self.nearest:
+                self._exchange(best)
         self._settle()
 
     def add(self, found: Found, near: Sequence[Fitted]) -> None:
@@ -174,9 +176,9 @@ class _Fits:
 
     def _exchange(self, best: Examined) -> None:
         """Fit sets in which another effect stands for one of the best set's, by sensitivities about that set."""
-        gained = log(self.examined[0].fit.error / best.fit.error) if best.found.chosen else 0.0
-        for left in filter(is_linear, best.found.chosen):
-            rest = self._by_key[frozenset(h.key for h in best.found.chosen if h is not left)]
+        chosen, gained = best.found.chosen, log(self.examined[0].fit.error / best.fit.error)
+        for left in filter(is_linear, chosen if is_worth(gained, best.fit.observations, len(chosen)) else ()):
+            rest = self._by_key[frozenset(h.key for h in chosen if h is not left)]
             found = with_library(self._problem, rest.found) if rest.found.chosen else rest.found
             promised = promises(self.judge, best.fit, found.lin.library, left)
             self.log.append(f"in {best.found.label} for {left.label}: {_labels(promised)}")
@@ -194,11 +196,15 @@ class _Fits:
         if found.key not in self._by_key:
             self.add(found, [about.fit, *([self.nearest.fit] if self.nearest.fit is not about.fit else [])])
 
-    def _settle(self) -> None:
-        """Fit the baseline from where the nearest set ended, and parts of all sets that may be named."""
+    def _refit_baseline(self) -> None:
+        """Fit the baseline from where the set ended that errs least."""
         best, base = min(self.examined, key=_error), self.examined[0]
         if best is not base:
             self._keep(base.found, self.judge.further(base.found, best.fit, base.fit.error))
+
+    def _settle(self) -> None:
+        """Fit parts of all sets that may be named."""
+        best = min(self.examined, key=_error)
         alike = ALIKE * log(self.examined[0].fit.error / best.fit.error)
         for one in self.examined:
             fitted = [other.candidate for other in self.examined[1:]]
