@@ -85,32 +85,36 @@ def examine(
     structure = Structure(dry, effects, has_tension(recordings, dry))
     problem = problem_of(structure, recordings)
     progress("baseline", 0.1)
-    judge, baseline = _baseline(problem, recordings)
-    fits = _Fits(judge, baseline, progress)
+    fits = _Fits(*_baseline(problem, recordings), progress)
     fits.search()
     base, *others = fits.examined
-    return Examination(judge.problem, judge, base, tuple(others), tuple(fits.log))
+    return Examination(fits.judge.problem, fits.judge, base, tuple(others), tuple(fits.log))
 
 
-def _baseline(problem: Problem, recordings: Sequence[Recording]) -> tuple[OutputError, Examined]:
-    """The refitted model alone, inputs taken as they simulate nearer: held from row to row, or linear between rows."""
+def _baseline(problem: Problem, recordings: Sequence[Recording]) -> tuple[Examined, OutputError, OutputError | None]:
+    """The refitted model alone, inputs taken as they simulate nearer: held from row to row, or linear between rows.
+
+    Returns:
+        The baseline, what fits by these inputs, and what does by the others.
+    """
     start = fitted_baseline(problem)
     judge, found = OutputError(problem, tuple(recordings)), Found(linearise(problem, start), ())
     fit, linear = judge.fit(found, ()), with_linear_inputs(problem)
-    if linear is not None:
-        fit, other = fit if fit.settled else judge.further(found, fit), judge.around(linear)
-        nearer = other.fit(found, [fit])
-        if nearer.error < fit.error:
-            found = Found(linearise(linear, fitted_baseline(linear)), ())
-            return other, Examined(found, other.fit(found, [nearer]))
-    return judge, Examined(found, fit)
+    if linear is None:
+        return Examined(found, fit), judge, None
+    fit, other = fit if fit.settled else judge.further(found, fit), judge.around(linear)
+    nearer = other.fit(found, [fit])
+    if nearer.error < fit.error:
+        found = Found(linearise(linear, fitted_baseline(linear)), ())
+        return Examined(found, other.fit(found, [nearer])), other, judge
+    return Examined(found, fit), judge, other
 
 
 class _Fits:
     """Fits of sets, the baseline first, and the search from set to set."""
 
-    def __init__(self, judge: OutputError, baseline: Examined, progress: Progress) -> None:
-        self.judge, self.log = judge, list[str]()
+    def __init__(self, baseline: Examined, judge: OutputError, other: OutputError | None, progress: Progress) -> None:
+        self.judge, self._by_other_inputs, self.log = judge, other, list[str]()
         self._problem, self._progress = judge.problem, progress
         self._by_key: dict[frozenset[object], Examined] = {baseline.found.key: baseline}
         self._expanded: set[frozenset[object]] = set()
@@ -139,6 +143,7 @@ class _Fits:
                 nearest = self.nearest
                 if self._is_unexplained(nearest) and not nearest.fit.settled:
                     self._keep(nearest.found, self.judge.further(nearest.found, nearest.fit))
+                self._reconsider_inputs()
             best = self.nearest
             self._refit_baseline()
             if best is self.nearest:
@@ -195,6 +200,18 @@ class _Fits:
         """Fit a set that was not yet, from where the set that it extends ended, and from where the nearest did."""
         if found.key not in self._by_key:
             self.add(found, [about.fit, *([self.nearest.fit] if self.nearest.fit is not about.fit else [])])
+
+    def _reconsider_inputs(self) -> None:
+        """Take inputs the other way where the nearest set simulates nearer so; about a wrong model little tells."""
+        best, other = self.nearest, self._by_other_inputs
+        if other is None or not best.found.chosen or not self._is_unexplained(best):
+            return
+        fit = other.fit(best.found, [best.fit])
+        if fit.error < best.fit.error:
+            self.judge, self._by_other_inputs, self._problem = other, self.judge, other.problem
+            for one in self.examined:
+                again = fit if one is best else other.fit(one.found, [one.fit])
+                self._by_key[one.found.key] = Examined(one.found, again)
 
     def _refit_baseline(self) -> None:
         """Fit the baseline from where the set ended that errs least."""
