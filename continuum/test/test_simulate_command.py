@@ -83,7 +83,7 @@ def test_what_is_written_goes_in_again(tmp_path):
     assert rows[-1, 0] == 0.75
     assert rows[:, 11].max() == 14.0
     assert rows[30, 11:].tolist() == [14.0, 1.5]
-    np.testing.assert_allclose(table(again)[1], rows, atol=0.05)
+    np.testing.assert_allclose(table(again)[1], rows, atol=0.05, rtol=2e-3)  # knots end steps in other places
     np.testing.assert_allclose(read_tension_table(first).values, rows[:, 11:])
 
 
