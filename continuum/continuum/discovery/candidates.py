@@ -167,7 +167,7 @@ class _Fits:
     def _expand(self, about: Examined) -> None:
         """Fit sets that have one effect more."""
         self._expanded.add(about.found.key)
-        found = with_library(self._problem, about.found) if about.found.chosen else about.found
+        found = self._with_library(about)
         promised = promises(self.judge, about.fit, found.lin.library)
         self.log.append(f"about {found.label}: {_labels(promised)}")
         gains = [(one.gain, one.hypothesis) for one in promised if is_worth(one.gain / RUNNER_UP, one.observations)]
@@ -184,7 +184,7 @@ class _Fits:
         chosen, gained = best.found.chosen, log(self.examined[0].fit.error / best.fit.error)
         for left in filter(is_linear, chosen if is_worth(gained, best.fit.observations, len(chosen)) else ()):
             rest = self._by_key[frozenset(h.key for h in chosen if h is not left)]
-            found = with_library(self._problem, rest.found) if rest.found.chosen else rest.found
+            found = self._with_library(rest)
             promised = promises(self.judge, best.fit, found.lin.library, left)
             self.log.append(f"in {best.found.label} for {left.label}: {_labels(promised)}")
             alike = [
@@ -195,6 +195,10 @@ class _Fits:
             for one in with_linear(found, alike):
                 self._progress(f"simulating with {one.label}", 0.8)
                 self._try(one, rest)
+
+    def _with_library(self, one: Examined) -> Found:
+        """A set with all hypotheses about it; the baseline has them."""
+        return with_library(self._problem, one.found) if one.found.chosen else one.found
 
     def _try(self, found: Found, about: Examined) -> None:
         """Fit a set that was not yet, from where the set that it extends ended, and from where the nearest did."""

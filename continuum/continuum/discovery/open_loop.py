@@ -126,6 +126,7 @@ class RunSimulation:
         self._sensors: dict[int, Mapping[str, Mapping[str, Array]]] = {}
         self._late: dict[int, InputSignal] = {}
         self._shifted: dict[int, Model] = {}
+        self._led: dict[int, tuple[Array, Array]] = {}
         for i, unknown in enumerate(unknowns):
             effects = {effect for effect, _, _ in unknown.places}
             if effects & late:
@@ -194,7 +195,9 @@ class RunSimulation:
             by_angles, slopes[2 * n :, :k] = self._rest_slopes(q, row)
             slopes[2 * n :, k : k + n] = by_angles
         if states.size and row:
-            moved, by_unknowns = self._moved(row)
+            if row not in self._led:
+                self._led[row] = self._moved(row)
+            moved, by_unknowns = self._led[row]
             states, slopes[2 * n :, :k] = states + moved, slopes[2 * n :, :k] + by_unknowns
         return np.concatenate([q, w, states]), slopes
 

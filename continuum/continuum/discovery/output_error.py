@@ -37,10 +37,8 @@ of friction near rest, and a fit finds it from within some 0.3."""
 _FIRST = 2  # steps, after which the nearest start is followed, and what is far is given up
 _ITERATIONS = 5  # further steps at most
 _FAR = 2.0  # times the error of another set's fit, with which a set is not fitted further
-_SETTLED, _STILL = (
-    1.0,
-    2,
-)  # fall of minus the log-posterior, which moves no decision; steps in a row with less end a fit
+_SETTLED = 1.0  # fall of minus the log-posterior: less moves no decision
+_STILL = 2  # steps in a row with less, after which a fit ends
 _RISE = 0.2  # rise of errors that a step may have
 _SHARES = (0.5, 0.25)  # of a step of a segment's own unknowns where its error rises by more
 DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises

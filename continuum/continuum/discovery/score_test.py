@@ -6,7 +6,7 @@ the same simulations that decide. One pass serves all effects whose sizes enter 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -55,20 +55,22 @@ def promises(judge: OutputError, fit: Fitted, library: Library, instead_of: Hypo
         return []
     weights = Scale(segments, judge.floor).weights([one.error for one in segments])
 
-    def after(left: Hypothesis | None, more: Sequence[Unknown], more_own: Sequence[list[Unknown]]) -> list[Array]:
-        """Residuals after a step, without one hypothesis and with further unknowns."""
-        kept, values = _without(fit, left)
-        part = _joined(kept, more, more_own)
-        chosen = [_columns(one, wide, part, fit.values, left) for one in segments]
-        normal = NormalEquations(part, _values(values, part), chosen, weights, judge.local_precision)
+    at = [{one.place: k for k, one in enumerate([*wide.common, *mine])} for mine in wide.own]
+
+    def after(there: Sequence[Segment], unknowns: Unknowns, values: Values) -> list[Array]:
+        """Residuals after a step."""
+        chosen = [_columns(one, at[one.run], unknowns, len(judge.local_precision)) for one in there]
+        normal = NormalEquations(unknowns, _values(values, unknowns), chosen, weights, judge.local_precision)
         return normal.expected_residuals(normal.stepped(DAMPING))
 
-    before, found = _log_error(after(None, [], [[] for _ in runs])), list[Promise]()
-    for h, more, more_own in zip(linear, common, zip(*own, strict=True), strict=True):
-        residuals = after(instead_of, more, list(more_own))
+    before = _log_error(after(segments, fit.unknowns, fit.values))
+    there, (kept, values) = [_less(one, wide, fit.values, instead_of) for one in segments], _without(fit, instead_of)
+    found = list[Promise]()
+    for h, more, mine in zip(linear, common, zip(*own, strict=True), strict=True):
+        residuals = after(there, _joined(kept, more, mine), values)
         squares, products = [np.sum(r**2) for r in residuals], [np.sum(r[1:] * r[:-1]) for r in residuals]
         observations = independent(sum(squares), sum(products)) * sum(r.size for r in residuals)
-        by_chance = (len(more) + sum(map(len, more_own))) / (2 * observations)
+        by_chance = (len(more) + sum(map(len, mine))) / (2 * observations)
         found.append(Promise(before - _log_error(residuals) - by_chance, observations, h))
     return sorted(found, key=lambda one: -one.gain)
 
@@ -84,16 +86,11 @@ def is_linear(h: Hypothesis) -> bool:
 
 def _without(fit: Fitted, left: Hypothesis | None) -> tuple[Unknowns, Values]:
     """Unknowns and values of a fit but those of one hypothesis."""
-    common = [k for k, one in enumerate(fit.unknowns.common) if left is None or one.hypothesis is not left]
-    own = [
-        [k for k, one in enumerate(those) if left is None or one.hypothesis is not left] for those in fit.unknowns.own
-    ]
-    unknowns = fit.unknowns.with_lists(
-        [fit.unknowns.common[k] for k in common],
-        [[those[k] for k in mine] for those, mine in zip(fit.unknowns.own, own, strict=True)],
-    )
-    by_run = tuple(x[mine] for x, mine in zip(fit.values.own, own, strict=True))
-    return unknowns, Values(fit.values.common[common], by_run, fit.values.local)
+    lists, values = [fit.unknowns.common, *fit.unknowns.own], [fit.values.common, *fit.values.own]
+    kept = [[k for k, one in enumerate(those) if left is None or one.hypothesis is not left] for those in lists]
+    common, *own = [[those[k] for k in ks] for those, ks in zip(lists, kept, strict=True)]
+    of_all, *of_runs = [x[ks] for x, ks in zip(values, kept, strict=True)]
+    return fit.unknowns.with_lists(common, own), Values(of_all, tuple(of_runs), fit.values.local)
 
 
 def _joined(unknowns: Unknowns, more: Sequence[Unknown], more_own: Sequence[Sequence[Unknown]]) -> Unknowns:
@@ -113,15 +110,19 @@ def _values(values: Values, unknowns: Unknowns) -> Values:
     return Values(common, tuple(own), values.local)
 
 
-def _columns(one: Segment, wide: Unknowns, part: Unknowns, fitted: Values, left: Hypothesis | None) -> Segment:
-    """A segment with the derivatives by some of its unknowns only, and the residuals without what has left the set."""
-    K, M = len(wide.common), len(wide.own[one.run])
-    every, some = [*wide.common, *wide.own[one.run]], [*part.common, *part.own[one.run]]
-    at = {unknown.place: k for k, unknown in enumerate(every)}
-    slopes = one.slopes[:, [*(at[unknown.place] for unknown in some), *range(K + M, one.slopes.shape[1])]]
-    if left is not None:
-        values = np.zeros(K + M)
-        values[: len(fitted.common)], values[K : K + len(fitted.own[one.run])] = fitted.common, fitted.own[one.run]
-        gone = [k for k, unknown in enumerate(every) if unknown.hypothesis is left]
-        slopes[:, -1] -= one.slopes[:, gone] @ values[gone]
+def _less(one: Segment, wide: Unknowns, fitted: Values, left: Hypothesis | None) -> Segment:
+    """A segment with the residuals that stay where a hypothesis leaves the set."""
+    if left is None:
+        return one
+    padded, every = _values(fitted, wide), [*wide.common, *wide.own[one.run]]
+    values = np.concatenate([padded.common, padded.own[one.run]])
+    gone = [k for k, unknown in enumerate(every) if unknown.hypothesis is left]
+    slopes = one.slopes.copy()
+    slopes[:, -1] -= slopes[:, gone] @ values[gone]
     return Segment(one.run, one.rows, one.readings, slopes)
+
+
+def _columns(one: Segment, at: Mapping[tuple[object, ...], int], unknowns: Unknowns, local: int) -> Segment:
+    """A segment with the derivatives by some unknowns only, which stand at given columns, and by its own."""
+    some, width = [at[each.place] for each in (*unknowns.common, *unknowns.own[one.run])], one.slopes.shape[1]
+    return Segment(one.run, one.rows, one.readings, one.slopes[:, [*some, *range(width - local - 1, width)]])

@@ -28,7 +28,7 @@ def solve_stages(problem, method, work, t, x, step):  # type: ignore[no-untyped-
         _stage_base(work.base, x, step, method.a[i, :i], work.rates)
         v = work.rates[i, n:]
         hg = step * method.a[i, i]
-        before = x if i == 1 else work.states[i - 1]
+        before = x if i == 1 else work.states[i - 1]  # a stuck joint stays, whatever its rates begin with
         v[:] = (before[n:] - work.base[n:]) / hg
         inputs_at(t, t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
         if not solve_stage(problem, method, work, work.base, v, hg, i > 1):
