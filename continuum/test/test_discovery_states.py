@@ -25,6 +25,7 @@ from continuum.recordings.recording import Recording
 
 FINE, TIMES = Tolerances(1e-8, 1e-9, 0.01), np.arange(0, 0.9, 1 / 120)
 ROWS = slice(54, 70)
+SPRING = "joint_stiffness"
 
 
 def simulations(name: str, values: Mapping[str, float]) -> tuple[Simulators, State, np.ndarray]:
@@ -34,12 +35,13 @@ def simulations(name: str, values: Mapping[str, float]) -> tuple[Simulators, Sta
     own |= {n: np.full_like(own[n], value) for n, value in values.items()}
     pull = np.stack([8 * (1 - np.cos(5 * TIMES)), np.zeros(TIMES.size)], axis=1)
     arm, inputs = replace(model, effects=(ActiveEffect(effect, own),)), Tensions(TIMES, pull, held=True)
-    begin = effect.initial_state(np.zeros(5), pull[0], own, arm.parameters)
-    moved = Simulator(arm, FINE).run(np.concatenate([np.zeros(10), begin]), TIMES, inputs)
+    bent = np.full(5, 0.1)
+    begin = effect.initial_state(bent, pull[0], own, arm.parameters)
+    moved = Simulator(arm, FINE).run(np.concatenate([bent, np.zeros(5), begin]), TIMES, inputs)
     seen = Recording("pull", TIMES, moved.theta, moved.theta_rate, Tensions(TIMES, pull))
-    problem = problem_of(Structure(model, [name]), [seen])
+    problem = problem_of(Structure(model, [name, SPRING]), [seen])
     way = Trajectory(moved.theta, moved.theta_rate, 0 * moved.theta, 0 * moved.theta)
-    state = replace(fitted_baseline(problem), shared={}, active={name: own}, ways=(way,))
+    state = replace(fitted_baseline(problem), shared={(SPRING, "excess", 1): 0.0}, active={name: own}, ways=(way,))
     return Simulators(problem, (seen,), FINE), state, moved.states
 
 
@@ -59,16 +61,20 @@ def test_states_amid_a_recording_are_those_of_its_whole_simulation(name: str, va
 
 
 @pytest.mark.parametrize(("name", "values"), CASES)
-def test_derivatives_by_an_effects_values_are_differences(name: str, values: Mapping[str, float]) -> None:
+def test_derivatives_of_states_amid_a_recording_are_differences(name: str, values: Mapping[str, float]) -> None:
+    """By an effect's values, on which its states depend, and by a spring, on which the arm's posture does."""
     simulators, state, _ = simulations(name, values)
+    unknowns = [Unknown({(SPRING, "excess", 1): 1.0}, False, 0.0, 0.0, 1.0, -1.0, 20.0)]
     for parameter in values:
-        value = float(state.active[name][parameter][0])
-        unknown = Unknown({(name, parameter, -1): 1.0}, True, np.log(value), np.log(value), 1.0, -20.0, 20.0)
-        for rows in (slice(0, 30), ROWS):
-            slope = RunSimulation(simulators, state, 0, [unknown]).segment(rows, np.zeros(15)).slopes[:, 0]
+        value = np.log(float(state.active[name][parameter][0]))
+        unknowns.append(Unknown({(name, parameter, -1): 1.0}, True, value, value, 1.0, -20.0, 20.0))
+    for unknown in unknowns:
+        for row in (0, ROWS.start):
+            slope = RunSimulation(simulators, state, 0, [unknown])._beginning(row, np.zeros(15))[1][10:, 0]
             ends = [
-                RunSimulation(simulators, shifted(state, unknown, 0, step), 0).readings(rows, np.zeros(15)).ravel()
+                RunSimulation(simulators, shifted(state, unknown, 0, step), 0)._beginning(row, np.zeros(15))[0][10:]
                 for step in (-1e-3, 1e-3)
             ]
             difference = (ends[1] - ends[0]) / 2e-3
-            assert np.linalg.norm(slope - difference) < 0.05 * np.linalg.norm(difference) + 1e-6, (parameter, rows)
+            error = np.linalg.norm(slope - difference)
+            assert error < 0.01 * np.linalg.norm(difference) + 1e-6, (list(unknown.places), row)
