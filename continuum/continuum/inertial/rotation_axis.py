@@ -42,7 +42,7 @@ def axes_of_motion(recording: ImuRecording, bias: Array, first_turn: int) -> Arr
     axes = directions[:, :, -1]
     angles = _summed(recording.times, np.einsum("tni,ni->tn", rates, axes))
     turns = np.ptp(angles, axis=0)
-    off_axis = np.sqrt(sizes[:, 1] / np.maximum(sizes[:, 2], np.finfo(float).tiny))
+    off_axis = np.sqrt(np.maximum(sizes[:, 1], 0.0) / np.maximum(sizes[:, 2], np.finfo(float).tiny))  # eigh's rounding
     alike = _correlation(angles, angles[:, -1])
     wrong = [
         told
