@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from continuum.arrays import Array
 from continuum.dynamics.planar.eq13_joint_friction import dry_friction
 from continuum.dynamics.values import with_vector
 from continuum.estimation.columns import Change, Column, Slope
-from continuum.estimation.motion_equations import packed, torques
+from continuum.estimation.motion_equations import evaluate, packed, torques
 from continuum.estimation.run import Run
 from continuum.estimation.structure import Structure
 
@@ -28,6 +29,7 @@ _SHAPE_PRIOR = 0.33
 _FAR = 10.0  # times more or less than expected: such a value of a model file is not believed
 _LEAST = 0.02  # part of its reference below which no mass, inertia or spring is a body's
 _SPEED = (-0.8, 4.0)  # least and largest relative change of Stribeck's rate: beyond, its curve is another term
+_ROUNDING = 1e-6  # part of a torque below which it is the rounding of a solution
 _RATES = (0.0, 0.5, 1.0, 2.0, 9.0)  # multiples of Stribeck's rate at which dry friction must not be negative
 
 
@@ -102,6 +104,24 @@ class Coordinates:
         else:
             out[slots["stribeck_speed"]] = self.reference[slots["stribeck_speed"]]
         return out
+
+    @cached_property
+    def covered(self) -> frozenset[str]:
+        """Parameters whose change alike at all joints changes the torque as some of the coordinates do."""
+        s, random = self.structure, np.random.default_rng(0)
+        rows = 8 * len(self.names)
+        motion, u = random.normal(size=(rows, 3, s.n)), random.uniform(size=(rows, s.equations.n_inputs))
+        given = packed(motion, u, motion[:, 1], self.reference)
+        by_p = evaluate(s.equations.by_parameters, given, s.n * (1 + s.equations.n_p))[:, s.n :]
+        by_p = by_p.reshape(rows, s.equations.n_p, s.n).transpose(0, 2, 1).reshape(-1, s.equations.n_p)
+        coordinates = by_p @ np.column_stack([self._direction(name, self.reference) for name in self.names])
+        found = []
+        for name, slot in s.slots.items():
+            alike = np.sum(by_p[:, slot], axis=1)
+            left = alike - coordinates @ np.linalg.lstsq(coordinates, alike)[0]
+            if np.linalg.norm(left) < _ROUNDING * np.linalg.norm(alike):
+                found.append(name)
+        return frozenset(found)
 
     def constraints(self, p: Array, columns: Sequence[Column], width: int) -> tuple[Array, Array]:
         """Rows G and values g, g + G dtheta >= 0 about p: masses, inertias, springs and friction stay positive."""

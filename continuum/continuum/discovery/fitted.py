@@ -69,7 +69,7 @@ class Fitted:
         return frozenset(one.hypothesis.key for one in self.unknowns.all if one.hypothesis)
 
     @property
-    def place(self) -> dict[tuple[object, ...], float]:
-        """Where a fit of another set may begin."""
+    def start(self) -> dict[tuple[object, ...], float]:
+        """Where a fit of another set may begin, by `Unknown.key`."""
         values = np.concatenate([self.values.common, *self.values.own])
-        return {one.place: float(value) for one, value in zip(self.unknowns.all, values, strict=True)}
+        return {one.key: float(value) for one, value in zip(self.unknowns.all, values, strict=True)}

@@ -34,6 +34,7 @@ class Library:
         active: values of the effects with states that are in the model, and of those whose shape is fitted.
         ratio: by which their values are changed for differences.
         baseline: columns that every hypothesis has, by name.
+        covered: parameters that these change as well where they change alike at all joints.
         live: effects that have hypotheses; all without.
     """
 
@@ -43,6 +44,7 @@ class Library:
         active: Mapping[str, Mapping[str, Array]],
         ratio: float,
         baseline: Sequence[tuple[str, Column]],
+        covered: Collection[str],
         live: Collection[str] | None = None,
     ) -> None:
         self.structure, self.active, self.ratio = structure, active, ratio
@@ -59,6 +61,7 @@ class Library:
             else:
                 self.torque_only[name] = at
         self._baseline, self._live = list(range(self.width)), live
+        self._covered = covered
         for effect in structure.offered:
             if live is not None and effect.name not in live and not any(p.ordinary for p in effect.parameters.values()):
                 continue
@@ -116,8 +119,10 @@ class Library:
             self._one(effect, (j,), [((at[name] + j,), name, (j,)) for name in of_joints], start)
         everywhere = tuple(range(n))
         if n > 1 and not overrides(effect, "measure"):  # one gain of all sensors would be a unit
-            alike = [(tuple(at[name] + j for j in everywhere), name, everywhere) for name in of_joints]
-            self._one(effect, everywhere, alike, start)
+            new = [name for name in of_joints if f"{effect.name}.{name}" not in self._covered]
+            if new:
+                alike = [(tuple(at[name] + j for j in everywhere), name, everywhere) for name in new]
+                self._one(effect, everywhere, alike, start)
 
     def _along_directions(self, effect: Effect, at: Mapping[str, int]) -> None:
         """Of an effect whose sizes go together, a coefficient for each combination, at each joint and at all alike."""

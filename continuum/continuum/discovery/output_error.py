@@ -138,19 +138,19 @@ class OutputError:
 
     def _as_given(self, found: Found) -> Start:
         """The model file's own values."""
-        return {one.place: 0.0 for one in Unknowns(self.problem, found, {}).common if one.hypothesis is None}
+        return {one.key: 0.0 for one in Unknowns(self.problem, found, {}).common if one.hypothesis is None}
 
     def _start(self, found: Found, fit: Fitted) -> tuple[Start, Sequence[Array] | None]:
         """Where another set's fit ended: common and own unknowns, and those of segments about the same trajectories.
 
         Further effects begin absent where that set is a part of this one, else where the search left them.
         """
-        place, had = fit.place, fit.key
+        start, had = fit.start, fit.key
         if had <= found.key:
             new, library = [h for h in found.chosen if h.key not in had], found.lin.library
             slots = [(h, k) for h in new for k, c in enumerate(h.coefficients) if c.kind == "slot"]
-            place = {linear_unknown(h, k, library).place: 0.0 for h, k in slots} | place
-        return place, fit.values.local if fit.state.ways is found.lin.state.ways else None
+            start = {linear_unknown(h, k, library).key: 0.0 for h, k in slots} | start
+        return start, fit.values.local if fit.state.ways is found.lin.state.ways else None
 
     def _begun(self, found: Found, start: Start, local: Sequence[Array] | None) -> _Iterate:
         """Where a fit begins, some unknowns being given."""
@@ -244,4 +244,4 @@ class OutputError:
 
 def _at_rest(rise: float) -> Start:
     """Friction near rest, Stribeck's torque by so much above the model file's."""
-    return {((("", name, -1), 1.0), False, None): value for name, value in (("stribeck", rise), ("speed", 0.0))}
+    return {(((("", name, -1), 1.0), False, None), None): value for name, value in (("stribeck", rise), ("speed", 0.0))}

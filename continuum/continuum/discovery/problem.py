@@ -153,8 +153,7 @@ def linearise(
     """
     s, point = problem.structure, point_of(problem, state)
     library = Library(
-        s, state.active, state.ratio, problem.coordinates.columns(point.values),
-        live,
+        s, state.active, state.ratio, problem.coordinates.columns(point.values), problem.coordinates.covered, live,
     )  # fmt: skip
     theta = np.stack([_theta(library, state.shared, own, state.held) for own in state.own])
     runs = []

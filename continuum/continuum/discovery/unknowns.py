@@ -22,7 +22,7 @@ STEP = 1e-6
 """Change of an unknown for the difference of what is linear, or nearly."""
 
 type Start = Mapping[tuple[object, ...], float]
-"""Where unknowns begin, by `Unknown.place`."""
+"""Where unknowns begin, by `Unknown.key`."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +50,13 @@ class Unknown:
 
     @property
     def place(self) -> tuple[object, ...]:
-        """What it is, whatever the set."""
+        """What it changes."""
         return (*self.places.items(), self.is_log, self.of_run)
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """What it is in any set: an effect's size, say, or the ordinary difference that changes the same value."""
+        return self.place, None if self.hypothesis is None else self.hypothesis.key
 
 
 def shifted(state: State, unknown: Unknown, run: int, step: float = STEP) -> State:
@@ -192,4 +197,4 @@ def own_unknowns(h: Hypothesis, library: Library, run: int, values: Values) -> l
 
 def _beginning(one: Unknown, start: Start) -> Unknown:
     """The same where its beginning is not given, else with that."""
-    return replace(one, start=float(np.clip(start.get(one.place, one.start), one.lower, one.upper)))
+    return replace(one, start=float(np.clip(start.get(one.key, one.start), one.lower, one.upper)))
