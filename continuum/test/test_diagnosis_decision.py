@@ -18,6 +18,7 @@ from continuum.discovery.decision import (
     closed,
     decide,
     is_farther,
+    is_probable,
 )
 
 FLOOR, SEGMENTS, OBSERVATIONS = 0.003, 16, 80.0
@@ -147,6 +148,23 @@ def test_errors_that_fall_by_chance_are_no_lower() -> None:
         one, two = (Candidate(NONE, 0.01 * np.exp(0.2 * random.standard_normal(8)), OBSERVATIONS) for _ in range(2))
         found += is_farther(one, two, 0.0)
     assert abs(found / n - 0.05) < 4 * np.sqrt(0.05 * 0.95 / n)
+
+
+def test_values_of_each_recording_are_not_worth_it_where_they_are_nothing() -> None:
+    """Forty of noise, each fitted to a hundred rows: they lower the error by chance, and pay for it."""
+    random, values, rows, prior = np.random.default_rng(0), 40, 100, 1.0
+    sd = 1 / np.sqrt(1 / prior**2 + rows)
+    named = {occam: 0 for occam in (0.0, values * float(np.log(prior / sd)))}
+    for _ in range(100):
+        noise = random.standard_normal((values, rows))
+        fitted = noise - rows * sd**2 * noise.mean(axis=1, keepdims=True)
+        before, after = (np.full(2, np.sqrt(np.mean(x**2))) for x in (noise, fitted))
+        for occam in named:
+            own = Candidate(SPRING, after, noise.size, occam)
+            named[occam] += is_probable(own, Candidate(NONE, before, noise.size))
+    unpaid, paid = named.values()
+    assert paid == 0
+    assert unpaid > 90
 
 
 def test_sizes_that_segments_disagree_about_leave_something_unknown() -> None:

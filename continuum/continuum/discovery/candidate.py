@@ -33,12 +33,14 @@ class Candidate:
         effects: of the set; empty for the refitted baseline.
         errors: of open-loop simulations, root mean square by segment, (segments,) [rad]; NaN where one failed.
         observations: residuals that are independent of each other, their number.
+        occam: what values that each recording has for itself cost, as `Fitted.occam`.
         agreement: probability that segments disagree as much about the effects' sizes, where these are constant.
     """
 
     effects: Key
     errors: Array
     observations: float
+    occam: float = 0.0
     agreement: float = 1.0
 
     @property

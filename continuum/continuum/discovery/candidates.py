@@ -10,7 +10,7 @@ import numpy as np
 
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of, with_linear_inputs
 from continuum.discovery.candidate import Candidate
-from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_needless, is_worth
+from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_needless, is_probable, is_worth
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem, linearise
@@ -51,7 +51,8 @@ class Examined:
     def candidate(self) -> Candidate:
         """For the decision."""
         fit = self.fit
-        return Candidate(tuple(h.key for h in self.found.chosen), fit.errors, fit.observations, fit.agreement)
+        effects = tuple(h.key for h in self.found.chosen)
+        return Candidate(effects, fit.errors, fit.observations, fit.occam, fit.agreement)
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,7 @@ class _Fits:
         observations = min(self.examined, key=_error).fit.observations
 
         def cost(one: Examined) -> float:
-            return PRICE * len(one.found.chosen) + observations * log(one.fit.error)
+            return PRICE * len(one.found.chosen) + one.fit.occam + observations * log(one.fit.error)
 
         return min((one for one in self.examined if np.isfinite(one.fit.error)), key=cost, default=self.examined[0])
 
@@ -182,7 +183,7 @@ class _Fits:
     def _exchange(self, best: Examined) -> None:
         """Fit sets in which another effect stands for one of the best set's, by sensitivities about that set."""
         chosen, gained = best.found.chosen, log(self.examined[0].fit.error / best.fit.error)
-        for left in filter(is_linear, chosen if is_worth(gained, best.fit.observations, len(chosen)) else ()):
+        for left in filter(is_linear, chosen if is_probable(best.candidate, self.examined[0].candidate) else ()):
             rest = self._by_key[frozenset(h.key for h in chosen if h is not left)]
             found = self._with_library(rest)
             promised = promises(self.judge, best.fit, found.lin.library, left)

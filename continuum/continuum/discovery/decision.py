@@ -92,7 +92,8 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
 
 def is_probable(one: Candidate, part: Candidate) -> bool:
     """Whether a set gains more on a part of it than its further effects cost and chance gives."""
-    return is_worth(log_error(part) - log_error(one), one.observations, len(one.effects) - len(part.effects))
+    gain, effects = log_error(part) - log_error(one), len(one.effects) - len(part.effects)
+    return is_worth(gain, one.observations, effects, one.occam - part.occam)
 
 
 def is_needless(one: Candidate, others: Sequence[Candidate], alike: float) -> bool:
@@ -101,12 +102,12 @@ def is_needless(one: Candidate, others: Sequence[Candidate], alike: float) -> bo
     return any(not is_farther(part, one, alike) or not is_probable(one, part) for part in parts)
 
 
-def is_worth(gain: float, observations: float, effects: int = 1) -> bool:
-    """Whether a fall of the logarithm of the error is more than effects cost and chance gives.
+def is_worth(gain: float, observations: float, effects: int = 1, occam: float = 0.0) -> bool:
+    """Whether a fall of the logarithm of the error is more than effects and their own values cost and chance gives.
 
     Of so many independent residuals of unknown variance it is the gain in log-likelihood.
     """
-    return gain * observations > PRICE * effects - log(CHANCE)
+    return gain * observations > PRICE * effects + occam - log(CHANCE)
 
 
 def noise_in_segments(candidates: Sequence[Candidate], floor: float) -> Array:

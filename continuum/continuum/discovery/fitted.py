@@ -64,6 +64,21 @@ class Fitted:
         return mean_error(self.errors)
 
     @property
+    def occam(self) -> float:
+        """Logarithm of Occam's factor of each recording's own values (MacKay, Neural Computation 4, 1992, 415).
+
+        What segments have in common is judged by segments that it was not fitted to; these values are not.
+        """
+        pairs = [(one.sd, sd) for those, sds in zip(self.unknowns.own, self.own_sd, strict=True)
+                 for one, sd in zip(those, sds, strict=True)]  # fmt: skip
+        return float(sum(max(0.0, np.log(prior / sd)) for prior, sd in pairs)) if self.completed else 0.0
+
+    @property
+    def completed(self) -> bool:
+        """Whether it can be simulated."""
+        return bool(np.all(np.isfinite(self.errors)))
+
+    @property
     def key(self) -> frozenset[object]:
         """Effects of the set with their places."""
         return frozenset(one.hypothesis.key for one in self.unknowns.all if one.hypothesis)
