@@ -154,7 +154,7 @@ def test_values_of_each_recording_are_not_worth_it_where_they_are_nothing() -> N
     """Forty of noise, each fitted to a hundred rows: they lower the error by chance, and pay for it."""
     random, values, rows, prior = np.random.default_rng(0), 40, 100, 1.0
     sd = 1 / np.sqrt(1 / prior**2 + rows)
-    named = {occam: 0 for occam in (0.0, values * float(np.log(prior / sd)))}
+    named = dict.fromkeys((0.0, values * float(np.log(prior / sd))), 0)
     for _ in range(100):
         noise = random.standard_normal((values, rows))
         fitted = noise - rows * sd**2 * noise.mean(axis=1, keepdims=True)
