@@ -150,6 +150,17 @@ def test_errors_that_fall_by_chance_are_no_lower() -> None:
     assert abs(found / n - 0.05) < 4 * np.sqrt(0.05 * 0.95 / n)
 
 
+def test_of_nested_sets_that_are_alike_the_smaller_is_named() -> None:
+    """One joint's sensor, and all joints' sensors, that joint's among them."""
+    at_all: Key = (("angle_offset", None),)
+    one = replace(candidate(SPRING, 0.0031), values=frozenset({1}))
+    other, nested = (replace(candidate(at_all, 0.00309), values=frozenset(those)) for those in ({0, 2}, {0, 1, 2}))
+    assert verdict(one, other).kind is Kind.AMBIGUOUS
+    assert verdict(one, nested).kind is Kind.CAUSE
+    assert verdict(one, nested).sets == (SPRING,)
+    assert verdict(replace(one, errors=3 * one.errors), nested).sets == (at_all,)
+
+
 def test_values_of_each_recording_are_not_worth_it_where_they_are_nothing() -> None:
     """Forty of noise, each fitted to a hundred rows: they lower the error by chance, and pay for it."""
     random, values, rows, prior = np.random.default_rng(0), 40, 100, 1.0

@@ -34,6 +34,7 @@ class Candidate:
         errors: of open-loop simulations, root mean square by segment, (segments,) [rad]; NaN where one failed.
         observations: residuals that are independent of each other, their number.
         occam: what values that each recording has for itself cost, as `Fitted.occam`.
+        values: what its effects change; another's whose effects change less of these is nested in it.
         agreement: probability that segments disagree as much about the effects' sizes, where these are constant.
     """
 
@@ -41,6 +42,7 @@ class Candidate:
     errors: Array
     observations: float
     occam: float = 0.0
+    values: frozenset[object] = frozenset()
     agreement: float = 1.0
 
     @property

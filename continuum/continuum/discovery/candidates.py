@@ -52,7 +52,7 @@ class Examined:
         """For the decision."""
         fit = self.fit
         effects = tuple(h.key for h in self.found.chosen)
-        return Candidate(effects, fit.errors, fit.observations, fit.occam, fit.agreement)
+        return Candidate(effects, fit.errors, fit.observations, fit.occam, fit.of_effects, fit.agreement)
 
 
 @dataclass(frozen=True)

@@ -80,9 +80,11 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
         if whole < tolerance or (baseline.error < tolerance and not probable):
             return Verdict(Kind.ADEQUATE, ((),), (1.0,), not probable)
         return Verdict(Kind.UNKNOWN, (), (), False, helps=probable[0].effects if probable else ())
-    best = possible[0]
-    sets = [one for one in probable if one is best or not is_farther(one, best, alike)]
-    weights = np.array([exp(-max(log_error(one) - log_error(best), 0.0) / max(alike, 1e-9)) for one in sets])
+    nearest = possible[0]
+    alike_sets = [one for one in probable if one is nearest or not is_farther(one, nearest, alike)]
+    sets = [one for one in alike_sets if not any(part.values < one.values and part in possible for part in alike_sets)]
+    best = sets[0]
+    weights = np.array([exp(-max(log_error(one) - log_error(nearest), 0.0) / max(alike, 1e-9)) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
     steady = best.agreement > CHANCE
     complete = best.error < (1 + ALIKE) * floor and steady

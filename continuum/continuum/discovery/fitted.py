@@ -84,6 +84,11 @@ class Fitted:
         return frozenset(one.hypothesis.key for one in self.unknowns.all if one.hypothesis)
 
     @property
+    def of_effects(self) -> frozenset[object]:
+        """What the set's effects change."""
+        return frozenset(one.place for one in self.unknowns.all if one.hypothesis)
+
+    @property
     def start(self) -> dict[tuple[object, ...], float]:
         """Where a fit of another set may begin, by `Unknown.key`."""
         values = np.concatenate([self.values.common, *self.values.own])
