@@ -31,16 +31,16 @@ def test_a_section_at_its_limit_may_turn_and_unbend_but_not_bend_further() -> No
     whole = np.random.default_rng(2).normal(size=(6, 6))
 
     jacobian, held = whole.copy(), np.zeros(3, bool)
-    assert not hold_outward(arm, w, inward, held, jacobian, 5)
+    assert not hold_outward(arm, w, inward, held, jacobian, 5, 0.0)
     np.testing.assert_array_equal(jacobian, whole)
 
-    assert hold_outward(arm, w, outward, held, jacobian, 5)
+    assert hold_outward(arm, w, outward, held, jacobian, 5, 0.0)
     np.testing.assert_array_equal(held, [True, True, False])
     np.testing.assert_allclose(jacobian[:5, :2] @ [0.6, 0.8], 0.0, atol=1e-15)
     np.testing.assert_allclose(jacobian[:, :2] @ [-0.8, 0.6], whole[:, :2] @ [-0.8, 0.6], atol=1e-15)
     np.testing.assert_array_equal(jacobian[:, 4:], whole[:, 4:])
     np.testing.assert_array_equal(jacobian[5], whole[5])
-    assert not hold_outward(arm, w, outward, held, jacobian, 5)  # what is held stays so: the search for a set ends
+    assert not hold_outward(arm, w, outward, held, jacobian, 5, 0.0)  # what is held stays so: the search for a set ends
 
     rate = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
     stop_radial(w, held, rate)

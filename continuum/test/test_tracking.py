@@ -103,6 +103,42 @@ def test_out_of_reach_the_nearest_pose_is_told_and_back_in_reach_it_is_solved_ag
     assert np.max(np.abs(differences - rates[1:-1])) <= 0.05 * np.max(np.abs(rates))
 
 
+def radial(t: float, length: float, reach: tuple[float, float], turned: float) -> np.ndarray:
+    """Position [m] that goes out and in by parts of the arm's length, while its direction turns."""
+    mean, change = reach
+    azimuth, polar = 0.7 + turned + 0.5 * t, 0.6 + 0.5 * np.sin(t + 2 * turned)
+    towards = np.array([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)])
+    return length * (mean + change * np.sin(1.5 * t + turned)) * towards
+
+
+@pytest.mark.parametrize(
+    ("n", "bend_limit", "reach", "is_reached"),
+    [(1, 3.1, (0.8, 0.1), "never"), (3, 3.1, (0.85, 0.3), "at times"), (2, 0.8, (0.75, 0.12), "never"),
+     (3, 1.2, (0.75, 0.12), "at times"), (4, 1.0, (0.75, 0.12), "at times")],
+)  # fmt: skip
+def test_rates_are_those_of_the_motion_in_and_out_of_reach_and_at_bend_limits(
+    n: int, bend_limit: float, reach: tuple[float, float], is_reached: str
+) -> None:
+    """At nine instants of ten and more: where the tip leaves the reach, joints turn within one interval."""
+    arm, step, errors, speeds, solved, held = arm_of(n, bend_limit=bend_limit), 1e-6, [], [], [], []
+    for turned in (0.0, 1.0, 2.5):
+        tracker, found = Tracker(arm), list[Tracked]()
+        for k in range(300):
+            there, back = (radial(k * DT + side * step, arm.length, reach, turned) for side in (1, -1))
+            at = radial(k * DT, arm.length, reach, turned)
+            found.append(tracker.pose(at, velocity=(there - back) / (2 * step), dt=DT if k else None))
+        w, rates = np.array([one.result.configuration for one in found]), np.array([one.rate for one in found])
+        differences = (w[2:] - w[:-2]) / (2 * DT)
+        errors.append(np.max(np.abs(differences - rates[1:-1]), axis=(1, 2)))
+        speeds.append(np.max(np.abs(rates[1:-1]), axis=(1, 2)))
+        solved += [one.result.solved for one in found]
+        held.append(np.max(np.linalg.norm(w, axis=2)))
+    assert {"never": not any(solved), "at times": any(solved) and not all(solved)}[is_reached]
+    assert (max(held) > 0.999 * bend_limit) == (bend_limit < 3)
+    agree = np.concatenate(errors) < 0.02 * np.median(np.concatenate(speeds))
+    assert np.mean(agree) > 0.9
+
+
 @pytest.mark.parametrize("wait", [49, 51, 101])
 def test_it_comes_back_after_any_time_out_of_reach(wait: int) -> None:
     tracker = Tracker(arm_of(2))

@@ -61,11 +61,17 @@ class DifferentialKinematics:
         self._weight = radian_in_metres(arm)
 
     def rate(
-        self, w: ArrayLike, velocity: ArrayLike, spin: ArrayLike = (0.0, 0.0, 0.0), wish: ArrayLike | None = None
+        self,
+        w: ArrayLike,
+        velocity: ArrayLike,
+        spin: ArrayLike = (0.0, 0.0, 0.0),
+        wish: ArrayLike | None = None,
+        ahead: float = 0.0,
     ) -> TipRate:
         """Rate at ``w`` (n_sections, 2) [rad] that moves the tip by ``velocity`` (3,) [m/s] and ``spin`` (3,) [rad/s].
 
-        ``wish`` (n_sections, 2) [rad/s] is followed where the tip's velocity leaves the arm free.
+        ``wish`` (n_sections, 2) [rad/s] is followed where the tip's velocity leaves the arm free. A section that
+        would reach its bend limit within ``ahead`` [s] is held as one that stands there.
 
         Raises:
             InvalidValueError: wrong shape or not finite.
@@ -74,11 +80,13 @@ class DifferentialKinematics:
         velocity, spin = finite_of_shape("velocity", velocity, (3,)), finite_of_shape("spin", spin, (3,))
         free = np.zeros(w.size) if wish is None else finite_of_shape("wish", wish, w.shape).reshape(-1)
         if self.arm.n_sections == 1 and self.kind == POSITION:
-            return self._by_eq_22(w, velocity)
-        rate, moved, held = run_tip_rate(self._table, self.kind, self._weight, w.reshape(-1), velocity, spin, free)
+            return self._by_eq_22(w, velocity, ahead)
+        rate, moved, held = run_tip_rate(
+            self._table, self.kind, self._weight, w.reshape(-1), velocity, spin, free, ahead
+        )
         return TipRate(rate.reshape(w.shape), moved[:3], moved[3:], held)
 
-    def _by_eq_22(self, w: Array, velocity: Array) -> TipRate:
+    def _by_eq_22(self, w: Array, velocity: Array, ahead: float) -> TipRate:
         """Eq. 22 for an arm of one section, which is free in nothing: it reads the velocity across the line to the tip.
 
         Damped near the point where the tip would come back to the base.
@@ -94,7 +102,7 @@ class DifferentialKinematics:
         rate = np.where(np.isfinite(rate), rate, 0.0)  # straight down, where the azimuth is not defined
         theta = float(bend(w[0]))
         outward = float(rate @ w[0])
-        held = theta >= AT_LIMIT * section.bend_limit and outward > 0.0
+        held = outward > 0.0 and theta**2 + ahead * outward >= theta * AT_LIMIT * section.bend_limit
         if held:
             rate = rate - outward / theta**2 * w[0]
         moved = jacobian @ rate

@@ -25,6 +25,7 @@ _AT_REST = 1e-12  # [m/s], rounding
 _RESTARTS = 64  # of a search that a moving arm waits for
 _RESTARTS_IN_MOTION = 16  # so that a pose out of reach takes about a millisecond; the next one tries the next postures
 _N_TURNS = 16  # until the first postures are tried again
+_SHIFT = 1e-4  # part of the arm's length by which a target is moved for the rate of the nearest posture
 _JUMP = 0.5  # change of a coordinate against the prediction [rad] from which an answer does not continue the motion
 
 
@@ -55,6 +56,7 @@ class Tracker:
         self.use_direction = use_direction
         self.unbend_gain = unbend_gain
         self.configuration = np.zeros((arm.n_sections, 2))
+        self._length = arm.length
         self._differential = DifferentialKinematics(arm, DIRECTION if use_direction else POSITION)
         self._begin = InverseKinematics(arm, tolerance, objective="least_bending")
         self._stay = InverseKinematics(arm, tolerance, objective="near_start", n_restarts=_RESTARTS)
@@ -62,6 +64,7 @@ class Tracker:
             InverseKinematics(arm, tolerance, "first", _RESTARTS_IN_MOTION, skip=turn * _RESTARTS_IN_MOTION)
             for turn in range(_N_TURNS)
         ]
+        self._nearest = InverseKinematics(arm, tolerance, "near_start", n_restarts=0)
         self._n_out_of_reach = 0  # poses since the last one that was reached
         self._rates: list[Array] = []  # of the last instants, newest last; empty where no motion is continued
 
@@ -78,8 +81,9 @@ class Tracker:
         Args:
             position: (3,) [m] in ``base_link``.
             direction: (3,), of the tip's z axis; ignored unless ``use_direction``.
-            velocity: (3,) [m/s] of the tip; without it, no rate is told.
-            angular_velocity: (3,) [rad/s] of the tip, for its direction.
+            velocity: (3,) [m/s] of the target; without it, no rate is told. Where the target is out of reach, the rate
+                is that of the nearest posture.
+            angular_velocity: (3,) [rad/s] of the target, for its direction.
             dt: time since the pose before [s]; None where this pose does not continue it.
 
         Raises:
@@ -91,7 +95,10 @@ class Tracker:
         if velocity is None:
             self._rates = []
             return Tracked(result, None)
-        rate = self._rate(velocity, angular_velocity).rate
+        if not result.solved:
+            self._rates = []
+            return Tracked(result, self._rate_of_nearest(target, velocity, angular_velocity))
+        rate = self._rate(velocity, angular_velocity, 0.0 if dt is None else dt).rate
         self._rates = [*self._rates[-1:], rate]
         return Tracked(result, rate)
 
@@ -145,7 +152,26 @@ class Tracker:
         slope = 0.5 * (newest - self._rates[-2]) if len(self._rates) > 1 else 0.0
         return self.configuration + dt * (newest + slope)
 
-    def _rate(self, velocity: Array, angular_velocity: Array | None) -> TipRate:
+    def _rate_of_nearest(self, target: Target, velocity: Array, angular_velocity: Array | None) -> Array:
+        """How the posture nearest to a target out of reach moves with it: central difference of two such postures."""
+        spin = _NO_SPIN if angular_velocity is None or target.direction is None else np.asarray(angular_velocity)
+        speed = float(np.linalg.norm(velocity)) + self._length * float(np.linalg.norm(spin))
+        if speed == 0.0:
+            return np.zeros_like(self.configuration)
+        dt = _SHIFT * self._length / speed
+        ahead, behind = (
+            self._nearest.solve(_moved(target, side * dt, velocity, spin), self.configuration).configuration
+            for side in (1, -1)
+        )
+        return (ahead - behind) / (2 * dt)
+
+    def _rate(self, velocity: Array, angular_velocity: Array | None, ahead: float = 0.0) -> TipRate:
         w = self.configuration
         spin = _NO_SPIN if angular_velocity is None else angular_velocity
-        return self._differential.rate(w, velocity, spin, least_bending(w, self.unbend_gain))
+        return self._differential.rate(w, velocity, spin, least_bending(w, self.unbend_gain), ahead)
+
+
+def _moved(target: Target, dt: float, velocity: Array, spin: Array) -> Target:
+    """A target after ``dt`` [s] at a velocity (3,) [m/s] and a spin (3,) [rad/s]."""
+    direction = None if target.direction is None else target.direction + dt * np.cross(spin, target.direction)
+    return Target(target.position + dt * np.asarray(velocity), direction)

@@ -50,7 +50,7 @@ def descend(
         held[:] = False
         while True:
             least_squares_step(jacobian, error, damping * cost + _ROUNDING, normal, step)
-            if not hold_outward(arm, w, step, held, jacobian, target.n_rows):
+            if not hold_outward(arm, w, step, held, jacobian, target.n_rows, 0.0):
                 break
         largest = np.max(np.abs(step))
         scale = 1.0 if largest < longest else longest / largest

@@ -35,16 +35,20 @@ def is_within(w: Array, limits: Array) -> bool:
 
 
 @compiled
-def hold_outward(arm: ArmArrays, w: Array, step: Array, held: NDArray[np.bool_], jacobian: Array, n_rows: int) -> bool:
+def hold_outward(
+    arm: ArmArrays, w: Array, step: Array, held: NDArray[np.bool_], jacobian: Array, n_rows: int, reach: float
+) -> bool:
     """Take out of ``jacobian`` what would bend a section beyond its limit; True if that changed anything.
 
-    A section is held where it stands at its limit and ``step`` goes outward; ``held`` (n_sections,) remembers it.
+    A section is held where it stands at its limit, or would stand there after ``reach`` times ``step``, and ``step``
+    goes outward; ``held`` (n_sections,) remembers it.
     """
     changed = False
     for i in range(len(arm.b)):
         u, v = w[2 * i], w[2 * i + 1]
         theta = math.hypot(u, v)
-        if held[i] or theta < AT_LIMIT * arm.bend_limit[i] or u * step[2 * i] + v * step[2 * i + 1] <= 0.0:
+        outward = u * step[2 * i] + v * step[2 * i + 1]
+        if held[i] or outward <= 0.0 or theta * theta + reach * outward < theta * AT_LIMIT * arm.bend_limit[i]:
             continue
         held[i] = True
         changed = True

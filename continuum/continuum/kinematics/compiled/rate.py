@@ -24,7 +24,7 @@ _NEAR_SINGULAR = 0.02  # of the largest singular value, below which damping sets
 
 @merged
 def tip_rate(
-    arm: ArmArrays, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array
+    arm: ArmArrays, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array, ahead: float
 ) -> tuple[Array, Array, bool]:
     """Rate (2 n_sections,) [rad/s] at ``w`` [rad], the tip's velocity (6,) that it gives, whether a limit held it.
 
@@ -36,6 +36,7 @@ def tip_rate(
         velocity: of the tip (3,) [m/s] in ``base_link``.
         spin: angular velocity of the tip (3,) [rad/s] in ``base_link``.
         wish: rate (2 n_sections,) [rad/s] that is followed where the velocity leaves freedom.
+        ahead: time [s] within which a section that reaches its limit is held.
     """
     geometric = np.empty((6, len(w)))
     rotation, _ = tip_and_jacobian(arm, w, geometric)
@@ -49,7 +50,7 @@ def tip_rate(
     held = np.zeros(len(arm.b), np.bool_)
     free = wish.copy()
     rate = _damped_rate(jacobian[:kind], task, free)
-    while hold_outward(arm, w, rate, held, jacobian, kind):
+    while hold_outward(arm, w, rate, held, jacobian, kind, ahead):
         stop_radial(w, held, free)
         rate = _damped_rate(jacobian[:kind], task, free)
     return rate, geometric @ rate, bool(np.any(held))
@@ -70,9 +71,11 @@ def _damped_rate(jacobian: Array, task: Array, free: Array) -> Array:
 
 
 def _build(digest: str) -> Callable[..., Any]:
-    def run(table: Array, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array) -> Any:
+    def run(
+        table: Array, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array, ahead: float
+    ) -> Any:
         _ = digest
-        return tip_rate(arrays_of(table, table[BEND_LIMIT]), kind, weight, w, velocity, spin, wish)
+        return tip_rate(arrays_of(table, table[BEND_LIMIT]), kind, weight, w, velocity, spin, wish, ahead)
 
     return run
 
