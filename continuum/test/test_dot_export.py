@@ -154,3 +154,63 @@ def test_whatever_is_in_a_file_it_is_read_or_refused(
         assert np.isfinite(found.rates).all()
         assert np.isfinite(found.forces).all()
         assert (np.diff(found.ticks) > 0).all()
+
+
+def table(ticks: np.ndarray, header: str = "", separator: str = ",", decimal: str = ".") -> str:
+    rows = [[str(int(t)), *(str(0.5 + k).replace(".", decimal) for k in range(6))] for t in ticks]
+    names = ["SampleTimeFine", "Gyr_X", "Gyr_Y", "Gyr_Z", "Acc_X", "Acc_Y", "Acc_Z"]
+    return header + "".join(separator.join(cells) + "\n" for cells in [names, *rows])
+
+
+@given(
+    rate=st.sampled_from([10, 12, 15, 20, 30, 60, 120]),
+    unit=st.sampled_from([1, 100]),
+    form=st.sampled_from([(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ",")]),
+    lost=st.lists(st.integers(1, 58), max_size=5),
+    one_line=st.booleans(),
+)
+def test_every_unit_separator_and_header_gives_the_same_times(
+    tmp_path_factory: pytest.TempPathFactory,
+    rate: int,
+    unit: int,
+    form: tuple[str, str],
+    lost: list[int],
+    one_line: bool,
+) -> None:
+    times = np.delete(np.arange(60) / rate, lost)
+    separator, decimal = form
+    head = {"DeviceTag": "one", "OutputRate": f"{rate}Hz"}
+    header = (
+        separator.join(f"{name}: {value}" for name, value in head.items()) + "\n"
+        if one_line
+        else "".join(f"{name}:{separator}{value}\n" for name, value in head.items())
+    )
+    found = parsed(
+        tmp_path_factory.mktemp("dot"), table(np.rint(times * 1e6 / unit) + 5000, header, separator, decimal)
+    )
+    assert found.tag == "one"
+    np.testing.assert_allclose((found.ticks - found.ticks[0]) / 1e6, times, atol=1.1e-6 * unit)
+    np.testing.assert_allclose(np.degrees(found.rates[0]), [0.5, 1.5, 2.5])
+
+
+@pytest.mark.parametrize(
+    ("step", "header", "figures"),
+    [
+        (1e6 / 60, "OutputRate:,30Hz\n", ("60", "30")),  # the header says otherwise
+        (1e4 / 60, "", ("6000", "60")),  # of the SDK, and nothing says so
+        (1e6 / 50, "", ("50", "60")),  # no rate of such a sensor
+    ],
+)
+def test_stamps_that_cannot_be_the_sensor_s_are_refused_with_both_figures(
+    tmp_path: Path, step: float, header: str, figures: tuple[str, str]
+) -> None:
+    with pytest.raises(FileError) as error:
+        parsed(tmp_path, table(np.rint(np.arange(60) * step), header))
+    assert all(figure in str(error.value) for figure in figures)
+
+
+@pytest.mark.parametrize("digits", [5, 6])
+def test_stamps_rounded_by_a_float_format_are_refused(tmp_path: Path, digits: int) -> None:
+    stamps = np.array([float(f"{3.343e9 + k * 1e6 / 60:.{digits}g}") for k in range(120)])
+    with pytest.raises(FileError, match="SampleTimeFine"):
+        parsed(tmp_path, table(stamps, "OutputRate:,60Hz\n"))

@@ -88,7 +88,7 @@ def _show(recording: ImuRecording, found: list[Span], names: list[str]) -> None:
     spans = ", ".join(f"{begin:.2f} to {end:.2f}" for begin, end in found)
     pairs = [(f"sensor {number}", name) for number, name in enumerate(names, start=1)]
     pairs += [
-        ("together", f"{lasts:.2f} s, {recording.times.size / lasts:.0f} readings a second"),
+        ("together", f"{lasts:.2f} s, {(recording.times.size - 1) / lasts:.0f} readings a second"),
         ("missing", ", ".join(f"{share:.1f}" for share in lost) + " % of the readings"),
         ("clipped", ", ".join(f"{share:.1f}" for share in clipped) + " % of the readings"),
         ("at rest", f"{spans} s" if found else "never for as long as a second"),

@@ -8,7 +8,8 @@ Facts are those of the vendor's BLE Services Specification (XD0506P rev. C, tabl
     (empty)
     PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z,...
 
-with the columns that were chosen at the export, in any order.
+with the columns that were chosen at the export, in any order. Other programs write the lines before the columns into
+one, leave them out, and put semicolons or tabs between columns.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,6 +26,7 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.errors import FileError
+from continuum.inertial.dot_clock import microseconds
 from continuum.inertial.imu_sample import Truths
 
 COUNTER, TIME, STATUS = "PacketCounter", "SampleTimeFine", "Status"
@@ -35,6 +38,8 @@ WRAP = 2**32
 
 _CLIPPED = 0x003F  # bits of Status: accelerometer x, y, z, gyroscope x, y, z beyond their range
 _NEEDED = (TIME, *FORCE, *RATE)
+_UNSYNCED = ("un-synced", "unsynced", "not synced")
+_SEPARATORS = ",;\t"
 _LONGEST_HEAD = 50  # lines before the columns' names
 _SUDDEN = 60_000_000  # microseconds: a step of time that no pause in a recording makes
 
@@ -78,18 +83,42 @@ def read_dot_export(path: str | Path) -> DotExport:
         text = path.read_text(encoding="utf-8-sig", errors="replace")  # old apps wrote a copyright sign in another code
     except OSError as error:
         raise FileError(path, f"cannot be read ({error.strerror or error})") from error
-    lines = text.splitlines()
-    separator = lines[0][4:5] if lines and lines[0].startswith("sep=") else ","
+    separator = _separator(path, text)
     try:
-        rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO(text), delimiter=separator or ",")]
+        rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO(text), delimiter=separator)]
     except csv.Error as error:
         raise FileError(path, f"cannot be read as CSV ({error})") from error
-    at = next((i for i, row in enumerate(rows[:_LONGEST_HEAD]) if TIME in row), None)
+    at = next((i for i, row in enumerate(rows) if TIME in row), None)
     if at is None:
-        raise FileError(path, f"has no line with the column {TIME}: is it a CSV export of an Xsens DOT?")
-    head = {row[0].rstrip(":"): row[1] for row in rows[:at] if len(row) > 1}
+        raise FileError(path, f"names {TIME} in no column of its own")
+    if separator != ",":  # decimals may have commas then
+        rows[at + 1 :] = [[cell.replace(",", ".") for cell in row] for row in rows[at + 1 :]]
+    head = _head(rows[:at])
     columns, numbers = _columns(path, rows, at)
-    return _export(path, head.get("DeviceTag", ""), columns, numbers)
+    return _export(path, head, columns, numbers)
+
+
+def _separator(path: Path, text: str) -> str:
+    """What separates the columns: of the usual ones the one that stands in the line of their names."""
+    names = next((line for line in text.splitlines()[:_LONGEST_HEAD] if TIME in line), None)
+    if names is None:
+        raise FileError(path, f"has no line with the column {TIME}: is it a CSV export of an Xsens DOT?")
+    return max(_SEPARATORS, key=names.count)
+
+
+def _head(rows: list[list[str]]) -> dict[str, str]:
+    """What stands before the columns: `name:` and a value in cells of their own, or `name: value` in each cell."""
+    found = dict[str, str]()
+    for row in rows:
+        cells = [row[0] + row[1]] if len(row) > 1 and row[0].endswith(":") else row
+        found |= {name.strip(): value.strip() for name, colon, value in (one.partition(":") for one in cells) if colon}
+    return found
+
+
+def _rate(head: dict[str, str]) -> float | None:
+    """Readings a second by the header, as 60 or 60Hz."""
+    found = re.match(r"\d+(\.\d+)?", head.get("OutputRate", ""))
+    return float(found.group()) if found and float(found.group()) > 0 else None
 
 
 def _columns(path: Path, rows: list[list[str]], at: int) -> tuple[dict[str, Array], NDArray[np.int64]]:
@@ -124,7 +153,7 @@ def _number(path: Path, row: int, column: str, cell: str) -> float:
     return value
 
 
-def _export(path: Path, tag: str, columns: dict[str, Array], numbers: NDArray[np.int64]) -> DotExport:
+def _export(path: Path, head: dict[str, str], columns: dict[str, Array], numbers: NDArray[np.int64]) -> DotExport:
     if not numbers.size:
         raise FileError(path, "has no rows")
     wrapped = columns[TIME]
@@ -133,20 +162,29 @@ def _export(path: Path, tag: str, columns: dict[str, Array], numbers: NDArray[np
         raise FileError(
             path, f"row {numbers[at]}: {TIME} is {wrapped[at]:g}; allowed: whole numbers from 0 to 2^32 - 1"
         )
-    ticks = _unwrapped(path, wrapped.astype(np.int64), numbers)
+    ticks, unit = microseconds(path, _unwrapped(path, wrapped.astype(np.int64), numbers), _rate(head))
     readings = np.stack([columns[name] for name in (*FORCE, *RATE)], axis=1)
     clipped = (columns.get(STATUS, np.zeros(ticks.size)).astype(np.int64) & _CLIPPED) != 0
     for name in CLIP_COUNTS:
         clipped |= columns.get(name, np.zeros(ticks.size)) > 0
     empty, again = ~readings.any(axis=1), np.diff(ticks, prepend=-1) == 0
-    notes = [
+    notes = [unit] if unit else []
+    if head.get("SyncStatus", "").lower() in _UNSYNCED:
+        notes.append("its header says that it was not synchronised: with other sensors, times may not belong together")
+    notes += [
         f"{_rows(int(rows.sum()))} {why}, left out (first: row {numbers[rows][0]})"
         for rows, why in ((empty, "of nothing but zeros"), (again & ~empty, "with the time of the row before"))
         if rows.any()
     ]
     keep = ~(empty | again)
     return DotExport(
-        path, tag, ticks[keep], np.radians(readings[keep, 3:]), readings[keep, :3], clipped[keep], tuple(notes)
+        path,
+        head.get("DeviceTag", ""),
+        ticks[keep],
+        np.radians(readings[keep, 3:]),
+        readings[keep, :3],
+        clipped[keep],
+        tuple(notes),
     )
 
 
