@@ -179,3 +179,33 @@ def test_an_arm_of_two_sections_is_refused(tmp_path: Path) -> None:
 def test_no_recording(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="not a readable rosbag2 recording"):
         read_recording_bag(tmp_path)
+
+
+@pytest.mark.parametrize(("first", "by"), [(45, 45), (45, 6), (30, 12)])
+@pytest.mark.parametrize("shift", [0, 3_000_000])
+def test_a_clock_that_steps_back_is_refused(tmp_path: Path, first: int, by: int, shift: int) -> None:
+    """Two runs in one bag, and a clock that was set back; its stamps may be the earlier ones or between these."""
+    topics = swing()
+    stamps = np.concatenate([STAMPS[:first], STAMPS[first - by : ROWS - by] + shift])
+    for messages in topics.values():
+        for one, stamp in zip(messages, stamps, strict=True):
+            one.header.stamp.sec, one.header.stamp.nanosec = divmod(int(stamp), 10**9)
+    with pytest.raises(FileError, match=f"message {first + 1} .*backward"):
+        read_recording_bag(write(tmp_path / "swing", topics))
+
+
+@pytest.mark.parametrize("places", [[0], [30], list(range(0, 180, 2))])
+def test_others_on_the_topic_are_left_out_and_counted(tmp_path: Path, places: list[int]) -> None:
+    topics = swing()
+    for place in places:
+        gripper = message(TYPES["/joint_states"], STAMPS[0], name=["gripper"], position=np.ones(1), velocity=np.ones(1))
+        topics["/joint_states"].insert(place, gripper)
+    found = read_recording_bag(write(tmp_path / "swing", topics))
+    np.testing.assert_array_equal(found.theta, ANGLES)
+    assert [note for note in found.notes if "gripper" in note and str(len(places)) in note]
+
+
+def test_the_storage_file_is_the_recording(tmp_path: Path) -> None:
+    folder = write(tmp_path / "swing", swing())
+    (storage,) = (path for path in folder.iterdir() if path.suffix != ".yaml")
+    np.testing.assert_array_equal(read_recording(str(storage)).theta, ANGLES)

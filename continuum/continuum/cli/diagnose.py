@@ -99,11 +99,12 @@ def _how(options: argparse.Namespace) -> str:
 
 
 def read_recording(path: str) -> Recording:
-    """One run from a CSV file or the folder of a rosbag2 recording."""
+    """One run from a CSV file, or from a rosbag2 recording's folder or storage file."""
+    from continuum.recordings.bag import is_bag
     from continuum.recordings.recording_bag import read_recording_bag
     from continuum.recordings.recording_csv import read_recording_csv
 
-    return read_recording_bag(path) if Path(path).is_dir() else read_recording_csv(path)
+    return read_recording_bag(path) if is_bag(path) else read_recording_csv(path)
 
 
 def show(result: Diagnosis) -> None:

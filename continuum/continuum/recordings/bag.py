@@ -24,6 +24,9 @@ _DAMAGE = (
 )
 
 
+_STORAGES = (".mcap", ".db3")  # of rosbag2
+
+
 class Bag:
     """An open recording. Use as a context manager.
 
@@ -52,7 +55,7 @@ class Bag:
     def topics(self) -> dict[str, int]:
         """Number of messages by topic."""
         with self._readable():
-            return {topic: info.msgcount for topic, info in self._reader.topics.items()}
+            return {_absolute(topic): info.msgcount for topic, info in self._reader.topics.items()}
 
     def messages(self, topic: str, message_type: str) -> Iterator[Any]:
         """The messages of one topic, e.g. of type ``sensor_msgs/msg/JointState``, in the order of their arrival.
@@ -70,7 +73,7 @@ class Bag:
                 yield self._reader.deserialize(raw, connection.msgtype)
 
     def _connections(self, topic: str) -> list[Connection]:
-        return [connection for connection in self._reader.connections if connection.topic == topic]
+        return [one for one in self._reader.connections if _absolute(one.topic) == topic]
 
     @contextmanager
     def _readable(self) -> Iterator[None]:
@@ -80,6 +83,16 @@ class Bag:
         except _DAMAGE as error:
             reason = " ".join(str(error).split()) or type(error).__name__
             raise FileError(self.path, f"is not a readable rosbag2 recording ({reason})") from error
+
+
+def is_bag(path: str | Path) -> bool:
+    """Whether a path is that of a recording, its folder or its storage file, by its name."""
+    return Path(path).is_dir() or Path(path).suffix in _STORAGES
+
+
+def _absolute(topic: str) -> str:
+    """A topic's name from the root; older recorders wrote relative ones."""
+    return topic if topic.startswith("/") else f"/{topic}"
 
 
 def stamp_ns(message: Any) -> int:

@@ -21,6 +21,7 @@ from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
 from continuum.joint_names import cable_names, phi_joint, theta_joints
 from continuum.printable import printable
+from continuum.recordings.arm_messages import in_order, of_an_arm
 from continuum.recordings.arm_recording import TOPICS
 from continuum.recordings.bag import Bag, stamp_ns
 from continuum.recordings.named_values import named_values
@@ -41,9 +42,11 @@ def read_recording_bag(path: str | Path) -> Recording:
             repair.
     """
     with Bag(path) as bag:
-        joints = sorted(bag.messages(_JOINTS, TOPICS[_JOINTS]), key=stamp_ns)
-        if not joints:
+        every = list(bag.messages(_JOINTS, TOPICS[_JOINTS]))
+        if not every:
             raise FileError(bag.path, f"has no message on {_JOINTS}")
+        mine, others = of_an_arm(every, _JOINTS)
+        joints = in_order(bag.path, _JOINTS, mine)
         start = stamp_ns(joints[0])
         section, names = _bending_joints(bag, joints)
         times = _seconds(joints, start)
@@ -59,9 +62,18 @@ def read_recording_bag(path: str | Path) -> Recording:
     good, notes = repaired(Samples(bag.path, numbers, times, theta, rate, pull, "message", torque))
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
     torques = None if good.torque is None else JointTorques(good.times, good.torque)
+    notes = (*others, *notes)
     if tensions is None and torques is None:
         notes = (*notes, f"no efforts on {_CABLES}: cables taken as slack")
-    return Recording(printable(bag.path.name), good.times, good.theta, good.rate, tensions, notes, torques)
+    return Recording(
+        printable(bag.path.name if bag.path.is_dir() else bag.path.stem),
+        good.times,
+        good.theta,
+        good.rate,
+        tensions,
+        notes,
+        torques,
+    )
 
 
 def _bending_joints(bag: Bag, joints: Sequence[Any]) -> tuple[str, list[str]]:
@@ -91,7 +103,7 @@ def _torque(joints: Sequence[Any], names: Sequence[str]) -> Array | None:
 
 def _pull(bag: Bag, section: str, start: int, times: Array) -> Array | None:
     """Tensions at the times of the joint states, (n_times, n_cables) [N]; NaN far from any that is known."""
-    there = sorted(bag.messages(_CABLES, TOPICS[_CABLES]), key=stamp_ns) if _CABLES in bag.topics else []
+    there = in_order(bag.path, _CABLES, bag.messages(_CABLES, TOPICS[_CABLES])) if _CABLES in bag.topics else []
     if not any(len(one.effort) for one in there):
         return None
     known = _seconds(there, start)

@@ -12,8 +12,9 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.errors import FileError
 from continuum.joint_names import cable_names, theta_joints
+from continuum.recordings.arm_messages import in_order, of_an_arm
 from continuum.recordings.arm_recording import TOPICS
-from continuum.recordings.bag import Bag, stamp_ns
+from continuum.recordings.bag import Bag, is_bag, stamp_ns
 from continuum.recordings.named_values import named_values
 from continuum.recordings.recording_csv import read_recording_csv
 
@@ -71,12 +72,12 @@ class Tracks:
 
 
 def read_tracks(path: str | Path) -> Tracks:
-    """Read a recording: a folder is one of rosbag2, a file a CSV table.
+    """Read a recording: a folder or storage file of rosbag2, another file is a CSV table.
 
     Raises:
         FileError: it cannot be read, or has no joint angles.
     """
-    return _from_bag(path) if Path(path).is_dir() else _from_table(path)
+    return _from_bag(path) if is_bag(path) else _from_table(path)
 
 
 def _from_table(path: str | Path) -> Tracks:
@@ -112,7 +113,8 @@ def _read(bag: Bag, topic: str, fields: Sequence[str], namespace: str = "") -> l
     names: dict[str, tuple[str, ...]] = {}
     times: dict[str, list[float]] = {field: [] for field in fields}
     rows: dict[str, list[Array]] = {field: [] for field in fields}
-    for one in bag.messages(namespace + topic, TOPICS[topic]):
+    mine, _ = of_an_arm(list(bag.messages(namespace + topic, TOPICS[topic])), topic)
+    for one in in_order(bag.path, namespace + topic, mine):
         for field in fields:
             values = np.asarray(getattr(one, field))
             if len(values):

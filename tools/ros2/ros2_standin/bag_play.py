@@ -138,13 +138,14 @@ def with_clock(
 
 
 def _wanted(args: argparse.Namespace, reader: Reader) -> list[Connection]:
-    chosen = {topic if topic.startswith("/") else f"/{topic}" for topic in args.topics or reader.topics}
-    if unknown := chosen - reader.topics.keys():
-        raise UserError(f"Not in the bag: {', '.join(sorted(unknown))}; it has: {', '.join(sorted(reader.topics))}")
-    chosen -= {topic if topic.startswith("/") else f"/{topic}" for topic in args.exclude_topics}
+    known = set(map(_absolute, reader.topics))
+    chosen = set(map(_absolute, args.topics)) if args.topics else known
+    if unknown := chosen - known:
+        raise UserError(f"Not in the bag: {', '.join(sorted(unknown))}; it has: {', '.join(sorted(known))}")
+    chosen -= set(map(_absolute, args.exclude_topics))
     found = []
     for connection in reader.connections:
-        if connection.topic in chosen:
+        if _absolute(connection.topic) in chosen:
             try:
                 message_class(connection.msgtype)
             except UserError as error:
@@ -152,6 +153,11 @@ def _wanted(args: argparse.Namespace, reader: Reader) -> list[Connection]:
                 continue
             found.append(connection)
     return found
+
+
+def _absolute(topic: str) -> str:
+    """A topic's name from the root; older recorders wrote relative ones."""
+    return topic if topic.startswith("/") else f"/{topic}"
 
 
 def _publisher(node: Node, connection: Connection) -> Publisher:
