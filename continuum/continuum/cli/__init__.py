@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
-
-from continuum.cli import diagnose, import_dot, info, report, simulate, solve, view
-from continuum.cli.negative_numbers import written_out
-from continuum.errors import ContinuumError
 
 _NEXT_STEPS = """\
 what you can do next:
@@ -56,6 +51,13 @@ def _was_interrupted(error: BaseException | None) -> bool:
 
 
 def _run(arguments: list[str]) -> int:
+    """Parse and run; what takes time to import is imported here, where an interrupt is caught."""
+    import argparse
+
+    from continuum.cli import diagnose, import_dot, info, report, simulate, solve, view
+    from continuum.cli.negative_numbers import written_out
+    from continuum.errors import ContinuumError
+
     parser = argparse.ArgumentParser(
         prog="continuum",
         description="Multi-section, cable-driven snake arms: kinematics, dynamics, and what recordings show of them.",

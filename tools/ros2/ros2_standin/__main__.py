@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import sys
 
-from ros2_standin.cli import main
+try:
+    from ros2_standin.cli import main
+except KeyboardInterrupt:
+    sys.exit(130)
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))
