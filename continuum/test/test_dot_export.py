@@ -106,7 +106,7 @@ def test_empty_and_repeated_rows_are_left_out_and_told(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("", "no line with the column SampleTimeFine"),
+        ("", "is empty"),
         ("t,x\n1,2\n", "no line with the column SampleTimeFine"),
         (HEAD + COLUMNS.replace("Gyr_Y", "Mag_Y"), "has no column Gyr_Y: choose them at the export"),
         (HEAD + COLUMNS, "has no rows"),

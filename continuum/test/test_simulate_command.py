@@ -160,8 +160,8 @@ BAD_TENSIONS = {
     "no column": ("t_s,u1_N\n0,1\n", "has no column u2_N; needed: t_s, u1_N, u2_N"),
     "column twice": ("t_s,u1_N,u2_N,u1_N\n0,1,1,1\n", "has more than one column u1_N"),
     "heading alone": ("t_s,u1_N,u2_N\n", "has no rows"),
-    "nothing": ("", "has no rows"),
-    "not text": (b"\xff\xfe\x00", "cannot be read"),
+    "nothing": ("", "is empty"),
+    "not text": (b"\xff\xfe\x00", "is no text file"),
 }
 
 
@@ -173,6 +173,16 @@ def test_a_bad_table_of_tensions_is_refused_by_its_row(case, tmp_path, capsys):
     assert main(["simulate", "--tensions", str(path)]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(f"continuum: {path}: {expected}")
+
+
+@pytest.mark.parametrize(("begin", "separator"), [(0.0, ","), (1.7e9, ","), (1.7e9, ";"), (1.7e9, "\t")])
+def test_tensions_count_from_the_first_row_where_times_are_of_a_date(tmp_path, begin, separator):
+    path = tmp_path / "tensions.csv"
+    rows = [["t_s", "u1_N", "u2_N"], *([f"{begin + 0.5 * k:.1f}", str(k), "0"] for k in range(4))]
+    path.write_text("".join(separator.join(row) + "\n" for row in rows))
+    found = read_tension_table(path)
+    np.testing.assert_allclose(found.times, [0.0, 0.5, 1.0, 1.5])
+    np.testing.assert_array_equal(found.values[:, 0], range(4))
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])

@@ -14,8 +14,6 @@ one, leave them out, and put semicolons or tabs between columns.
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import re
 from dataclasses import dataclass
@@ -28,6 +26,7 @@ from continuum.arrays import Array
 from continuum.errors import FileError
 from continuum.inertial.dot_clock import microseconds
 from continuum.inertial.imu_sample import Truths
+from continuum.recordings.table_file import Table, read_table
 
 COUNTER, TIME, STATUS = "PacketCounter", "SampleTimeFine", "Status"
 CLIP_COUNTS = ("ClipCountAcc", "ClipCountGyr")
@@ -39,8 +38,6 @@ WRAP = 2**32
 _CLIPPED = 0x003F  # bits of Status: accelerometer x, y, z, gyroscope x, y, z beyond their range
 _NEEDED = (TIME, *FORCE, *RATE)
 _UNSYNCED = ("un-synced", "unsynced", "not synced")
-_SEPARATORS = ",;\t"
-_LONGEST_HEAD = 50  # lines before the columns' names
 _SUDDEN = 60_000_000  # microseconds: a step of time that no pause in a recording makes
 
 
@@ -79,31 +76,10 @@ def read_dot_export(path: str | Path) -> DotExport:
         FileError: it cannot be read, lacks a column, holds what is no number, or time runs backward in it.
     """
     path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8-sig", errors="replace")  # old apps wrote a copyright sign in another code
-    except OSError as error:
-        raise FileError(path, f"cannot be read ({error.strerror or error})") from error
-    separator = _separator(path, text)
-    try:
-        rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO(text), delimiter=separator)]
-    except csv.Error as error:
-        raise FileError(path, f"cannot be read as CSV ({error})") from error
-    at = next((i for i, row in enumerate(rows) if TIME in row), None)
-    if at is None:
-        raise FileError(path, f"names {TIME} in no column of its own")
-    if separator != ",":  # decimals may have commas then
-        rows[at + 1 :] = [[cell.replace(",", ".") for cell in row] for row in rows[at + 1 :]]
-    head = _head(rows[:at])
-    columns, numbers = _columns(path, rows, at)
-    return _export(path, head, columns, numbers)
-
-
-def _separator(path: Path, text: str) -> str:
-    """What separates the columns: of the usual ones the one that stands in the line of their names."""
-    names = next((line for line in text.splitlines()[:_LONGEST_HEAD] if TIME in line), None)
-    if names is None:
+    table = read_table(path, TIME)
+    if TIME not in table.header:
         raise FileError(path, f"has no line with the column {TIME}: is it a CSV export of an Xsens DOT?")
-    return max(_SEPARATORS, key=names.count)
+    return _export(path, _head(table.before), _columns(table), table.numbers)
 
 
 def _head(rows: list[list[str]]) -> dict[str, str]:
@@ -121,9 +97,9 @@ def _rate(head: dict[str, str]) -> float | None:
     return float(found.group()) if found and float(found.group()) > 0 else None
 
 
-def _columns(path: Path, rows: list[list[str]], at: int) -> tuple[dict[str, Array], NDArray[np.int64]]:
-    """The columns that are used, by name, and the number of each row in the file."""
-    header = rows[at]
+def _columns(table: Table) -> dict[str, Array]:
+    """The columns that are used, by name."""
+    path, header = table.path, table.header
     missing = [name for name in _NEEDED if name not in header]
     if missing:
         raise FileError(
@@ -134,13 +110,12 @@ def _columns(path: Path, rows: list[list[str]], at: int) -> tuple[dict[str, Arra
         if header.count(name) > 1:
             raise FileError(path, f"has the column {name} twice")
     places = [header.index(name) for name in wanted]
-    lines = [(number, row) for number, row in enumerate(rows[at + 1 :], start=at + 2) if any(row)]
-    table = np.empty((len(lines), len(wanted)))
-    for values, (number, row) in zip(table, lines, strict=True):
+    values = np.empty((len(table.rows), len(wanted)))
+    for found, number, row in zip(values, table.numbers, table.rows, strict=True):
         if len(row) <= max(places):
             raise FileError(path, f"row {number} has {len(row)} cells, its columns' names {len(header)}")
-        values[:] = [_number(path, number, header[place], row[place]) for place in places]
-    return dict(zip(wanted, table.T, strict=True)), np.array([number for number, _ in lines], dtype=np.int64)
+        found[:] = [_number(path, number, header[place], row[place]) for place in places]
+    return dict(zip(wanted, values.T, strict=True))
 
 
 def _number(path: Path, row: int, column: str, cell: str) -> float:

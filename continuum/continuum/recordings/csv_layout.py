@@ -5,18 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from continuum.recordings.motion_columns import TIME
-
-_SEPARATORS = {";": "';'", "\t": "tabs"}
 _WHOLE = re.compile(r"[+-]?\d+")
 _NAMES = "t_s, q1_deg .. or q1_rad .., and where there are any dq1_deg_s .., u1_N, u2_N or tau1_Nm .."
 
 
 def problem_of_header(header: Sequence[str]) -> str:
     """What the first row is or has, in words; empty where it may be one of names between commas."""
-    for separator, word in _SEPARATORS.items():
-        if TIME not in header and any(separator in cell for cell in header):
-            return f"has no column {TIME}; are columns separated by {word}? They must be by ',', decimals by '.'"
     if all(map(_is_number, header)):
         return f"holds numbers; the first row must be the header, with the names of the columns: {_NAMES}"
     return ""

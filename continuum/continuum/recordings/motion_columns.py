@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 TIME = "t_s"
-_NUMBERED = re.compile(r"(?P<letter>[a-z]+)(?P<number>[1-9]\d?)(?:_(?P<unit>\w*))?", re.ASCII)
+_NUMBERED = re.compile(r"(?P<letter>[a-z]+)(?P<number>0|[1-9]\d?)(?:_(?P<unit>\w*))?", re.ASCII)
 
 
 @dataclass(frozen=True)

@@ -23,19 +23,31 @@ _LARGEST_RATE, _LARGEST_TENSION, _LARGEST_TORQUE = 200.0, 2e3, 2e3  # rad/s, N, 
 _ALIKE = 0.5  # correlation of a joint's rate with the slope of its angle from which on their sizes are compared
 
 
-def _limited(samples: Samples) -> list[tuple[Array, float, str, str]]:
-    """What was measured, the most that an arm of this kind has, what is told of more, and the letter of its columns."""
+def _limited(samples: Samples) -> list[tuple[Array, float, str]]:
+    """What was measured, the most that an arm of this kind has of it, and the letter of its columns."""
     turn = _LARGEST_ANGLE if samples.torque is None else _LARGEST_TURN
-    angle = f"joint angle of {{:.3g}} rad; no joint turns by more than {turn:.3g}: degrees taken for radians?"
-    tension = "tension of {:.3g} N; no cable of this kind pulls with more than 2 kN: another unit?"
-    torque = "torque of {:.3g} N m; no drive of this kind has more than 2 kN m: another unit?"
     blocks = (
-        (samples.theta, turn, angle, ANGLE.letter),
-        (samples.rate, _LARGEST_RATE, "joint rate of {:.3g} rad/s: degrees taken for radians?", RATE.letter),
-        (samples.pull, _LARGEST_TENSION, tension, TENSION.letter),
-        (samples.torque, _LARGEST_TORQUE, torque, TORQUE.letter),
+        (samples.theta, turn, ANGLE.letter),
+        (samples.rate, _LARGEST_RATE, RATE.letter),
+        (samples.pull, _LARGEST_TENSION, TENSION.letter),
+        (samples.torque, _LARGEST_TORQUE, TORQUE.letter),
     )
-    return [(block, limit, what, letter) for block, limit, what, letter in blocks if block is not None]
+    return [(block, limit, letter) for block, limit, letter in blocks if block is not None]
+
+
+def _too_large(value: float, limit: float, letter: str) -> str:
+    """What is told of a value beyond its limit."""
+    if letter == ANGLE.letter:
+        wraps = limit < value <= 2 * np.pi
+        hint = f"{np.degrees(value):.4g} degrees where angles wrap at 360, or " if wraps else ""
+        return (
+            f"joint angle of {value:.3g} rad; no joint turns by more than {limit:.3g}: {hint}degrees taken for radians?"
+        )
+    return {
+        RATE.letter: f"joint rate of {value:.3g} rad/s: degrees taken for radians?",
+        TENSION.letter: f"tension of {value:.3g} N; no cable of this kind pulls with more than 2 kN: another unit?",
+        TORQUE.letter: f"torque of {value:.3g} N m; no drive of this kind has more than 2 kN m: another unit?",
+    }[letter]
 
 
 def outliers(samples: Samples) -> NDArray[np.bool_]:
@@ -52,12 +64,12 @@ def refuse_units(samples: Samples) -> None:
     Raises:
         FileError: so is a value, or an arm that hardly moves, or a rate that is not of its angle.
     """
-    for block, limit, what, letter in _limited(samples):
+    for block, limit, letter in _limited(samples):
         large = np.abs(block) > limit
         if np.any(large):
             row, column = (int(at[0]) for at in np.nonzero(large))
             where = f"{samples.row} {samples.numbers[row]}, {letter}{column + 1}"
-            raise FileError(samples.path, f"{where}: a " + what.format(abs(block[row, column])))
+            raise FileError(samples.path, f"{where}: a {_too_large(abs(block[row, column]), limit, letter)}")
     largest = float(np.max(np.abs(samples.theta)))
     if largest < _LEAST_ANGLE:
         raise FileError(

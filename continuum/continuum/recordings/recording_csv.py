@@ -7,7 +7,6 @@ invented by it, and told; else refused, and told which row of the file (the head
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -24,6 +23,7 @@ from continuum.recordings.motion_columns import ANGLE, QUANTITIES, RATE, TENSION
 from continuum.recordings.recording import Recording
 from continuum.recordings.recording_checks import repaired
 from continuum.recordings.samples import Samples
+from continuum.recordings.table_file import read_table
 
 
 def read_recording_csv(path: str | Path) -> Recording:
@@ -52,6 +52,9 @@ def read_recording_csv(path: str | Path) -> Recording:
     good, notes = repaired(Samples(path, numbers, columns[TIME], theta, rate, pull, torque=torque))
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
     torques = None if good.torque is None else JointTorques(good.times, good.torque)
+    for quantity in QUANTITIES:
+        if any(name and name[0] == 0 for name in map(quantity.names, header)):
+            notes = (*notes, f"{quantity.letter}0 is that of number 1: numbers count from 0 in this file")
     if others:
         notes = (*notes, f"columns that are not understood, and not used: {', '.join(others)}")
     return Recording(printable(path.stem), good.times, good.theta, good.rate, tensions, notes, torques)
@@ -67,32 +70,21 @@ def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:
 
     An empty cell is NaN, and so is what stands in a column that is not understood, a remark perhaps.
     """
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            cells = [[cell.strip() for cell in row] for row in csv.reader(file)]
-    except OSError as error:
-        raise FileError(path, f"cannot be read: {error.strerror or error}") from error
-    except UnicodeDecodeError as error:
-        raise FileError(path, "is no text file: a CSV file in UTF-8 is needed") from error
-    except csv.Error as error:
-        raise FileError(path, f"cannot be read as CSV ({error})") from error
-    lines = [(number, row) for number, row in enumerate(cells, start=1) if any(row)]
-    if not lines:
-        raise FileError(path, "is empty")
-    first, header = lines[0]
+    found = read_table(path, TIME)
+    header = found.header
     if problem := problem_of_header(header):
-        raise FileError(path, f"row {first} {problem}")
+        raise FileError(path, f"row {found.header_row} {problem}")
     for name in header:
         if header.count(name) > 1:
             raise FileError(path, f"has the column {name!r} twice")
-    table, others = np.full((len(lines) - 1, len(header)), np.nan), _of_nothing(header)
-    for row, (number, values) in zip(table, lines[1:], strict=True):
+    table, others = np.full((len(found.rows), len(header)), np.nan), _of_nothing(header)
+    for row, number, values in zip(table, found.numbers, found.rows, strict=True):
         if len(values) != len(header):
             hint = hint_of_row(values, len(header))
             raise FileError(path, f"row {number} has {len(values)} cells, the header {len(header)}{hint}")
         for i, (column, value) in enumerate(zip(header, values, strict=True)):
             row[i] = np.nan if column in others else _number(path, number, column, value)
-    return header, np.array([number for number, _ in lines[1:]], dtype=np.int64), table
+    return header, found.numbers, table
 
 
 def _number(path: Path, row: int, column: str, cell: str) -> float:
@@ -120,6 +112,8 @@ def _block(path: Path, columns: dict[str, Array], quantity: Quantity) -> Array |
         found[number] = values * quantity.units[unit]
     if not found:
         return None
+    if 0 in found:  # another program's count
+        found = {number + 1: values for number, values in found.items()}
     if sorted(found) != list(range(1, len(found) + 1)):
         numbers, others = ", ".join(map(str, sorted(found))), ", ".join(_of_nothing(list(columns)))
         hint = f"; not understood: {others}" if others else ""

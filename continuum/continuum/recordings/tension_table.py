@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterable
 from pathlib import Path
@@ -12,30 +11,34 @@ import numpy as np
 from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
+from continuum.recordings.csv_layout import problem_of_header
 from continuum.recordings.motion_columns import TIME, tension_column
+from continuum.recordings.table_file import read_table
 
+_EPOCH = 86400.0  # s: what begins later counts from a date
 COLUMNS = (TIME, *(tension_column(cable + 1) for cable in range(len(SIDES))))
 
 
 def read_tension_table(path: str | Path) -> Tensions:
-    """Tensions of a table with the columns :data:`COLUMNS`, in any order and with any others beside them.
+    """Tensions of a table with the columns :data:`COLUMNS`, in any order and with any others.
+
+    Times since 1970 count from the first row.
 
     Raises:
         FileError: the file cannot be read, a column is missing, or a row (the heading is row 1) holds what is no
             number, not finite, a tension below 0 or a time that is not after the one before.
     """
-    try:
-        with Path(path).open(newline="", encoding="utf-8-sig") as file:
-            rows = [(number, row) for number, row in enumerate(csv.reader(file), start=1) if row]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise FileError(path, f"cannot be read ({error})") from error
-    if len(rows) < 2:
+    found = read_table(path, TIME)
+    if not found.rows:
         raise FileError(path, f"has no rows; a heading {','.join(COLUMNS)} and rows of numbers are needed")
-    places = _places(path, rows[0][1])
-    table = np.array([_numbers(path, number, row, places) for number, row in rows[1:]])
+    if problem := problem_of_header(found.header):
+        raise FileError(path, f"row {found.header_row} {problem}")
+    places = _places(path, found.header)
+    table = np.array([_numbers(path, n, row, places) for n, row in zip(found.numbers, found.rows, strict=True)])
     for i in np.flatnonzero(np.diff(table[:, 0]) <= 0)[:1]:
-        raise FileError(path, f"row {rows[i + 2][0]}: {TIME} {table[i + 1, 0]:g} is not after {table[i, 0]:g}")
-    return Tensions(table[:, 0], table[:, 1:])
+        raise FileError(path, f"row {found.numbers[i + 1]}: {TIME} {table[i + 1, 0]:g} is not after {table[i, 0]:g}")
+    begun = table[0, 0] if table[0, 0] > _EPOCH else 0.0
+    return Tensions(table[:, 0] - begun, table[:, 1:])
 
 
 def _places(path: str | Path, heading: list[str]) -> list[int]:
