@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -12,7 +13,28 @@ from continuum.errors import FileError
 
 
 class _Loader(yaml.SafeLoader):
-    """PyYAML's safe loader, which also takes ``1e-2`` for a number as ROS does."""
+    """PyYAML's safe loader, which also takes ``1e-2`` for a number as ROS does, and refuses aliases as ROS does.
+
+    A few lines of aliases can stand for more values than memory holds. A key that stands twice is refused too: one of
+    its values would be lost.
+    """
+
+    def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+        """The next node, no alias."""
+        if self.check_event(yaml.AliasEvent):
+            raise yaml.YAMLError(f"line {self.line + 1}: an alias; write its values out")
+        return super().compose_node(parent, index)
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        """A mapping, each of whose keys stands once."""
+        seen = set[str]()
+        for key, _ in node.value:
+            if not isinstance(key.value, str):
+                raise yaml.YAMLError(f"line {key.start_mark.line + 1}: a key that is no name")
+            if key.value in seen:
+                raise yaml.YAMLError(f"line {key.start_mark.line + 1}: the key {key.value!r} stands twice")
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
 
 
 _Loader.add_implicit_resolver(

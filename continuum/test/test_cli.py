@@ -180,6 +180,9 @@ def test_info_tells_what_the_file_says_in_80_columns(capsys: Captured, file: Pat
         ("sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02, c: 1}", "arm.s.c is 1"),
         ("sections: [s]\ns: {n_joints: 2, b: 0.01}", "arm.s.a is None"),
         ("\x00", "is not valid YAML"),
+        ("sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02, b: 0.03}", "the key 'b' stands twice"),
+        ("sections: [s]\ns: &s {n_joints: 2, b: 0.01, a: 0.02}\nt: *s", "an alias"),
+        ("a: &a {k: 1}\nsections: [s]\ns: {<<: *a}", "an alias"),
     ],
 )
 def test_every_command_refuses_a_bad_arm_file(
