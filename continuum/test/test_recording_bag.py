@@ -125,10 +125,6 @@ def turned(topics: Topics) -> None:
     topics["/joint_states"][50].position[0] = 0.2
 
 
-def broken(topics: Topics) -> None:
-    topics["/joint_states"][50].position[2] = np.nan
-
-
 def pushing(topics: Topics) -> None:
     topics["/cable_states"][50].effort = np.array([1.0, -2.0])
 
@@ -156,7 +152,6 @@ def silent(topics: Topics) -> None:
         (other_cable, "holds no section_1_cable_1"),
         (no_bending_joint, "has the sections none on /joint_states; one that bends in a plane"),
         (turned, "turns its plane by section_1_phi"),
-        (broken, "has a message with nan for section_1_theta_2"),
         (pushing, "message 51: tension -2 N; a cable cannot push"),
         (tensions_end_early, r"has 3\d bad messages of 90; .*: messages 5\d, .*\.\. without a finite value"),
         (a_rate_missing, "has a message with 0 values for 5 names"),
@@ -209,3 +204,19 @@ def test_the_storage_file_is_the_recording(tmp_path: Path) -> None:
     folder = write(tmp_path / "swing", swing())
     (storage,) = (path for path in folder.iterdir() if path.suffix != ".yaml")
     np.testing.assert_array_equal(read_recording(str(storage)).theta, ANGLES)
+
+
+def test_what_is_no_finite_number_is_left_out_row_by_row_and_velocities_where_none_is(tmp_path: Path) -> None:
+    topics = swing()
+    for one in topics["/joint_states"][10:13]:
+        one.velocity = np.full(JOINTS + 2, np.nan)
+    topics["/joint_states"][20].position[1] = np.inf
+    some = read_recording_bag(write(tmp_path / "some", topics))
+    assert (some.times.size, some.theta_rate.shape) == (ROWS - 4, (ROWS - 4, JOINTS))
+    for one in topics["/joint_states"]:
+        one.velocity = np.full(JOINTS + 2, np.nan)
+    none = read_recording_bag(write(tmp_path / "none", topics))
+    assert none.theta_rate is None
+    assert none.times.size == ROWS - 1
+    assert [note for note in none.notes if "rates left out" in note]
+    np.testing.assert_array_equal(none.theta, np.delete(ANGLES, 20, axis=0))

@@ -12,11 +12,12 @@ from continuum.errors import FileError
 from continuum.recordings.bag import Bag
 
 
-def named_values(bag: Bag, message: Any, given: Array, wanted: Sequence[str]) -> Array:
+def named_values(bag: Bag, message: Any, given: Array, wanted: Sequence[str], finite: bool = True) -> Array:
     """Of the values ``given`` for ``message.name`` those of the names ``wanted``, in their order.
 
     Raises:
-        FileError: a name is not there, or there are more or fewer values than names, or one is not finite.
+        FileError: a name is not there, or there are more or fewer values than names, or one is not finite where all
+            have to be.
     """
     if len(given) != len(message.name):
         raise FileError(bag.path, f"has a message with {len(given)} values for {len(message.name)} names")
@@ -24,6 +25,6 @@ def named_values(bag: Bag, message: Any, given: Array, wanted: Sequence[str]) ->
     for name in wanted:
         if name not in by_name:
             raise FileError(bag.path, f"holds no {name}; recorded with another arm? It has {list(message.name)}")
-        if not np.isfinite(by_name[name]):
+        if finite and not np.isfinite(by_name[name]):
             raise FileError(bag.path, f"has a message with {by_name[name]} for {name}")
     return np.array([by_name[name] for name in wanted], dtype=float)

@@ -52,6 +52,8 @@ def read_recording_bag(path: str | Path) -> Recording:
         times = _seconds(joints, start)
         theta = _table(bag, joints, "position", names)
         rate = _table(bag, joints, "velocity", names) if any(len(one.velocity) for one in joints) else None
+        if rate is not None and not np.any(np.isfinite(rate)):
+            rate, others = None, (*others, f"no velocity on {_JOINTS} is a finite number: rates left out")
         torque = _torque(joints, names)
         pull = _pull(bag, section, start, times)
         if pull is not None and torque is not None:
@@ -116,8 +118,8 @@ def _pull(bag: Bag, section: str, start: int, times: Array) -> Array | None:
 
 
 def _table(bag: Bag, messages: Sequence[Any], field: str, names: Sequence[str]) -> Array:
-    """One row for each message, one column for each name."""
-    return np.array([named_values(bag, one, getattr(one, field), names) for one in messages])
+    """One row for each message, one column for each name; what is not finite is left to be repaired."""
+    return np.array([named_values(bag, one, getattr(one, field), names, finite=False) for one in messages])
 
 
 def _seconds(messages: Sequence[Any], start: int) -> Array:
