@@ -121,6 +121,18 @@ def test_a_file_of_targets_may_have_a_heading(capsys: Captured, tmp_path: Path, 
     assert set(answer["target"]) == {"position", *{6: ["direction"], 7: ["rotation"]}.get(columns, [])}
 
 
+@pytest.mark.parametrize("separator", [" ", ",", ";", "\t"])
+def test_columns_of_targets_may_stand_in_any_order(capsys: Captured, tmp_path: Path, separator: str) -> None:
+    names, values = ["x", "y", "z", "qx", "qy", "qz", "qw"], ["0.1", "0", "0.4", "0.1", "0.2", "0.3", "0.9"]
+    answers = []
+    for order in (range(7), (6, 0, 1, 2, 3, 5, 4)):
+        file = tmp_path / "targets.csv"
+        file.write_text("".join(separator.join(row[k] for k in order) + "\n" for row in (names, values)))
+        code("solve", THREE, "--targets", file, "--json")
+        answers.append(json.loads(capsys.readouterr().out)["target"])
+    assert answers[0] == answers[1]
+
+
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
@@ -128,8 +140,10 @@ def test_a_file_of_targets_may_have_a_heading(capsys: Captured, tmp_path: Path, 
         ("x y z\n", "holds no targets"),
         ("1 2\n", "line 1 has 2 columns; wanted are lines of 3"),
         ("\n1 2 3\n1 2 3 4 5 6\n", "line 3 has 6 columns; wanted are lines of 3"),
-        ("a b c\n", "line 1: 'a' is no number; a heading begins with x y z"),
-        ("x_mm y_mm z_mm\n1 2 3\n", "line 1: 'x_mm' is no number"),
+        ("a b c\n", "line 1 names the columns a b c; allowed: x y z"),
+        ("x_mm y_mm z_mm\n1 2 3\n", "line 1 names the columns x_mm y_mm z_mm; allowed: x y z"),
+        ("x y z t\n1 2 3 4\n", "line 1 names the columns x y z t"),
+        ("x y z\n1 2 3 4\n", "line 2 has 4 columns, the heading 3"),
         ("x y z\n1 2 3\n# four\n1 nan 3\n", "line 4: 'nan'; allowed: a finite number"),
         ("1 2 3 0 0 1\n1 2 3 0 0 0\n", "line 2: a direction of nothing but zeros"),
         ("1 2 3 0 0 0 0\n", "line 1: a quaternion of nothing but zeros"),

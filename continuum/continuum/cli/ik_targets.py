@@ -14,6 +14,7 @@ from continuum.errors import FileError, InvalidValueError
 from continuum.kinematics.ik_target import Target, Targets
 from continuum.number_checks import finite_of_shape
 
+_POSITION, _DIRECTION, _QUATERNION = ("x", "y", "z"), ("dx", "dy", "dz"), ("qx", "qy", "qz", "qw")
 _COLUMNS = "lines of 3 (x y z), 6 (and a direction) or 7 numbers (and a quaternion x y z w), all alike"
 
 
@@ -30,7 +31,9 @@ def target_of(position: list[float], options: argparse.Namespace) -> Target:
 
 
 def read_targets(path: str) -> Targets:
-    """Targets of a text file; commas and what follows a # count as blanks, a heading may come before the numbers.
+    """Targets of a text file, numbers between blanks, commas, semicolons or tabs; what follows a # is a remark.
+
+    A heading may name the columns, in any order: `_POSITION`, then `_DIRECTION` or `_QUATERNION`.
 
     Raises:
         FileError: it cannot be read, has no targets, or a line, which is named, holds none.
@@ -39,10 +42,15 @@ def read_targets(path: str) -> Targets:
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise FileError(path, f"cannot be read ({error})") from error
-    words = {k: line.partition("#")[0].replace(",", " ").split() for k, line in enumerate(lines, start=1)}
-    written = [(k, row) for k, row in words.items() if row]
-    if written and _is_heading(written[0][1]):
-        written = written[1:]
+    words = {k: _words(line.partition("#")[0]) for k, line in enumerate(lines, start=1)}
+    written = [(k, row) for k, row in words.items() if row and not row[0].startswith("sep=")]
+    if written and not _is_number(written[0][1][0]):
+        (k, heading), *written = written
+        order = _order(path, k, heading)
+        for k, row in written:
+            if len(row) != len(heading):
+                raise FileError(path, f"line {k} has {len(row)} columns, the heading {len(heading)}")
+        written = [(k, [row[i] for i in order]) for k, row in written]
     if not written:
         raise FileError(path, f"holds no targets; wanted are {_COLUMNS}")
     width = len(written[0][1])
@@ -55,9 +63,31 @@ def read_targets(path: str) -> Targets:
     return Targets(rows[:, :3], rows[:, 3:] if width == 6 else None)
 
 
-def _is_heading(words: list[str]) -> bool:
-    """Whether a line names the columns, x, y and z first: in metres, as ``x`` or ``x_m``."""
-    return [word.lower().removesuffix("_m") for word in words[:3]] == ["x", "y", "z"]
+def _words(line: str) -> list[str]:
+    """Cells of a line; commas are decimal ones where semicolons or tabs separate the cells."""
+    if ";" in line or "\t" in line:
+        return line.replace(",", ".").replace(";", " ").split()
+    return line.replace(",", " ").split()
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _order(path: str, k: int, heading: list[str]) -> list[int]:
+    """Where the columns stand that a heading names, positions in metres as ``x`` or ``x_m``."""
+    names = [word.lower().removesuffix("_m") for word in heading]
+    for wanted in (_POSITION, (*_POSITION, *_DIRECTION), (*_POSITION, *_QUATERNION)):
+        if sorted(names) == sorted(wanted):
+            return [names.index(name) for name in wanted]
+    allowed = f"{' '.join(_POSITION)}, and {' '.join(_DIRECTION)} or {' '.join(_QUATERNION)}"
+    raise FileError(
+        path, f"line {k} names the columns {' '.join(heading)}; allowed: {allowed}, in any order, in metres"
+    )
 
 
 def _numbers(path: str, k: int, words: list[str], width: int) -> list[float]:
@@ -69,7 +99,7 @@ def _numbers(path: str, k: int, words: list[str], width: int) -> list[float]:
         try:
             numbers.append(float(word))
         except ValueError:
-            raise FileError(path, f"line {k}: {word!r} is no number; a heading begins with x y z") from None
+            raise FileError(path, f"line {k}: {word!r} is no number") from None
         if not math.isfinite(numbers[-1]):
             raise FileError(path, f"line {k}: {word!r}; allowed: a finite number")
     return numbers
