@@ -50,6 +50,22 @@ def test_what_is_not_missed_in_use_is_adequate_and_incomplete() -> None:
     assert (found.kind, found.complete) == (Kind.ADEQUATE, False)
 
 
+def test_what_errs_by_less_than_the_sensors_has_no_cause() -> None:
+    """An effect may close all of the distance to what it leaves: that is no distance to the noise."""
+    baseline, other = (candidate(key, error) for key, error in ((NONE, 0.9 * FLOOR), (SPRING, 0.5 * FLOOR)))
+    sharp = [replace(one, observations=5000.0) for one in (baseline, other)]
+    assert decide(sharp[0], sharp[1:], FLOOR, 3 * FLOOR, FLOOR).kind is Kind.ADEQUATE
+    assert decide(sharp[0], sharp[1:], FLOOR / 2, 3 * FLOOR, FLOOR).kind is Kind.CAUSE
+    assert decide(sharp[0], sharp[1:], FLOOR, 3 * FLOOR, 4 * FLOOR).kind is Kind.CAUSE  # whole recordings run away
+
+
+def test_a_tolerance_that_is_asked_for_makes_a_model_adequate() -> None:
+    sets = candidate(NONE, 0.03), [candidate(SPRING, 0.0031)]
+    assert decide(*sets, FLOOR, 0.05, 0.04).kind is Kind.CAUSE
+    assert decide(*sets, FLOOR, 0.05, 0.04, True).kind is Kind.ADEQUATE
+    assert decide(*sets, FLOOR, 0.05, 0.06, True).kind is Kind.CAUSE
+
+
 def test_one_effect_that_closes_most_is_the_cause() -> None:
     found = verdict(candidate(SPRING, 0.0031), candidate(DRAG, 0.02))
     assert (found.kind, found.sets, found.complete) == (Kind.CAUSE, (SPRING,), True)

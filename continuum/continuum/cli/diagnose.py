@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from continuum.cli.output_files import check_apart, check_writable
 from continuum.cli.tables import print_pairs
+from continuum.errors import InvalidValueError
 from continuum.printable import printable
 
 if TYPE_CHECKING:
@@ -52,6 +53,8 @@ def run(options: argparse.Namespace) -> int:
     """Read, diagnose, print, and write what was asked for."""
     from continuum.dynamics.model_file import load_model
 
+    if options.tolerance is not None and not 0 < options.tolerance < math.inf:
+        raise InvalidValueError("--tolerance", options.tolerance, "an angle > 0 [degrees]")
     for path in (options.json, options.report, options.extended):
         check_writable(path)
     check_apart((options.json, options.report, options.extended), (*options.data, options.model))
@@ -69,13 +72,13 @@ def run(options: argparse.Namespace) -> int:
     tolerance = None if options.tolerance is None else math.radians(options.tolerance)
     with told() as tell:
         result = diagnose(recordings, model, tolerance=tolerance, progress=tell)
-    show(result)
     if options.json is not None:
         write_json(result, options.json, _made(options))
     if options.report is not None:
         write_report(result, options.report, _how(options))
     if options.extended is not None:
         save_model(result.extended_model, options.extended)
+    show(result)  # at last: whoever reads it may stop reading
     return EXIT_CODES[result.verdict.kind.value]
 
 

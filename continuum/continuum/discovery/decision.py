@@ -59,8 +59,18 @@ class Verdict:
     helps: Key = ()
 
 
-def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, tolerance: float, whole: float) -> Verdict:
+def decide(
+    baseline: Candidate,
+    others: Sequence[Candidate],
+    floor: float,
+    tolerance: float,
+    whole: float,
+    is_asked: bool = False,
+) -> Verdict:
     """One verdict from all candidates.
+
+    Recordings that are simulated within the tolerance call for no cause where the baseline errs by no more than the
+    sensors, or where a user asked for that tolerance.
 
     Args:
         baseline: the refitted model alone.
@@ -68,6 +78,7 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
         floor: of an open-loop error, by the sensors' noise [rad].
         tolerance: error that a user accepts [rad].
         whole: error of the baseline's simulations of whole recordings [rad].
+        is_asked: whether a user set the tolerance.
     """
     noise = noise_in_segments([baseline, *others], floor)
     others = sorted((one for one in others if one.completed), key=lambda one: (log_error(one), str(one.effects)))
@@ -76,9 +87,11 @@ def decide(baseline: Candidate, others: Sequence[Candidate], floor: float, toler
 
     probable = [one for one in others if is_probable(one, baseline) and not is_needless(one, others, alike)]
     possible = [one for one in probable if closed(baseline, one, noise)[1] > LEAST_SHARE]
+    if whole < tolerance and (not possible or is_asked or baseline.error <= floor):
+        return Verdict(Kind.ADEQUATE, ((),), (1.0,), not probable)
     if not possible:
-        if whole < tolerance or (baseline.error < tolerance and not probable):
-            return Verdict(Kind.ADEQUATE, ((),), (1.0,), not probable)
+        if baseline.error < tolerance and not probable:
+            return Verdict(Kind.ADEQUATE, ((),), (1.0,), True)
         return Verdict(Kind.UNKNOWN, (), (), False, helps=probable[0].effects if probable else ())
     nearest = possible[0]
     alike_sets = [one for one in probable if one is nearest or not is_farther(one, nearest, alike)]

@@ -66,7 +66,8 @@ def _answer(
     others = [one.candidate for one in found.others]
     before = found.judge.whole(base.fit)
     errors = [before.error(r, run.theta) for r, run in enumerate(recordings)]
-    verdict = decide(base.candidate, others, floor, accepted, float(np.sqrt(np.mean(np.square(errors)))))
+    whole = float(np.sqrt(np.mean(np.square(errors))))
+    verdict = decide(base.candidate, others, floor, accepted, whole, tolerance is not None)
     odd = odd_rates(recordings)
     if odd:  # nothing that is fitted to readings which contradict each other can be trusted
         verdict = Verdict(Kind.UNKNOWN, (), (), False)
@@ -134,7 +135,7 @@ def _check(recordings: Sequence[Recording], model: Model, tolerance: float | Non
     if not recordings:
         raise InvalidValueError("recordings", 0, "one or more")
     if tolerance is not None and not 0 < tolerance < np.inf:
-        raise InvalidValueError("tolerance", tolerance, "an angle > 0")
+        raise InvalidValueError("tolerance", tolerance, "an angle > 0 [rad]")
     for number, one in enumerate(recordings):
         one.inputs_for(model)
         refuse_swapped_cables(one)
