@@ -169,12 +169,14 @@ def test_errors_that_fall_by_chance_are_no_lower() -> None:
 def test_of_nested_sets_that_are_alike_the_smaller_is_named() -> None:
     """One joint's sensor, and all joints' sensors, that joint's among them."""
     at_all: Key = (("angle_offset", None),)
-    one = replace(candidate(SPRING, 0.0031), values=frozenset({1}))
+    one, weak = (replace(candidate(SPRING, error), values=frozenset({1})) for error in (0.0031, 0.006))
     other, nested = (replace(candidate(at_all, 0.00309), values=frozenset(those)) for those in ({0, 2}, {0, 1, 2}))
     assert verdict(one, other).kind is Kind.AMBIGUOUS
     assert verdict(one, nested).kind is Kind.CAUSE
     assert verdict(one, nested).sets == (SPRING,)
     assert verdict(replace(one, errors=3 * one.errors), nested).sets == (at_all,)
+    assert verdict(weak, nested).sets == (at_all,)
+    assert verdict(weak, replace(nested, occam=1000.0)).sets == (SPRING,)  # what it gains on its part does not pay
 
 
 def test_values_of_each_recording_are_not_worth_it_where_they_are_nothing() -> None:

@@ -93,11 +93,9 @@ def decide(
         if baseline.error < tolerance and not probable:
             return Verdict(Kind.ADEQUATE, ((),), (1.0,), True)
         return Verdict(Kind.UNKNOWN, (), (), False, helps=probable[0].effects if probable else ())
-    nearest = possible[0]
-    alike_sets = [one for one in probable if one is nearest or not is_farther(one, nearest, alike)]
-    sets = [one for one in alike_sets if not any(part.values < one.values and part in possible for part in alike_sets)]
-    best = sets[0]
-    weights = np.array([exp(-max(log_error(one) - log_error(nearest), 0.0) / max(alike, 1e-9)) for one in sets])
+    best = possible[0]
+    sets = [one for one in probable if one is best or not is_farther(one, best, alike)]
+    weights = np.array([exp(-max(log_error(one) - log_error(best), 0.0) / max(alike, 1e-9)) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
     steady = best.agreement > CHANCE
     complete = best.error < (1 + ALIKE) * floor and steady
@@ -112,8 +110,8 @@ def is_probable(one: Candidate, part: Candidate) -> bool:
 
 
 def is_needless(one: Candidate, others: Sequence[Candidate], alike: float) -> bool:
-    """Whether a part of a set simulates as well."""
-    parts = [part for part in others if set(part.effects) < set(one.effects)]
+    """Whether a part of a set simulates as well: some of its effects, or its effect at some of its joints."""
+    parts = [part for part in others if set(part.effects) < set(one.effects) or part.values < one.values]
     return any(not is_farther(part, one, alike) or not is_probable(one, part) for part in parts)
 
 
