@@ -9,7 +9,7 @@ from typing import Any
 
 import yaml
 
-from continuum.errors import FileError
+from continuum.errors import FileError, InvalidValueError
 
 
 class _Loader(yaml.SafeLoader):
@@ -63,6 +63,8 @@ def read_parameter_file(path: str | Path) -> Mapping[str, object]:
         flat = flattened(block)
     except RecursionError as error:
         raise FileError(path, "is a mapping that holds itself") from error
+    except InvalidValueError as error:
+        raise FileError(path, str(error)) from error
     for name, value in flat.items():
         if isinstance(value, list) and {int, float} <= {type(item) for item in value}:
             raise FileError(path, f"{name} is {value}: ROS takes no whole numbers among decimals; write 0.0, not 0")
@@ -73,8 +75,8 @@ def flattened(block: Mapping[str, object], prefix: str = "") -> dict[str, object
     """Nested parameters by their dotted ROS names: ``{"helix": {"radius": 0.15}}`` gives ``{"helix.radius": 0.15}``."""
     flat: dict[str, object] = {}
     for key, value in block.items():
-        if isinstance(value, Mapping):
-            flat.update(flattened(value, f"{prefix}{key}."))
-        else:
-            flat[f"{prefix}{key}"] = value
+        more = flattened(value, f"{prefix}{key}.") if isinstance(value, Mapping) else {f"{prefix}{key}": value}
+        if twice := flat.keys() & more.keys():
+            raise InvalidValueError(min(twice), more[min(twice)], "once; it stands twice")
+        flat |= more
     return flat

@@ -182,6 +182,7 @@ def test_info_tells_what_the_file_says_in_80_columns(capsys: Captured, file: Pat
         ("\x00", "is not valid YAML"),
         ("sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02, b: 0.03}", "the key 'b' stands twice"),
         ("sections: [s]\ns: &s {n_joints: 2, b: 0.01, a: 0.02}\nt: *s", "an alias"),
+        ("sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02}\ns.b: 0.03", "stands twice"),
         ("a: &a {k: 1}\nsections: [s]\ns: {<<: *a}", "an alias"),
     ],
 )

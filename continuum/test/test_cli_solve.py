@@ -142,6 +142,7 @@ def test_columns_of_targets_may_stand_in_any_order(capsys: Captured, tmp_path: P
         ("\n1 2 3\n1 2 3 4 5 6\n", "line 3 has 6 columns; wanted are lines of 3"),
         ("a b c\n", "line 1 names the columns a b c; allowed: x y z"),
         ("x_mm y_mm z_mm\n1 2 3\n", "line 1 names the columns x_mm y_mm z_mm; allowed: x y z"),
+        ("0,1 0,2 0,3\n", "line 1: decimal commas between blanks?"),
         ("x y z t\n1 2 3 4\n", "line 1 names the columns x y z t"),
         ("x y z\n1 2 3 4\n", "line 2 has 4 columns, the heading 3"),
         ("x y z\n1 2 3\n# four\n1 nan 3\n", "line 4: 'nan'; allowed: a finite number"),

@@ -220,3 +220,21 @@ def test_what_is_no_finite_number_is_left_out_row_by_row_and_velocities_where_no
     assert none.times.size == ROWS - 1
     assert [note for note in none.notes if "rates left out" in note]
     np.testing.assert_array_equal(none.theta, np.delete(ANGLES, 20, axis=0))
+
+
+def test_two_near_messages_may_arrive_swapped(tmp_path: Path) -> None:
+    topics = swing()
+    first, second = topics["/joint_states"][50:52]
+    near = int(STAMPS[51]) - 1_000_000
+    first.header.stamp.sec, first.header.stamp.nanosec = divmod(near, 10**9)
+    topics["/joint_states"][50:52] = [second, first]
+    np.testing.assert_array_equal(read_recording_bag(write(tmp_path / "swing", topics)).theta, ANGLES)
+
+
+def test_an_arm_whose_plane_turns_is_refused_whatever_is_no_number(tmp_path: Path) -> None:
+    topics = swing()
+    for one in topics["/joint_states"]:
+        one.position[0] = 1.0
+    topics["/joint_states"][3].position[0] = np.nan
+    with pytest.raises(FileError, match="turns its plane"):
+        read_recording_bag(write(tmp_path / "swing", topics))

@@ -1,5 +1,6 @@
 """One reader for tables, however another program wrote them."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ from csv_runs import sway, text_of, write
 
 from continuum.errors import FileError
 from continuum.recordings.recording_csv import read_recording_csv
+from continuum.recordings.tension_table import read_tension_table
 
 
 @pytest.mark.parametrize(("separator", "decimal"), [(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ",")])
@@ -49,3 +51,29 @@ def test_a_table_of_a_million_columns_is_refused(tmp_path: Path) -> None:
     path.write_text("t_s," + ",".join(f"c{k}" for k in range(1_000_000)) + "\n")
     with pytest.raises(FileError, match="columns"):
         read_recording_csv(path)
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        lambda text: text.replace("\n", "\r"),
+        lambda text: text.replace("\n", "\r\n"),
+        lambda text: "# " + text,
+        lambda text: 'tube of 5" \u2026\n' + text,
+        lambda text: '"two\nlines"\n' + text,
+        lambda text: "page 1\x0c\n" + text,
+    ],
+    ids=["old Mac", "Windows", "savetxt", "quote and dots", "two lines", "form feed"],
+)
+def test_line_ends_and_remarks_do_not_move_the_heading(tmp_path: Path, written: Callable[[str], str]) -> None:
+    wanted = read_recording_csv(write(tmp_path, sway()))
+    path = tmp_path / "other.csv"
+    path.write_bytes(written(text_of(sway())).encode("cp1252"))
+    np.testing.assert_array_equal(read_recording_csv(path).theta, wanted.theta)
+
+
+def test_decimal_commas_between_commas_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "tensions.csv"
+    path.write_text("t_s,u1_N,u2_N\n0,12,5,0,0\n1,13,5,0,0\n")
+    with pytest.raises(FileError, match="row 2 has 5 cells, the header 3; decimal commas"):
+        read_tension_table(path)

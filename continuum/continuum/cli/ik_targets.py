@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,8 @@ from continuum.errors import FileError, InvalidValueError
 from continuum.kinematics.ik_target import Target, Targets
 from continuum.number_checks import finite_of_shape
 
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,?\d+([eE][+-]?\d+)?")
+_BROKEN = re.compile(r"[+-]?\d+,\d+")
 _POSITION, _DIRECTION, _QUATERNION = ("x", "y", "z"), ("dx", "dy", "dz"), ("qx", "qy", "qz", "qw")
 _COLUMNS = "lines of 3 (x y z), 6 (and a direction) or 7 numbers (and a quaternion x y z w), all alike"
 
@@ -42,6 +45,12 @@ def read_targets(path: str) -> Targets:
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise FileError(path, f"cannot be read ({error})") from error
+    for k, line in enumerate(lines, start=1):
+        cells = line.partition("#")[0].split()
+        if len(cells) > 1 and all(_BROKEN.fullmatch(cell) for cell in cells):
+            raise FileError(
+                path, f"line {k}: decimal commas between blanks? Write 0.1, or put semicolons between numbers"
+            )
     words = {k: _words(line.partition("#")[0]) for k, line in enumerate(lines, start=1)}
     written = [(k, row) for k, row in words.items() if row and not row[0].startswith("sep=")]
     if written and not _is_number(written[0][1][0]):
@@ -64,10 +73,12 @@ def read_targets(path: str) -> Targets:
 
 
 def _words(line: str) -> list[str]:
-    """Cells of a line; commas are decimal ones where semicolons or tabs separate the cells."""
-    if ";" in line or "\t" in line:
-        return line.replace(",", ".").replace(";", " ").split()
-    return line.replace(",", " ").split()
+    """Cells of a line; commas are decimal ones where semicolons, or tabs without blanks or commas, separate cells."""
+    for separator in ";\t":
+        cells = [cell.strip() for cell in line.strip().split(separator)]
+        if len(cells) > 1 and all(_DECIMAL_COMMA.fullmatch(cell) for cell in cells):
+            return [cell.replace(",", ".") for cell in cells]
+    return line.replace(";", " ").replace(",", " ").split()
 
 
 def _is_number(word: str) -> bool:

@@ -98,7 +98,7 @@ class Tracker:
         if not result.solved:
             self._rates = []
             return Tracked(result, self._rate_of_nearest(target, velocity, angular_velocity))
-        rate = self._rate(velocity, angular_velocity, 0.0 if dt is None else dt).rate
+        rate = self._rate_within_limits(velocity, angular_velocity, 0.0 if dt is None else dt).rate
         self._rates = [*self._rates[-1:], rate]
         return Tracked(result, rate)
 
@@ -164,6 +164,13 @@ class Tracker:
             for side in (1, -1)
         )
         return (ahead - behind) / (2 * dt)
+
+    def _rate_within_limits(self, velocity: Array, angular_velocity: Array | None, dt: float) -> TipRate:
+        """The rate that holds sections which would reach their limits within ``dt`` [s], where the tip follows so."""
+        held = self._rate(velocity, angular_velocity, dt)
+        free = self._rate(velocity, angular_velocity) if held.held else held
+        lacks = np.linalg.norm(held.velocity - free.velocity) + self._length * np.linalg.norm(held.spin - free.spin)
+        return held if lacks <= _BEHIND * np.linalg.norm(velocity) + _AT_REST else free
 
     def _rate(self, velocity: Array, angular_velocity: Array | None, ahead: float = 0.0) -> TipRate:
         w = self.configuration

@@ -19,9 +19,9 @@ _DENSE = 1.5  # times as many messages as one run has in such a time: two runs, 
 
 def of_an_arm(messages: Sequence[Any], topic: str) -> tuple[Sequence[Any], tuple[str, ...]]:
     """Messages of who publishes bending joints, all where nobody does, and a note on those of others."""
-    first = theta_joints("", 1)[0]
-    mine = [one for one in messages if any(name.endswith(first) for name in one.name)]
-    others = [one for one in messages if not any(name.endswith(first) for name in one.name)]
+    mark = theta_joints("", 1)[0].removesuffix("1")
+    mine = [one for one in messages if any(mark in name for name in one.name)]
+    others = [one for one in messages if not any(mark in name for name in one.name)]
     if not mine or not others or set(mine[0].name) & {name for one in others for name in one.name}:
         return messages, ()
     names = printable(", ".join(sorted({name for one in others for name in one.name})[:_SHOWN]))
@@ -37,16 +37,16 @@ def in_order(path: Path, topic: str, messages: Iterable[Any]) -> list[Any]:
     """
     arrived = list(messages)
     stamps = np.array([stamp_ns(one) for one in arrived], dtype=np.int64)
-    late = np.flatnonzero(np.diff(stamps) < 0) + 1
-    steps = np.diff(stamps)
-    for at in late:
-        newest = np.max(stamps[:at])
-        there = np.count_nonzero((stamps >= stamps[at]) & (stamps <= newest))
-        if there > _DENSE * (1 + (newest - stamps[at]) / np.median(steps[steps > 0])):
-            back = (stamps[at - 1] - stamps[at]) * 1e-9
-            raise FileError(
-                path,
-                f"message {at + 1} on {topic}: stamps run backward by {back:.3g} s; are these two recordings, or was "
-                "the clock set back?",
-            )
+    steps, ordered = np.diff(stamps), np.sort(stamps)
+    late, newest = np.flatnonzero(steps < 0) + 1, np.maximum.accumulate(stamps)
+    usual = float(np.median(steps[steps > 0])) if np.any(steps > 0) else np.inf
+    there = np.searchsorted(ordered, newest[late - 1], "right") - np.searchsorted(ordered, stamps[late])
+    dense = (there > _DENSE * (1 + (newest[late - 1] - stamps[late]) / usual)) & (there > 2)
+    for at in late[dense | (usual == np.inf)][:1]:
+        back = -steps[at - 1] * 1e-9
+        raise FileError(
+            path,
+            f"message {at + 1} on {topic}: stamps run backward by {back:.3g} s; are these two recordings, or was "
+            "the clock set back?",
+        )
     return [arrived[k] for k in np.argsort(stamps, kind="stable")]

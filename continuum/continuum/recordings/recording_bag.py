@@ -87,7 +87,8 @@ def _bending_joints(bag: Bag, joints: Sequence[Any]) -> tuple[str, list[str]]:
         found = ", ".join(sections) or "none"
         raise FileError(bag.path, f"has the sections {found} on {_JOINTS}; one that bends in a plane is needed")
     turn = phi_joint(sections[0])
-    if turn in known and np.max(np.abs(_table(bag, joints, "position", [turn]))) > _IN_PLANE:
+    turned = np.abs(_table(bag, joints, "position", [turn])) if turn in known else np.zeros(1)
+    if not np.all(turned[np.isfinite(turned)] <= _IN_PLANE):
         raise FileError(bag.path, f"has an arm that turns its plane by {turn}; one that bends in a plane is needed")
     return sections[0], [name for name in theta_joints(sections[0], len(known)) if name in known]
 

@@ -8,7 +8,6 @@ Columns stand between commas, semicolons or tabs; where they are not between com
 from __future__ import annotations
 
 import csv
-import io
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,10 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from continuum.errors import FileError
+from continuum.recordings.csv_layout import hint_of_row
 
 SEPARATORS = ",;\t"
 _LONGEST_HEAD = 50  # lines before the columns' names
 _MOST_COLUMNS = 2000  # an arm of twenty joints has some hundred
+_BLANK = " " + SEPARATORS
 _REMARKS = ("#", "%", "//", "sep=")
 
 
@@ -33,7 +34,7 @@ class Table:
         header: names of the columns.
         header_row: its number in the file, from 1.
         numbers: of the rows that are not blank, (rows,).
-        rows: their cells, decimals with a point; as many as the line has.
+        rows: their cells, decimals with a point; as many as the line has, no more than there are names.
     """
 
     path: Path
@@ -48,30 +49,34 @@ def read_table(path: str | Path, key: str) -> Table:
     """Read a file whose columns' names have ``key`` among them; without such a line, the first that is no remark.
 
     Raises:
-        FileError: it cannot be read, is no text, is empty, or has more columns than any arm.
+        FileError: it cannot be read, is no text, is empty, has more columns than any arm, or a row has more cells than
+            there are names.
     """
-    path, text = Path(path), _text(Path(path))
-    lines = text.splitlines()
-    at = next((i for i, line in enumerate(lines[:_LONGEST_HEAD]) if key in _cells(line)), None)
+    path = Path(path)
+    lines = _text(path).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    at = next((i for i, line in enumerate(lines[:_LONGEST_HEAD]) if key in _names(line)), None)
     if at is None:
-        at = next(
-            (i for i, line in enumerate(lines) if line.strip(" " + SEPARATORS) and not line.startswith(_REMARKS)), None
-        )
+        at = next((i for i, line in enumerate(lines) if line.strip(_BLANK) and not line.startswith(_REMARKS)), None)
     if at is None:
         raise FileError(path, "is empty")
     separator = _separator(lines[at])
     if lines[at].count(separator) >= _MOST_COLUMNS:
         raise FileError(path, f"has {lines[at].count(separator) + 1} columns in row {at + 1}; allowed: {_MOST_COLUMNS}")
     try:
-        cells = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO(text), delimiter=separator)]
+        cells = [[cell.strip() for cell in row] for row in csv.reader(lines[at + 1 :], delimiter=separator)]
     except csv.Error as error:
         raise FileError(path, f"cannot be read as CSV ({error})") from error
-    header_row = next((i for i, row in enumerate(cells) if i >= min(at, len(cells) - 1)), 0)
-    rows = [(number, row) for number, row in enumerate(cells, start=1) if number > header_row + 1 and any(row)]
-    if separator != ",":
+    rows = [(number, row) for number, row in enumerate(cells, start=at + 2) if any(row)]
+    header = _names(lines[at]) if key in _names(lines[at]) else [cell.strip() for cell in lines[at].split(separator)]
+    for number, row in rows:
+        if any(row[len(header) :]):
+            hint = hint_of_row(row, len(header)) if separator == "," else ""
+            raise FileError(path, f"row {number} has {len(row)} cells, the header {len(header)}{hint}")
+    if separator != "," and not any("." in cell and _is_number(cell) for _, row in rows for cell in row):
         rows = [(number, [cell.replace(",", ".") for cell in row]) for number, row in rows]
+    before = [[cell.strip() for cell in line.split(separator)] for line in lines[:at]]
     numbers = np.array([number for number, _ in rows], dtype=np.int64)
-    return Table(path, cells[:header_row], cells[header_row], header_row + 1, numbers, [row for _, row in rows])
+    return Table(path, before, header, at + 1, numbers, [row for _, row in rows])
 
 
 def _text(path: Path) -> str:
@@ -87,12 +92,21 @@ def _text(path: Path) -> str:
     except UnicodeDecodeError as error:
         if b"\0" in data or data.startswith((b"\xff\xfe", b"\xfe\xff")):
             raise FileError(path, "is no text file: a CSV file is needed") from error
-        return data.decode("latin-1")
+        return data.decode("cp1252", errors="replace")
 
 
 def _separator(line: str) -> str:
     return max(SEPARATORS, key=line.count)
 
 
-def _cells(line: str) -> list[str]:
-    return [cell.strip().strip('"') for cell in line.split(_separator(line))]
+def _names(line: str) -> list[str]:
+    """Names of columns in a line, which may be marked as a remark."""
+    return [cell.strip().strip('"') for cell in line.lstrip("#% ").split(_separator(line))]
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
