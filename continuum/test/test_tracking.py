@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from continuum_laws.samples import arm_of
 
-from continuum.kinematics.chain import arm_pose
+from continuum.kinematics.chain import arm_jacobian, arm_pose
 from continuum.kinematics.configuration import bend
 from continuum.kinematics.ik_result import IkStatus
 from continuum.kinematics.tracking import Tracked, Tracker
@@ -137,6 +137,25 @@ def test_rates_are_those_of_the_motion_in_and_out_of_reach_and_at_bend_limits(
     assert (max(held) > 0.999 * bend_limit) == (bend_limit < 3)
     agree = np.concatenate(errors) < 0.02 * np.median(np.concatenate(speeds))
     assert np.mean(agree) > 0.9
+
+
+@pytest.mark.parametrize("n", [2, 3])
+@pytest.mark.parametrize("dt", [1 / 120, 0.1])
+def test_where_a_limit_is_nearly_reached_the_rate_still_moves_the_tip_as_wanted(n: int, dt: float) -> None:
+    """The target turns back before the limit: whoever holds the section too early must replace what it does."""
+    arm, step = arm_of(n, bend_limit=1.0), 1e-6
+
+    def tip(t: float) -> np.ndarray:
+        w = np.array([[np.cos(0.4 * k), np.sin(0.4 * k)] for k in range(n)]) * (0.6 + 0.395 * np.sin(3 * t))
+        return arm_pose(w, arm)[:3, 3]
+
+    tracker = Tracker(arm)
+    for k in range(round(2.0 / dt)):
+        velocity = (tip(k * dt + step) - tip(k * dt - step)) / (2 * step)
+        answer = tracker.pose(tip(k * dt), velocity=velocity, dt=dt if k else None)
+        if answer.result.solved:
+            moved = (arm_jacobian(answer.result.configuration, arm) @ answer.rate.reshape(-1))[:3]
+            assert np.linalg.norm(moved - velocity) < 0.02 * np.linalg.norm(velocity) + 1e-3
 
 
 @pytest.mark.parametrize("wait", [49, 51, 101])

@@ -13,6 +13,7 @@ import numpy as np
 
 from continuum.arm import Arm
 from continuum.arrays import Array
+from continuum.kinematics.chain import arm_pose
 from continuum.kinematics.differential import DIRECTION, POSITION, DifferentialKinematics, TipRate, least_bending
 from continuum.kinematics.ik_result import IkResult, IkStatus
 from continuum.kinematics.ik_target import Target
@@ -56,7 +57,7 @@ class Tracker:
         self.use_direction = use_direction
         self.unbend_gain = unbend_gain
         self.configuration = np.zeros((arm.n_sections, 2))
-        self._length = arm.length
+        self._arm = arm
         self._differential = DifferentialKinematics(arm, DIRECTION if use_direction else POSITION)
         self._begin = InverseKinematics(arm, tolerance, objective="least_bending")
         self._stay = InverseKinematics(arm, tolerance, objective="near_start", n_restarts=_RESTARTS)
@@ -155,10 +156,10 @@ class Tracker:
     def _rate_of_nearest(self, target: Target, velocity: Array, angular_velocity: Array | None) -> Array:
         """How the posture nearest to a target out of reach moves with it: central difference of two such postures."""
         spin = _NO_SPIN if angular_velocity is None or target.direction is None else np.asarray(angular_velocity)
-        speed = float(np.linalg.norm(velocity)) + self._length * float(np.linalg.norm(spin))
+        speed = float(np.linalg.norm(velocity)) + self._arm.length * float(np.linalg.norm(spin))
         if speed == 0.0:
             return np.zeros_like(self.configuration)
-        dt = _SHIFT * self._length / speed
+        dt = _SHIFT * self._arm.length / speed
         ahead, behind = (
             self._nearest.solve(_moved(target, side * dt, velocity, spin), self.configuration).configuration
             for side in (1, -1)
@@ -169,7 +170,10 @@ class Tracker:
         """The rate that holds sections which would reach their limits within ``dt`` [s], where the tip follows so."""
         held = self._rate(velocity, angular_velocity, dt)
         free = self._rate(velocity, angular_velocity) if held.held else held
-        lacks = np.linalg.norm(held.velocity - free.velocity) + self._length * np.linalg.norm(held.spin - free.spin)
+        lacks = np.linalg.norm(held.velocity - free.velocity)
+        if self.use_direction:  # a turn about the tip's own axis is free
+            axis = arm_pose(self.configuration, self._arm)[:3, 2]
+            lacks += self._arm.length * np.linalg.norm(np.cross(held.spin - free.spin, axis))
         return held if lacks <= _BEHIND * np.linalg.norm(velocity) + _AT_REST else free
 
     def _rate(self, velocity: Array, angular_velocity: Array | None, ahead: float = 0.0) -> TipRate:

@@ -69,7 +69,7 @@ def read_table(path: str | Path, key: str) -> Table:
     rows = [(number, row) for number, row in enumerate(cells, start=at + 2) if any(row)]
     header = _names(lines[at]) if key in _names(lines[at]) else [cell.strip() for cell in lines[at].split(separator)]
     for number, row in rows:
-        if any(row[len(header) :]):
+        if key in header and any(row[len(header) :]):
             hint = hint_of_row(row, len(header)) if separator == "," else ""
             raise FileError(path, f"row {number} has {len(row)} cells, the header {len(header)}{hint}")
     if separator != "," and not any("." in cell and _is_number(cell) for _, row in rows for cell in row):
