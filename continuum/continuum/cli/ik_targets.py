@@ -14,6 +14,7 @@ from continuum.arrays import Array
 from continuum.errors import FileError, InvalidValueError
 from continuum.kinematics.ik_target import Target, Targets
 from continuum.number_checks import finite_of_shape
+from continuum.recordings.csv_layout import is_number
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,?\d+([eE][+-]?\d+)?")
 _BROKEN = re.compile(r"[+-]?\d+,\d+")
@@ -53,7 +54,7 @@ def read_targets(path: str) -> Targets:
             )
     words = {k: _words(line.partition("#")[0]) for k, line in enumerate(lines, start=1)}
     written = [(k, row) for k, row in words.items() if row and not row[0].startswith("sep=")]
-    if written and not _is_number(written[0][1][0]):
+    if written and not is_number(written[0][1][0]):
         (k, heading), *written = written
         order = _order(path, k, heading)
         for k, row in written:
@@ -79,14 +80,6 @@ def _words(line: str) -> list[str]:
         if len(cells) > 1 and all(_DECIMAL_COMMA.fullmatch(cell) for cell in cells):
             return [cell.replace(",", ".") for cell in cells]
     return line.replace(";", " ").replace(",", " ").split()
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
 
 
 def _order(path: str, k: int, heading: list[str]) -> list[int]:

@@ -18,9 +18,7 @@ RATES = (1, 4, 10, 12, 15, 20, 30, 60, 120)
 """Readings a second that a DOT can store."""
 
 _UNITS = (1, 100)  # microseconds that a tick may be
-_NEAR = (
-    0.02  # by which a clock's rate may be off: crystals are within 1e-4, whole ticks of 100 us at 120 Hz within 6e-3
-)
+_NEAR = 0.02  # by which a rate may be off: crystals are within 1e-4, whole ticks of 100 us at 120 Hz within 6e-3
 _UNEVEN = 0.1  # of a step, beyond which a stamp is not its reading's
 _FEW = 8  # steps, fewer of which tell nothing
 
@@ -67,5 +65,4 @@ def _fits(steps: NDArray[np.int64], rate: float) -> bool:
     """Whether most steps [us] are those of a rate [1/s], or whole multiples where readings were lost."""
     counts = steps * rate / 1e6
     wrong = np.abs(counts - np.rint(counts)) > _UNEVEN
-    one = np.median(counts)
-    return bool(np.mean(wrong) < 0.5 * _UNEVEN and abs(one / max(np.rint(one), 1) - 1) < _NEAR and np.rint(one) == 1)
+    return bool(np.mean(wrong) < 0.5 * _UNEVEN and abs(np.median(counts) - 1) < _NEAR)

@@ -11,7 +11,7 @@ _NAMES = "t_s, q1_deg .. or q1_rad .., and where there are any dq1_deg_s .., u1_
 
 def problem_of_header(header: Sequence[str]) -> str:
     """What the first row is or has, in words; empty where it may be one of names between commas."""
-    if all(map(_is_number, header)):
+    if all(map(is_number, header)):
         return f"holds numbers; the first row must be the header, with the names of the columns: {_NAMES}"
     return ""
 
@@ -24,10 +24,11 @@ def hint_of_row(values: Sequence[str], n_columns: int) -> str:
 
 def hint_of_cell(cell: str) -> str:
     """To be added where a cell is no number; empty where nothing is to be guessed."""
-    return "; decimals must be separated by '.'" if _is_number(cell.replace(",", ".")) else ""
+    return "; decimals must be separated by '.'" if is_number(cell.replace(",", ".")) else ""
 
 
-def _is_number(cell: str) -> bool:
+def is_number(cell: str) -> bool:
+    """Whether a cell can be read as a number."""
     try:
         float(cell)
     except ValueError:

@@ -1,8 +1,7 @@
 """Tables of numbers in text files, however another program wrote them: one reader for all of them.
 
-The names of the columns stand in the first line that has the one that every such table has. What stands before
-it are remarks.
-Columns stand between commas, semicolons or tabs; where they are not between commas, decimals may have commas.
+The names of the columns stand in the first line that has the one that every such table has; what stands before
+it are remarks. Columns stand between commas, semicolons or tabs; where these are not commas, decimals may have some.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from continuum.errors import FileError
-from continuum.recordings.csv_layout import hint_of_row
+from continuum.recordings.csv_layout import hint_of_row, is_number
 
 SEPARATORS = ",;\t"
 _LONGEST_HEAD = 50  # lines before the columns' names
@@ -72,7 +71,7 @@ def read_table(path: str | Path, key: str) -> Table:
         if key in header and any(row[len(header) :]):
             hint = hint_of_row(row, len(header)) if separator == "," else ""
             raise FileError(path, f"row {number} has {len(row)} cells, the header {len(header)}{hint}")
-    if separator != "," and not any("." in cell and _is_number(cell) for _, row in rows for cell in row):
+    if separator != "," and not any("." in cell and is_number(cell) for _, row in rows for cell in row):
         rows = [(number, [cell.replace(",", ".") for cell in row]) for number, row in rows]
     before = [[cell.strip() for cell in line.split(separator)] for line in lines[:at]]
     numbers = np.array([number for number, _ in rows], dtype=np.int64)
@@ -102,11 +101,3 @@ def _separator(line: str) -> str:
 def _names(line: str) -> list[str]:
     """Names of columns in a line, which may be marked as a remark."""
     return [cell.strip().strip('"') for cell in line.lstrip("#% ").split(_separator(line))]
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
