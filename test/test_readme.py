@@ -35,14 +35,14 @@ WAYS: dict[str, Way] = {
     "make bench-demo": Checked("test/test_bench_demo.py"),
     "source install/setup.bash": Run(),
     "mkdir -p out": Run(leaves=("out",)),
-    "ros2 launch trajectory_generator helix.launch.xml": Run(
+    "ros2 launch trajectory_generator arm.launch.py trajectory:=helix.yaml": Run(
         stays=True, nodes=(*THREE, "recorder"), hears=(("/cable_states", 150),), leaves=("out/run/metadata.yaml",)
     ),
     "ros2 topic echo /cable_states": Run(stays=True, says=("section_3_cable_4",)),
     "continuum report": Run(  # Ctrl-C comes long before the end of the helix, and cuts what is on its way then
         after_ctrl_c=True, says=(r"poses reached +[1-9]\d\d",), leaves=("out/report/cables.png",)
     ),
-    "ros2 launch continuum_manipulator three_sections.launch.xml": Run(stays=True, nodes=THREE),
+    "ros2 launch trajectory_generator arm.launch.py": Run(stays=True, nodes=THREE),
     "ros2 bag record /cable_states": Run(stays=True, listens="/cable_states", leaves=("rosbag2_*/metadata.yaml",)),
     "ros2 topic pub --once -w 1 /traj_pose": Run(hears=(("/joint_states", 1), ("/cable_states", 1))),
     "continuum info": Run(says=("section_3",)),

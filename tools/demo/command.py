@@ -30,9 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
     )
     parser = argparse.ArgumentParser(prog="make demo ARGS=...", description=tools.demo.__doc__)
     parser.add_argument("--trajectory", type=Path, default=trajectory, metavar="FILE.yaml", help="default: %(default)s")
-    parser.add_argument(
-        "--arm", type=Path, default=arm, metavar="ARM.yaml", help="three sections; default: %(default)s"
-    )
+    parser.add_argument("--arm", type=Path, default=arm, metavar="ARM.yaml", help="default: %(default)s")
     parser.add_argument("--out", type=Path, default=Path("out/demo"), metavar="FOLDER", help="default: %(default)s")
     parser.add_argument("--view", action="store_true", help="show the arm in a browser, as with make demo VIEW=1")
     options = parser.parse_args(arguments)

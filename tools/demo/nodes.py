@@ -20,12 +20,12 @@ _DEATH = re.compile(r"^\[ERROR\] \[(?P<label>[^\]]+)\]: process has died \[pid \
 
 
 def run_nodes(trajectory_file: Path, arm_file: Path, out: Path, domain: int, n_poses: int) -> bool:
-    """Run `helix.launch.xml` with its recorder until all poses have become cable states; True if they did.
+    """Run `arm.launch.py` with its recorder until all poses have become cable states; True if they did.
 
     Raises:
         DemoError: a node died, or the launch ended.
     """
-    command = ["ros2", "launch", "trajectory_generator", "helix.launch.xml"]
+    command = ["ros2", "launch", "trajectory_generator", "arm.launch.py"]
     files = {"arm": arm_file.resolve(), "trajectory": trajectory_file.resolve(), "record": out / "recording"}
     command += [f"{name}:={path}" for name, path in files.items()]
     log_file = out / "nodes.log"

@@ -15,8 +15,8 @@ what you can do next:
   continuum diagnose run_1.csv run_2.csv       what the simulation gets wrong about recordings, and why
   continuum report RECORDING --arm ARM.yaml    tracking error, cable rates and losses of a recorded run
 
-  ros2 launch continuum_manipulator three_sections.launch.xml     the nodes of an arm of three sections
-  ros2 launch trajectory_generator helix.launch.xml               the same, following the thesis's helix
+  ros2 launch trajectory_generator arm.launch.py                  the nodes of an arm
+  ros2 launch trajectory_generator arm.launch.py trajectory:=helix.yaml   the same, following the thesis's helix
   ros2 launch continuum_manipulator dynamics.launch.xml           a simulated arm that tension commands pull
   ros2 bag record /cable_states                                   record what the cables do
 

@@ -1,1 +1,1 @@
-"""XML launch files: read, evaluated, and run; the same files run under the stock launch."""
+"""Launch files, in XML and in small part in Python: read, evaluated, and run; the stock launch runs them alike."""

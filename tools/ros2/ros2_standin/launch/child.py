@@ -51,11 +51,15 @@ class Child:
 
     Args:
         label: its name with its number in the launch.
+
+    Attributes:
+        returncode: of its last end, negative after a signal.
     """
 
     def __init__(self, spec: ProcessSpec, label: str, screen: Screen) -> None:
         self.spec = spec
         self.label = label
+        self.returncode = 0
         self._screen = screen
         self._process: subprocess.Popen[bytes] | None = None
         self._stopping = asyncio.Event()
@@ -98,7 +102,7 @@ class Child:
         await _end_of(process)
         # Helpers that it left behind end with it; its number, not yet given back, still names their group alone.
         self._send(signal.SIGKILL)
-        code = process.wait()
+        self.returncode = code = process.wait()
         _, late = await asyncio.wait(readers, timeout=_LEFTOVER_TIME)
         for reader in late:
             reader.cancel()

@@ -8,7 +8,8 @@ import dataclasses
 from pathlib import Path
 
 from ros2_standin.errors import UserError
-from ros2_standin.launch.interpreter import Argument, Interpreter
+from ros2_standin.launch.argument import Argument
+from ros2_standin.launch.interpreter import Interpreter
 from ros2_standin.launch.parameter_values import ParameterFiles
 from ros2_standin.launch.processes import LogLine
 from ros2_standin.launch.supervisor import supervise
@@ -65,7 +66,7 @@ def launch_verb(args: argparse.Namespace) -> int:
             return 0
         for name in given.keys() - interpreter.arguments.keys():
             steps.insert(0, LogLine("warning", f"the launch file has no argument '{name}'"))
-        return asyncio.run(supervise(steps))
+        return asyncio.run(supervise(steps, interpreter.exit_handlers))
 
 
 def find_launch_file(first: str, words: list[str]) -> tuple[Path, list[str]]:
@@ -80,11 +81,12 @@ def find_launch_file(first: str, words: list[str]) -> tuple[Path, list[str]]:
     """
     if Path(first).is_file():
         return Path(first), words
-    if "/" in first or first.endswith(".xml"):
+    if "/" in first or first.endswith((".xml", ".py")):
         raise UserError(f"No launch file '{first}'")
     share = package_share(first)
     if not words or ":=" in words[0]:
-        names = ", ".join(sorted(path.name for path in share.rglob("*.launch.xml"))) or "none"
+        files = [path.name for path in share.rglob("*.launch.*") if path.suffix in (".xml", ".py")]
+        names = ", ".join(sorted(files)) or "none"
         raise UserError(f"A launch file name is required after the package; '{first}' has: {names}")
     found = sorted(path for path in share.rglob(words[0]) if path.is_file())
     if len(found) != 1:

@@ -1,4 +1,4 @@
-"""Evaluates a launch file, tag by tag, to the list of processes and log lines that it asks for."""
+"""Evaluates launch files, tag by tag or entity by entity, to the processes and log lines that they ask for."""
 
 from __future__ import annotations
 
@@ -9,9 +9,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ros2_standin.errors import UserError
+from ros2_standin.launch.argument import Argument
 from ros2_standin.launch.parameter_values import ParameterFiles, parameter_tree
 from ros2_standin.launch.process_tags import CONDITIONS, executable_process, node_process
 from ros2_standin.launch.processes import LogLine, ProcessSpec
+from ros2_standin.launch.python_api import LaunchContext, ProcessExited
+from ros2_standin.launch.python_entities import evaluate
 from ros2_standin.launch.scope import Scope
 from ros2_standin.launch.substitution import expand, truth
 from ros2_standin.launch.xml_tree import Element, PlacedError, read_xml
@@ -20,16 +23,6 @@ _DEEPEST = 50
 """Depth of includes that can only be a circle."""
 
 _LOG_LEVELS = ("debug", "info", "warning", "error")
-
-
-@dataclass
-class Argument:
-    """One ``arg`` of a launch file."""
-
-    name: str
-    default: str | None
-    description: str
-    choices: list[str]
 
 
 @dataclass
@@ -42,6 +35,7 @@ class Interpreter:
         only_arguments: collect the arguments and start nothing; a missing one is no error then.
         arguments: every ``arg`` that was met, by name.
         steps: processes and log lines in their order.
+        exit_handlers: functions of Python launch files that are called whenever a process has ended.
     """
 
     files: ParameterFiles
@@ -49,6 +43,7 @@ class Interpreter:
     only_arguments: bool = False
     arguments: dict[str, Argument] = field(default_factory=dict)
     steps: list[ProcessSpec | LogLine] = field(default_factory=list)
+    exit_handlers: list[Callable[[ProcessExited, LaunchContext], object]] = field(default_factory=list)
     _depth: int = 0
 
     def run(self, file: Path) -> None:
@@ -57,22 +52,29 @@ class Interpreter:
         Raises:
             UserError: something in it is wrong or not covered; names file, line and tag.
         """
-        self._file(file, Scope(dict(os.environ), file, dict(self.given)))
+        self.file(file, Scope(dict(os.environ), file, dict(self.given)))
 
-    def _file(self, file: Path, scope: Scope) -> None:
-        if not file.name.endswith(".xml"):
-            raise UserError(f"{file}: only XML launch files (.launch.xml) are covered by this stand-in")
-        root = read_xml(file)
-        if root.tag != "launch":
-            raise root.error("is not the tag that a launch file begins with; allowed: launch")
-        root.check(("version",), _TAGS)
+    def file(self, file: Path, scope: Scope) -> None:
+        """Evaluate a launch file within a scope."""
         previous, scope.file = scope.file, file.absolute()
         self._depth += 1
         if self._depth > _DEEPEST:
             raise UserError(f"{file}: includes go round in a circle")
-        self._tags(root.children, scope)
+        if file.name.endswith(".xml"):
+            self._xml_file(file, scope)
+        elif file.name.endswith(".py"):
+            evaluate(self, file, scope)
+        else:
+            raise UserError(f"{file}: this stand-in covers launch files in XML and, in small part, in Python")
         self._depth -= 1
         scope.file = previous
+
+    def _xml_file(self, file: Path, scope: Scope) -> None:
+        root = read_xml(file)
+        if root.tag != "launch":
+            raise root.error("is not the tag that a launch file begins with; allowed: launch")
+        root.check(("version",), _TAGS)
+        self._tags(root.children, scope)
 
     def _tags(self, elements: list[Element], scope: Scope) -> None:
         for element in elements:
@@ -95,17 +97,25 @@ class Interpreter:
         default = element.attributes.get("default")
         default = None if default is None else expand(default, scope)
         choices = [expand(choice.required("value"), scope) for choice in element.children]
-        argument = Argument(name, default, expand(element.attributes.get("description", ""), scope), choices)
+        self.declare(Argument(name, default, expand(element.attributes.get("description", ""), scope), choices), scope)
+
+    def declare(self, argument: Argument, scope: Scope) -> None:
+        """Take an argument up, and give it its default where it has no value.
+
+        Raises:
+            UserError: it has neither, or a value that is not among its choices.
+        """
+        name = argument.name
         if self._depth == 1 or name not in scope.variables:
             self.arguments.setdefault(name, argument)
         if name not in scope.variables:
-            if default is None and not self.only_arguments:
+            if argument.default is None and not self.only_arguments:
                 given = ", ".join(self.given) or "none"
                 about = f" (description: {argument.description!r})" if argument.description else ""
-                raise element.error(f"lacks a value: missing required argument '{name}'{about}, given: {given}")
-            scope.variables[name] = default or ""
-        if choices and scope.variables[name] not in choices and not self.only_arguments:
-            raise element.error(f"'{name}' is {scope.variables[name]!r}; allowed: {', '.join(choices)}")
+                raise UserError(f"lacks a value: missing required argument '{name}'{about}, given: {given}")
+            scope.variables[name] = argument.default or ""
+        if argument.choices and scope.variables[name] not in argument.choices and not self.only_arguments:
+            raise UserError(f"'{name}' is {scope.variables[name]!r}; allowed: {', '.join(argument.choices)}")
 
     def _let(self, element: Element, scope: Scope) -> None:
         element.check(("name", "value", *CONDITIONS))
@@ -128,7 +138,7 @@ class Interpreter:
         for child in element.children:
             child.check(("name", "value"))
             scope.variables[expand(child.required("name"), scope)] = expand(child.required("value"), scope)
-        self._file(file, scope)
+        self.file(file, scope)
 
     def _node(self, element: Element, scope: Scope) -> None:
         if not self.only_arguments:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from ros2_standin.launch.parameter_values import ParameterFiles, parameter_tree
@@ -19,7 +20,8 @@ _PROCESS = (
 )  # fmt: skip
 _NODE = (*_PROCESS, "pkg", "exec", "name", "exec_name", "namespace", "args", "ros_args")
 _EXECUTABLE = (*_PROCESS, "cmd", "name", "shell")
-_OUTPUTS = {"screen": (True, True), "both": (True, True), "log": (False, True), "own_log": (False, False)}
+OUTPUTS = {"screen": (True, True), "both": (True, True), "log": (False, True), "own_log": (False, False)}
+"""Which of stdout and stderr each value of ``output`` shows."""
 
 
 def node_process(node: Element, scope: Scope, files: ParameterFiles) -> ProcessSpec:
@@ -32,15 +34,24 @@ def node_process(node: Element, scope: Scope, files: ParameterFiles) -> ProcessS
     program = package_executable(expand(node.required("pkg"), scope), expand(node.required("exec"), scope))
     name = expand(node.attributes.get("name", ""), scope)
     namespace = join_namespaces(scope.namespace, expand(node.attributes.get("namespace", ""), scope))
-    ros_args = [*_words(node, "ros_args", scope)]
-    ros_args += ["-r", f"__node:={name}"] if name else []
-    ros_args += ["-r", f"__ns:={namespace}"] if namespace else []
-    for file in _parameter_files(node, scope, files, f"{namespace}/{name}" if name else "/**"):
-        ros_args += ["--params-file", str(file)]
-    for source, target in [*scope.remaps, *(_pair(child, scope) for child in node.children if child.tag == "remap")]:
-        ros_args += ["-r", f"{source}:={target}"]
+    parameters = _parameter_files(node, scope, files, f"{namespace}/{name}" if name else "/**")
+    remaps = [*scope.remaps, *(_pair(child, scope) for child in node.children if child.tag == "remap")]
+    ros_args = [*_words(node, "ros_args", scope), *ros_arguments(name, namespace, parameters, remaps)]
     command = [str(program), *_words(node, "args", scope), "--ros-args", *ros_args]
     return _process(node, scope, expand(node.attributes.get("exec_name", program.name), scope), command)
+
+
+def ros_arguments(
+    name: str, namespace: str, parameters: Iterable[Path], remaps: Iterable[tuple[str, str]]
+) -> list[str]:
+    """Words after ``--ros-args`` that give a node its name, namespace, parameter files and remaps (from, to)."""
+    words = ["-r", f"__node:={name}"] if name else []
+    words += ["-r", f"__ns:={namespace}"] if namespace else []
+    for file in parameters:
+        words += ["--params-file", str(file)]
+    for source, target in remaps:
+        words += ["-r", f"{source}:={target}"]
+    return words
 
 
 def executable_process(executable: Element, scope: Scope) -> ProcessSpec:
@@ -70,8 +81,8 @@ def _process(element: Element, scope: Scope, name: str, command: list[str]) -> P
         return found
 
     output, on_exit, limit = value("output", "log"), value("on_exit", ""), value("respawn_max_retries", "-1")
-    if output not in _OUTPUTS:
-        raise element.error(f"has output={output!r}; allowed: {', '.join(_OUTPUTS)}")
+    if output not in OUTPUTS:
+        raise element.error(f"has output={output!r}; allowed: {', '.join(OUTPUTS)}")
     if on_exit not in ("", "shutdown"):
         raise element.error(f"has on_exit={on_exit!r}; allowed: shutdown")
     if not limit.removeprefix("-").isdigit():
@@ -81,7 +92,7 @@ def _process(element: Element, scope: Scope, name: str, command: list[str]) -> P
         if child.tag == "env":
             child.check(("name", "value"))
             environment[expand(child.required("name"), scope)] = expand(child.required("value"), scope)
-    stdout, stderr = _OUTPUTS[output]
+    stdout, stderr = OUTPUTS[output]
     return ProcessSpec(
         name=name,
         command=[*_words(element, "launch-prefix", scope), *command],

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import signal
+from collections.abc import Callable, Iterable
 
+from ros2_standin.errors import UserError
 from ros2_standin.launch.child import Child
 from ros2_standin.launch.processes import LogLine, ProcessSpec
+from ros2_standin.launch.python_api import LaunchContext, ProcessExited
+from ros2_standin.launch.python_file import errors_told
 from ros2_standin.launch.screen import Screen
 
 _SIGNALS = {
@@ -16,17 +20,22 @@ _SIGNALS = {
 }
 
 
-async def supervise(steps: list[ProcessSpec | LogLine]) -> int:
+ExitHandler = Callable[[ProcessExited, LaunchContext], object]
+
+
+async def supervise(steps: list[ProcessSpec | LogLine], exit_handlers: Iterable[ExitHandler] = ()) -> int:
     """Start everything, pass its lines on, and end when the last process ends, or all of them when asked to.
 
     Returns:
-        0, also after an interrupt or the death of a process, as the stock launch; 1 if a process could not be started.
+        0, also after an interrupt or the death of a process, as the stock launch; 1 if a process could not be started,
+        or a handler raised something, which ends the launch.
     """
-    return await _Supervisor().run(steps)
+    return await _Supervisor(exit_handlers).run(steps)
 
 
 class _Supervisor:
-    def __init__(self) -> None:
+    def __init__(self, exit_handlers: Iterable[ExitHandler]) -> None:
+        self._exit_handlers = exit_handlers
         self._ending = asyncio.Event()
         self._screen = Screen(on_broken=self._ending.set)
         self._failed = False
@@ -68,6 +77,25 @@ class _Supervisor:
             self._failed = True
             self._screen.say("error", "launch", f"'{child.spec.line}' cannot be started: {error.strerror or error}")
             self._ending.set()
-        elif child.spec.ends_launch and not self._ending.is_set():
+            return
+        try:
+            self._tell_exit(child)
+        except UserError as error:
+            self._failed = True
+            self._screen.say("error", "launch", str(error))
+            self._ending.set()
+        if child.spec.ends_launch and not self._ending.is_set():
             self._screen.say("info", "launch", f"process[{child.label}] was required: shutting down launched system")
             self._ending.set()
+
+    def _tell_exit(self, child: Child) -> None:
+        """Call the launch files' handlers.
+
+        Raises:
+            UserError: one of them raised something.
+        """
+        event = ProcessExited(child.label, child.returncode)
+        context = LaunchContext(is_shutdown=self._ending.is_set())
+        with errors_told():
+            for handle in self._exit_handlers:
+                handle(event, context)

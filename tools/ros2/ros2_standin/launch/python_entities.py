@@ -1,0 +1,58 @@
+"""Entities of Python launch files, evaluated in their order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ros2_standin.errors import UserError
+from ros2_standin.launch.argument import Argument
+from ros2_standin.launch.python_api import (
+    DeclareLaunchArgument,
+    IncludeLaunchDescription,
+    LaunchContext,
+    Node,
+    OpaqueFunction,
+    RegisterEventHandler,
+)
+from ros2_standin.launch.python_file import errors_told, load, python_node
+from ros2_standin.launch.scope import Scope
+
+if TYPE_CHECKING:
+    from ros2_standin.launch.interpreter import Interpreter
+
+
+def evaluate(interpreter: Interpreter, file: Path, scope: Scope) -> None:
+    """Hand what a Python launch file asks for to the interpreter.
+
+    Raises:
+        UserError: something in it is wrong or not covered.
+    """
+    _evaluate(load(file).initial_entities, interpreter, scope)
+
+
+def _evaluate(entities: Iterable[object], interpreter: Interpreter, scope: Scope) -> None:
+    for entity in entities:
+        match entity:
+            case DeclareLaunchArgument():
+                interpreter.declare(_argument(entity), scope)
+            case _ if interpreter.only_arguments:
+                pass
+            case OpaqueFunction():
+                with errors_told():
+                    further = entity.function(LaunchContext(scope.variables)) or ()
+                _evaluate(further, interpreter, scope)
+            case RegisterEventHandler():
+                interpreter.exit_handlers.append(entity.event_handler.on_exit)
+            case IncludeLaunchDescription():
+                scope.variables.update(entity.launch_arguments)
+                interpreter.file(Path(entity.launch_description_source.launch_file_path), scope)
+            case Node():
+                interpreter.steps.append(python_node(entity, scope, interpreter.files))
+            case _:
+                raise UserError(f"{scope.file}: {type(entity).__name__} is not covered here")
+
+
+def _argument(entity: DeclareLaunchArgument) -> Argument:
+    return Argument(entity.name, entity.default_value, entity.description or "", list(entity.choices or ()))

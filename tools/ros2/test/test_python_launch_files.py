@@ -1,0 +1,175 @@
+"""Python launch files: what is covered is stock's, what they ask for, and that their errors are one line."""
+
+import ast
+import dataclasses
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+from ros2_standin.errors import UserError
+from ros2_standin.launch import python_api
+from ros2_standin.launch.interpreter import Interpreter
+from ros2_standin.launch.parameter_values import ParameterFiles
+
+SHIPPED = sorted(Path(__file__).parents[3].glob("*/launch/*.launch.py"))
+
+STOCK = {
+    "launch.LaunchContext": ("launch_configurations", "is_shutdown"),
+    "launch.LaunchDescription": ("initial_entities",),
+    "launch.actions.DeclareLaunchArgument": ("name", "default_value", "description", "choices"),
+    "launch.actions.IncludeLaunchDescription": ("launch_description_source", "launch_arguments"),
+    "launch.actions.OpaqueFunction": ("function", "args", "kwargs"),
+    "launch.actions.RegisterEventHandler": ("event_handler",),
+    "launch.event_handlers.OnProcessExit": ("target_action", "on_exit"),
+    "launch.events.process.ProcessExited": ("action", "name", "cmd", "cwd", "env", "pid", "returncode", "process_name"),
+    "launch.launch_description_sources.AnyLaunchDescriptionSource": ("launch_file_path",),
+    "launch_ros.actions.Node": (
+        "executable", "package", "name", "namespace", "exec_name", "parameters", "remappings", "ros_arguments",
+        "arguments", "output", "respawn", "respawn_delay", "on_exit", "emulate_tty", "sigterm_timeout",
+        "sigkill_timeout", "condition", "cwd", "env", "additional_env", "prefix",
+    ),
+    "launch_ros.parameter_descriptions.ParameterValue": ("value", "value_type"),
+}  # fmt: skip
+"""Arguments, and of contexts and events the properties, that the documentation of Jazzy's launch (3.4) and launch_ros
+(0.26) gives these classes."""
+
+
+@pytest.fixture
+def evaluate(tmp_path: Path, program, ros2, monkeypatch: pytest.MonkeyPatch):
+    """Evaluate a launch file whose function returns ``entities``; the package ``demo`` has the executable ``talk``."""
+    program("talk", "")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", ros2.environment["AMENT_PREFIX_PATH"])
+    with ParameterFiles() as files:
+
+        def run(entities: str, before: str = "", only_arguments: bool = False, **given: str) -> Interpreter:
+            imports = "".join(
+                f"from {module} import {', '.join(one.__name__ for one in classes)}\n"
+                for module, classes in python_api.MODULES.items()
+                if classes
+            )
+            file = tmp_path / "test.launch.py"
+            file.write_text(
+                f"{imports}{before}\ndef generate_launch_description():\n    return LaunchDescription([{entities}])\n"
+            )
+            interpreter = Interpreter(files, given, only_arguments)
+            interpreter.run(file)
+            return interpreter
+
+        yield run
+
+
+def test_nothing_is_covered_that_stock_does_not_have() -> None:
+    covered = {f"{module}.{one.__name__}": one for module, classes in python_api.MODULES.items() for one in classes}
+    assert covered.keys() == STOCK.keys()
+    for name, one in covered.items():
+        assert {field.name for field in dataclasses.fields(one)} <= set(STOCK[name])
+
+
+@pytest.mark.parametrize("file", SHIPPED, ids=lambda file: file.name)
+def test_launch_files_of_the_workspace_import_what_stock_has(file: Path) -> None:
+    imported = {
+        f"{node.module}.{alias.name}"
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[0] in ("launch", "launch_ros")
+        for alias in node.names
+    }
+    assert imported
+    assert imported <= STOCK.keys()
+
+
+def test_a_function_makes_a_node_of_arguments(evaluate, tmp_path: Path) -> None:
+    given = tmp_path / "given.yaml"
+    given.write_text("{}")
+    found = evaluate(
+        "DeclareLaunchArgument('gain', default_value='1.0'), OpaqueFunction(function=nodes)",
+        f"""
+def nodes(context):
+    gain = float(context.launch_configurations["gain"])
+    text = ParameterValue("$(a) 1", value_type=str)
+    return [
+        Node(package="demo", executable="talk", name="t", exec_name="label", output="screen",
+             parameters=[{str(given)!r}, {{"gain": gain, "text": text, "nodes": ["a", "b"]}}],
+             remappings=[("in", "out")])
+    ]
+""",
+        gain="2.5",
+    )
+    (node,) = found.steps
+    words = node.command[node.command.index("--ros-args") + 1 :]
+    assert words[:4] == ["-r", "__node:=t", "--params-file", str(given)]
+    assert words[-2:] == ["-r", "in:=out"]
+    assert yaml.safe_load(Path(words[5]).read_text()) == {
+        "/t": {"ros__parameters": {"gain": 2.5, "text": "$(a) 1", "nodes": ["a", "b"]}}
+    }
+    assert (node.name, node.stdout_to_screen) == ("label", True)
+
+
+def test_an_xml_file_is_included_with_arguments(evaluate, tmp_path: Path) -> None:
+    part = tmp_path / "part.launch.xml"
+    part.write_text('<launch><arg name="x" default="d"/><log message="$(var x)$(filename)"/></launch>')
+    source = f"AnyLaunchDescriptionSource({str(part)!r})"
+    found = evaluate(f"IncludeLaunchDescription({source}, launch_arguments={{'x': 'given '}}.items())")
+    assert [step.text for step in found.steps] == [f"given {part}"]
+
+
+def test_arguments_are_found_without_calling_functions(evaluate) -> None:
+    found = evaluate("DeclareLaunchArgument('a'), OpaqueFunction(function=None)", only_arguments=True)
+    assert list(found.arguments) == ["a"]
+
+
+def test_the_stock_names_are_free_again_after_loading(evaluate) -> None:
+    before = {name: sys.modules.get(name) for name in python_api.MODULES}
+    evaluate("")
+    assert {name: sys.modules.get(name) for name in python_api.MODULES} == before
+
+
+@pytest.mark.parametrize(
+    ("entities", "problem"),
+    [
+        ("1", "test.launch.py: int is not covered here"),
+        ("Node(package='demo', executable='talk', exec='x')", "Caught exception in launch .*exec"),
+        ("Node(package='demo', executable='nix')", "No executable found.*talk"),
+        ("Node(package='demo', executable='talk', output='loud')", "output='loud'; allowed: screen"),
+        ("Node(package='demo', executable='talk', parameters=['/nix.yaml'])", "'/nix.yaml' does not exist"),
+        ("Node(package='demo', executable='talk', parameters=[{'a': '1'}])", "a is the text '1', .*ParameterValue"),
+        ("OpaqueFunction(function=lambda context: 1 / 0)", "Caught exception in launch .*division by zero"),
+        ("DeclareLaunchArgument('a', choices=['b'], default_value='c')", "'a' is 'c'; allowed: b"),
+        ("DeclareLaunchArgument('a')", "missing required argument 'a'"),
+        ("IncludeLaunchDescription(AnyLaunchDescriptionSource(__file__))", "circle"),
+        ("IncludeLaunchDescription(AnyLaunchDescriptionSource('x.yaml'))", "x.yaml: this stand-in covers"),
+        ("LaunchDescription", "LaunchDescription|type is not covered"),
+        (")", "Caught exception in launch"),
+    ],
+)
+def test_mistakes_are_told_in_one_line(evaluate, entities: str, problem: str) -> None:
+    with pytest.raises(UserError, match=problem) as error:
+        evaluate(entities)
+    assert "\n" not in str(error.value)
+
+
+def test_an_exit_handler_that_raises_ends_the_launch_and_sees_who_ended(ros2, tmp_path: Path) -> None:
+    (tmp_path / "two.launch.xml").write_text(
+        '<launch><executable cmd="sleep 600"/><executable cmd="false" name="short"/></launch>'
+    )
+    file = tmp_path / "test.launch.py"
+    file.write_text("""
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription, RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+def told(event, context):
+    if not context.is_shutdown:
+        raise RuntimeError(f"{event.process_name} gave {event.returncode}")
+
+def generate_launch_description():
+    return LaunchDescription([
+        RegisterEventHandler(OnProcessExit(on_exit=told)),
+        IncludeLaunchDescription(AnyLaunchDescriptionSource("two.launch.xml")),
+    ])
+""")
+    launch = ros2("launch", file, code=1)
+    errors = [line for line in launch.stdout.splitlines() if line.startswith("[ERROR] [launch]")]
+    assert errors == ["[ERROR] [launch]: Caught exception in launch (see debug for traceback): short-2 gave 1"]

@@ -1,0 +1,156 @@
+"""The nodes of an arm, as many sections as its file has; where asked for, a trajectory, a recording and RViz.
+
+    ros2 launch trajectory_generator arm.launch.py arm:=/path/my_arm.yaml
+    ros2 launch trajectory_generator arm.launch.py trajectory:=helix.yaml record:=out/recording
+    ros2 launch trajectory_generator arm.launch.py arm:=prototype.yaml mode:=cables rviz:=true
+
+A trajectory begins when every node runs, and with record:=FOLDER when the recorder listens too. A node that dies, and a
+recorder that cannot begin, end everything with an exit code other than 0. rviz:=true needs robot_state_publisher and
+rviz2 of a ROS desktop installation.
+"""
+
+from pathlib import Path
+
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchContext, LaunchDescription
+from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, OpaqueFunction, RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+from launch.events.process import ProcessExited
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+
+from continuum.arm import load_arm
+
+BOOLEANS = ("true", "false", "True", "False")
+
+REMAPS = {
+    "inverse_kinematics": {"robot": {}, "section": {}, "cable_tangler": {}},
+    "cables": {
+        "robot": {"joint_states": "joint_commands"},
+        "section": {"joint_states": "joint_commands", "section_joint_states": "joint_states"},
+        "cable_tangler": {"cable_states": "cable_commands"},
+    },
+}
+"""Topics by mode and executable. With cables, joints are not those that were solved for, but those that the commanded
+cables give."""
+
+MAY_END = ("trajectory_publisher", "rviz2")
+"""Processes that others do without, as long as they end well."""
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Arguments first; the rest depends on the arm's file."""
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                "arm",
+                default_value="three_sections.yaml",
+                description="parameter file of the arm, or the name of one of continuum_description",
+            ),
+            DeclareLaunchArgument(
+                "mode",
+                default_value="inverse_kinematics",
+                choices=list(REMAPS),
+                description="what the joints follow: poses of the tip, or through them the commanded lengths of cables",
+            ),
+            DeclareLaunchArgument(
+                "trajectory",
+                default_value="",
+                description="parameter file of a trajectory, or the name of one of trajectory_generator; empty: none",
+            ),
+            DeclareLaunchArgument(
+                "record",
+                default_value="",
+                description="folder for a rosbag2 recording of every topic; empty: none",
+            ),
+            DeclareLaunchArgument(
+                "target",
+                default_value="position",
+                choices=["position", "position_direction"],
+                description="what of a pose the tip follows",
+            ),
+            DeclareLaunchArgument(
+                "markers", default_value="true", choices=BOOLEANS, description="markers of cables and curvature"
+            ),
+            DeclareLaunchArgument("rviz", default_value="false", choices=BOOLEANS, description="RViz with the arm"),
+            DeclareLaunchArgument(
+                "use_sim_time", default_value="false", choices=BOOLEANS, description="take the time from /clock"
+            ),
+            RegisterEventHandler(OnProcessExit(on_exit=miss)),
+            OpaqueFunction(function=nodes),
+        ]
+    )
+
+
+def miss(event: ProcessExited, context: LaunchContext) -> None:
+    """End everything when a process ends that the others need."""
+    name = event.process_name.rpartition("-")[0]
+    if not context.is_shutdown and (event.returncode != 0 or name not in MAY_END):
+        raise RuntimeError(f"{name} ended with exit code {event.returncode}, so the launch ends; it said why above")
+
+
+def nodes(context: LaunchContext) -> list[Node | IncludeLaunchDescription]:
+    """Everything that runs.
+
+    Raises:
+        ContinuumError: the arm's file is not right.
+    """
+    given = context.launch_configurations
+    arm_file = file_of(given["arm"], "continuum_description")
+    numbers = range(1, load_arm(arm_file).n_sections + 1)
+    remaps = REMAPS[given["mode"]]
+    clock = {"use_sim_time": is_true(given["use_sim_time"])}
+
+    def node(executable: str, name: str, *parameters: str | dict, package: str = "continuum_manipulator") -> Node:
+        return Node(
+            package=package,
+            executable=executable,
+            name=name,
+            exec_name=name,
+            output="screen",
+            parameters=[*parameters, clock],
+            remappings=list(remaps.get(executable, {}).items()),
+        )
+
+    started = [node("section", f"section_{number}", arm_file, {"section": number}) for number in numbers]
+    started += [node("robot", "robot", arm_file, {"target": given["target"]})]
+    started += [node("cable_tangler", "cable_tangler", arm_file)]
+    needed = [*(f"section_{number}" for number in numbers), "robot", "cable_tangler"]
+    if is_true(given["markers"]):
+        started += [node("markers", "markers", arm_file)]
+    if given["record"]:
+        folder = ParameterValue(str(Path(given["record"]).expanduser().absolute()), value_type=str)
+        started += [node("recorder", "recorder", {"output": folder})]
+        needed += ["recorder"]
+    if given["trajectory"]:
+        file = file_of(given["trajectory"], "trajectory_generator")
+        listeners = 2 if given["record"] else 1
+        start = {"wait_for_nodes": needed, "subscribers": listeners, "settle_time": 1.0, "wait_timeout": 3600.0}
+        started += [node("trajectory_publisher", "trajectory_publisher", file, start, package="trajectory_generator")]
+    if is_true(given["rviz"]):
+        display = Path(get_package_share_directory("continuum_description")) / "launch" / "display.launch.xml"
+        arguments = {"arm": arm_file, "gui": "false", "rviz": "true", "use_sim_time": given["use_sim_time"]}
+        started += [
+            IncludeLaunchDescription(AnyLaunchDescriptionSource(str(display)), launch_arguments=arguments.items())
+        ]
+    return started
+
+
+def file_of(text: str, package: str) -> str:
+    """Absolute path of a file, or of the one of this name that comes with the package.
+
+    Raises:
+        RuntimeError: there is neither.
+    """
+    shipped = Path(get_package_share_directory(package)) / "config"
+    for path in (Path(text).expanduser().absolute(), shipped / text):
+        if path.is_file():
+            return str(path)
+    names = ", ".join(sorted(path.name for path in shipped.glob("*.yaml")))
+    raise RuntimeError(f"{text!r} is no file; {package} has: {names}")
+
+
+def is_true(text: str) -> bool:
+    """One of `BOOLEANS` as a truth value."""
+    return text.lower() == "true"
