@@ -10,6 +10,7 @@ from continuum.arm import load_arm
 from continuum.errors import InvalidValueError
 from continuum.kinematics.cable_lines import cable_lines
 from continuum.kinematics.chain import arm_pose, section_tip_poses
+from continuum.kinematics.configuration import allen_from_jones
 from continuum.kinematics.routing import tangle
 from continuum.viewer.cable_holes import CableHoles
 from continuum.viewer.description import arm_description
@@ -48,20 +49,36 @@ def test_a_joint_with_an_angle_of_its_own_follows_none():
 
 
 @pytest.mark.parametrize("n", [1, 3, 10])
-def test_cables_are_the_lines_of_the_markers(n):
+def test_cables_are_as_long_as_those_of_the_configuration(n):
     arm, w = usual_arm(n), posture(n, seed=1)
     chain = LinkPoses(arm_description(arm))
     poses = chain.poses(chain.angles(joints_of(w, arm)))
     lengths = dict.fromkeys(arm.cable_names, 0.0)
     for passing in (False, True):
         holes = CableHoles(arm, chain.links, passing)
-        pieces = holes.pieces(poses)
-        lines = [line for line in cable_lines(w, arm) if line.passing is passing]
-        wanted = [pair for line in lines for pair in zip(line.points, line.points[1:], strict=False)]
-        np.testing.assert_allclose(pieces, np.array(wanted).reshape(-1, 2, 3), atol=EXACT)
-        for name, piece in zip(holes.cables, pieces, strict=True):
+        for name, piece in zip(holes.cables, holes.pieces(poses), strict=True):
             lengths[name] += np.linalg.norm(piece[1] - piece[0])
     np.testing.assert_allclose(list(lengths.values()), tangle(w, arm), rtol=EXACT)
+
+
+@pytest.mark.parametrize("n", [1, 3, 10])
+def test_cables_are_the_lines_of_the_markers(n):
+    """At the angles that every joint has for itself: those of the description's chain are the library's."""
+    arm = usual_arm(n)
+    chain = LinkPoses(arm_description(arm))
+    rng = np.random.default_rng(n)
+    phis = rng.uniform(-3.0, 3.0, n)
+    thetas = [rng.uniform(-0.3, 0.4, section.n_joints) for section in arm.sections]
+    named = {section.phi_joint: phi for section, phi in zip(arm.sections, phis, strict=True)}
+    for section, angles in zip(arm.sections, thetas, strict=True):
+        named |= dict(zip(section.theta_joints, angles, strict=True))
+    poses = chain.poses(chain.angles(named))
+    bends = [allen_from_jones(phi, angles) for phi, angles in zip(phis, thetas, strict=True)]
+    for passing in (False, True):
+        pieces = CableHoles(arm, chain.links, passing).pieces(poses)
+        lines = [line for line in cable_lines(bends, arm) if line.passing is passing]
+        wanted = [pair for line in lines for pair in zip(line.points, line.points[1:], strict=False)]
+        np.testing.assert_allclose(pieces, np.array(wanted).reshape(-1, 2, 3), atol=EXACT)
 
 
 @pytest.mark.parametrize("n", [1, 3, 10])

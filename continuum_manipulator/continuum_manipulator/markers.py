@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 
-import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point, Vector3
 from rclpy.clock import Clock
@@ -22,7 +21,7 @@ from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_manipulator.nodekit.qos import REPORT
 from continuum_manipulator.nodekit.stamps import NANOSECONDS
-from continuum_manipulator.section_joints import read_joints, read_names
+from continuum_manipulator.section_joints import read_bends, read_names
 from continuum_manipulator.tip_targets import BASE_FRAME
 
 ARROW_COLOUR = (0.6, 0.0, 0.8)
@@ -31,8 +30,9 @@ ARROW_COLOUR = (0.6, 0.0, 0.8)
 class MarkersNode(CheckedNode):
     """``joint_states`` to ``cable_markers`` and ``section_config_markers``, at most ``rate`` times a second.
 
-    A cable is a line through the holes of the discs, thinner where it only passes a section. A section's rotation
-    vector stands as an arrow at its centre of curvature; a straight section has none.
+    A cable is a line through the holes of the discs, which stand where the angles of the single joints put them; it is
+    thinner where it only passes a section. A section's rotation vector stands as an arrow at its centre of curvature; a
+    straight section has none.
     """
 
     NAME = "markers"
@@ -52,7 +52,7 @@ class MarkersNode(CheckedNode):
 
     def __init__(self) -> None:
         super().__init__()
-        self._configurations: dict[int, Array] = {}
+        self._bends: dict[int, Array] = {}
         self._next = -float("inf")
         self._publish_cables = self.offer(MarkerArray, "cable_markers", REPORT)
         self._publish_arrows = self.offer(MarkerArray, "section_config_markers", REPORT)
@@ -84,20 +84,20 @@ class MarkersNode(CheckedNode):
     def _draw(self, message: JointState) -> None:
         self._held = None
         index = read_names(message)
-        found = {i: read_joints(index, message.position, (), section) for i, section in enumerate(self.arm.sections)}
-        found = {i: state.w for i, state in found.items() if state is not None}
+        read = {i: read_bends(index, message.position, section) for i, section in enumerate(self.arm.sections)}
+        found = {i: bends for i, bends in read.items() if bends is not None}
         if not found:
             raise MessageFault(messages.MISSING_NAME, "no joint of this arm is in the message")
-        self._configurations |= found
-        if len(self._configurations) < self.arm.n_sections:
+        self._bends |= found
+        if len(self._bends) < self.arm.n_sections:
             return
         self._next = time.monotonic() + 1.0 / self.values["rate"]
-        w = np.stack([self._configurations[i] for i in range(self.arm.n_sections)])
-        self._publish_cables(MarkerArray(markers=self._cable_markers(w, message.header.stamp)))
-        self._publish_arrows(MarkerArray(markers=self._arrow_markers(w, message.header.stamp)))
+        bends = [self._bends[i] for i in range(self.arm.n_sections)]
+        self._publish_cables(MarkerArray(markers=self._cable_markers(bends, message.header.stamp)))
+        self._publish_arrows(MarkerArray(markers=self._arrow_markers(bends, message.header.stamp)))
 
-    def _cable_markers(self, w: Array, stamp: Time) -> list[Marker]:
-        return [self._cable_marker(i, line, stamp) for i, line in enumerate(cable_lines(w, self.arm))]
+    def _cable_markers(self, bends: list[Array], stamp: Time) -> list[Marker]:
+        return [self._cable_marker(i, line, stamp) for i, line in enumerate(cable_lines(bends, self.arm))]
 
     def _cable_marker(self, number: int, line: CableLine, stamp: Time) -> Marker:
         marker = _marker("cables", number, Marker.LINE_STRIP, cable_colour(line.colour_index), stamp)
@@ -105,8 +105,8 @@ class MarkersNode(CheckedNode):
         marker.points = _points(line.points)
         return marker
 
-    def _arrow_markers(self, w: Array, stamp: Time) -> list[Marker]:
-        arrows = curvature_arrows(w, self.arm, self.values["arrow_scale"], self.values["longest_radius"])
+    def _arrow_markers(self, bends: list[Array], stamp: Time) -> list[Marker]:
+        arrows = curvature_arrows(bends, self.arm, self.values["arrow_scale"], self.values["longest_radius"])
         markers = []
         for i, arrow in enumerate(arrows):
             marker = _marker("rotation_vectors", i, Marker.ARROW, ARROW_COLOUR, stamp)

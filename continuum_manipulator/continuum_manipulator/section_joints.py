@@ -65,15 +65,11 @@ def read_joints(
     Raises:
         MessageFault: some of the joints are missing, a value is not finite, or the bend is not possible.
     """
-    own = [name for name in joint_names(section) if name in index]
-    if not own:
+    thetas = _theta_names(index, section)
+    if not thetas:
         return None
-    thetas = [name for name in section.theta_joints if name in index]
-    if section.phi_joint not in index or thetas not in (list(section.theta_joints), [section.theta_joints[0]]):
-        missing = [section.phi_joint, *section.theta_joints]
-        missing = [name for name in missing if name not in index]
-        raise MessageFault(messages.MISSING_NAME, f"joints {', '.join(missing)} not in the message")
-    phi, theta = _phi_and_theta("position", index, positions, thetas, section)
+    phi, angles = _phi_and_thetas("position", index, positions, thetas, section)
+    theta = angles.sum()
     if not abs(theta) <= section.contact_bend:
         raise MessageFault(
             messages.REFUSED,
@@ -84,8 +80,19 @@ def read_joints(
     w = allen_from_jones(phi, theta)
     if not len(velocities):
         return Configuration(w, None)
-    phi_rate, theta_rate = _phi_and_theta("velocity", index, velocities, thetas, section)
-    return Configuration(w, allen_rates(phi, theta, phi_rate, theta_rate))
+    phi_rate, rates = _phi_and_thetas("velocity", index, velocities, thetas, section)
+    return Configuration(w, allen_rates(phi, theta, phi_rate, rates.sum()))
+
+
+def read_bends(index: Mapping[str, int], positions: Sequence[float], section: Section) -> Array | None:
+    """Bends (n_joints, 2) [rad] of the section's joints, Allen's (u, v) of each; None where none is in the message.
+
+    Joints that follow the first one are bent as it is. What is refused, and the arguments, are those of
+    :func:`read_joints`.
+    """
+    if read_joints(index, positions, (), section) is None:
+        return None
+    return allen_from_jones(*_phi_and_thetas("position", index, positions, _theta_names(index, section), section))
 
 
 def read_names(message: JointState) -> dict[str, int]:
@@ -102,16 +109,29 @@ def read_names(message: JointState) -> dict[str, int]:
     return messages.positions_by_name(message.name)
 
 
-def _phi_and_theta(
+def _theta_names(index: Mapping[str, int], section: Section) -> list[str]:
+    """The section's theta joints in a message, all or the first alone; none where it has no joint of the section."""
+    if index.keys().isdisjoint(joint_names(section)):
+        return []
+    thetas = [name for name in section.theta_joints if name in index]
+    if section.phi_joint not in index or thetas not in (list(section.theta_joints), [section.theta_joints[0]]):
+        missing = [section.phi_joint, *section.theta_joints]
+        missing = [name for name in missing if name not in index]
+        raise MessageFault(messages.MISSING_NAME, f"joints {', '.join(missing)} not in the message")
+    return thetas
+
+
+def _phi_and_thetas(
     field: str, index: Mapping[str, int], values: Sequence[float], thetas: Sequence[str], section: Section
 ) -> tuple[Array, Array]:
+    """phi, and theta of every joint (n_joints,), also where the first alone is in the message."""
     for name in (section.phi_joint, *thetas):
         if not math.isfinite(values[index[name]]):
             raise MessageFault(
                 messages.NOT_FINITE, f"{field} of {name} is {values[index[name]]}; a finite number is needed"
             )
-    share = section.n_joints / len(thetas)
-    return np.float64(values[index[section.phi_joint]]), share * np.sum([values[index[name]] for name in thetas])
+    found = np.array([values[index[name]] for name in thetas])
+    return np.float64(values[index[section.phi_joint]]), np.repeat(found, section.n_joints // len(thetas))
 
 
 def _spread(phi: Array, theta: Array, section: Section) -> Array:

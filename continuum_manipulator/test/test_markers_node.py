@@ -11,6 +11,8 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from continuum.cable_colours import cable_colour
 from continuum.kinematics.cable_lines import cable_lines
+from continuum.kinematics.configuration import allen_from_jones
+from continuum.kinematics.discs import even_bends
 from continuum_manipulator.nodekit.qos import REPORT
 
 pytestmark = pytest.mark.ros
@@ -32,13 +34,12 @@ def test_markers_show_cables_and_curvature(probe):
     probe.warm_up(lambda: say(joint_state(0, w)), cables, arrows)
     say(joint_state(1, w))
     probe.wait_until(lambda: cables and arrows, "markers")
-    lines = cable_lines(w, ARM)
+    lines = cable_lines([even_bends(bent, section) for bent, section in zip(w, ARM.sections, strict=True)], ARM)
     assert len(cables[0].markers) == len(lines) == 12 + 8 + 4
+    np.testing.assert_allclose(points_of(cables[0]), [line.points for line in lines], atol=1e-12)
     for marker, line in zip(cables[0].markers, lines, strict=True):
         assert marker.header.frame_id == "base_link"
         assert instant_of(marker) == 1
-        points = [(point.x, point.y, point.z) for point in marker.points]
-        np.testing.assert_allclose(points, line.points, atol=1e-12)
         np.testing.assert_allclose(
             [marker.color.r, marker.color.g, marker.color.b], cable_colour(line.colour_index), atol=1e-6
         )
@@ -49,6 +50,30 @@ def test_markers_show_cables_and_curvature(probe):
     assert max(passing) < min(own)
     assert [marker.action for marker in arrows[0].markers] == [Marker.ADD, Marker.DELETE, Marker.ADD]
     assert len({(marker.ns, marker.id) for marker in cables[0].markers + arrows[0].markers}) == 24 + 3
+
+
+def test_cables_go_by_the_angle_of_every_joint(probe):
+    """As the links do in RViz: robot_state_publisher lets a joint that is published follow no other."""
+    cables = probe.hear(MarkerArray, "cable_markers", REPORT)
+    say = probe.speaker(JointState, "joint_states").publish
+    w = postures(1)[0][0]
+    probe.warm_up(lambda: say(joint_state(0, w)), cables)
+    message = joint_state(1, w)
+    rng = np.random.default_rng(3)
+    bends = []
+    for section in ARM.sections:
+        angles = rng.uniform(-0.3, 0.4, section.n_joints)
+        for name, angle in zip(section.theta_joints, angles, strict=True):
+            message.position[message.name.index(name)] = angle
+        bends.append(allen_from_jones(message.position[message.name.index(section.phi_joint)], angles))
+    say(message)
+    probe.wait_until(lambda: cables and instant_of(cables[-1].markers[0]) == 1, "markers")
+    lines = cable_lines(bends, ARM)
+    np.testing.assert_allclose(points_of(cables[-1]), [line.points for line in lines], atol=1e-12)
+
+
+def points_of(markers: MarkerArray) -> list[list[tuple[float, float, float]]]:
+    return [[(point.x, point.y, point.z) for point in marker.points] for marker in markers.markers]
 
 
 def test_last_posture_of_a_burst_is_drawn(domain):

@@ -11,7 +11,7 @@ from continuum.arm import Section
 from continuum.kinematics.configuration import allen_from_jones, allen_rates
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.faults import MessageFault
-from continuum_manipulator.section_joints import Configuration, joint_names, joint_values, read_joints
+from continuum_manipulator.section_joints import Configuration, joint_names, joint_values, read_bends, read_joints
 
 SECTION = Section("s", n_joints=4, b=0.02, a=0.03)
 NAMES = joint_names(SECTION)
@@ -50,6 +50,18 @@ def test_bend_is_the_sum_of_unequal_joints(phi, thetas):
     state = read([SECTION.phi_joint, *SECTION.theta_joints], [phi, *thetas], [0.7, *thetas])
     np.testing.assert_allclose(state.w, allen_from_jones(phi, sum(thetas)), atol=1e-12)
     np.testing.assert_allclose(state.rate, allen_rates(phi, sum(thetas), 0.7, sum(thetas)), atol=1e-12)
+
+
+@given(st.floats(-3, 3), st.lists(st.floats(-0.5, 0.5), min_size=4, max_size=4))
+def test_bends_are_those_of_the_joints(phi, thetas):
+    names = [SECTION.phi_joint, *SECTION.theta_joints]
+    bends = read_bends({name: i for i, name in enumerate(names)}, [phi, *thetas], SECTION)
+    np.testing.assert_allclose(bends, [allen_from_jones(phi, theta) for theta in thetas], atol=1e-15)
+
+
+def test_bends_of_joints_that_follow_are_those_of_the_first():
+    bends = read_bends({SECTION.phi_joint: 0, SECTION.theta_joints[0]: 1}, [0.2, 0.1], SECTION)
+    np.testing.assert_allclose(bends, [allen_from_jones(0.2, 0.1)] * SECTION.n_joints)
 
 
 def test_first_joint_leads_the_others():

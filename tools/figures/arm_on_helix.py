@@ -13,6 +13,7 @@ from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.cable_colours import cable_colour
 from continuum.kinematics.cable_lines import cable_lines
+from continuum.kinematics.discs import even_bends
 from continuum.recordings.arm_recording import ArmRecording
 from tools.figures.posture import backbone, discs
 
@@ -55,6 +56,7 @@ def _draw_posture(axes: Any, w: Array, arm: Arm) -> None:
         )
     )
     axes.plot(*(_MM * backbone(w, arm)).T, color="0.35", linewidth=3.0, zorder=5)
-    for line in cable_lines(w, arm):
+    bends = [even_bends(bent, section) for bent, section in zip(w, arm.sections, strict=True)]
+    for line in cable_lines(bends, arm):
         width = 0.6 if line.passing else 1.4
         axes.plot(*(_MM * line.points).T, color=cable_colour(line.colour_index), linewidth=width, zorder=6)

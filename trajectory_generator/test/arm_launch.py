@@ -1,4 +1,4 @@
-"""The launch file of arms as a process of its own, for tests."""
+"""The launch file of arms as a process, for tests."""
 
 import os
 import signal

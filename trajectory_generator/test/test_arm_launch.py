@@ -47,11 +47,11 @@ def test_a_trajectory_arrives_at_every_section(n_sections, mode, tmp_path):
 
         def everywhere() -> list[tuple[int, int]]:
             """Instants that every section and the whole arm's cables, and with those the joints, tell of."""
-            told = [{stamp_of(m) for m in configurations if m.section == i + 1} for i in range(n_sections)]
-            told.append({stamp_of(message) for message in cables})
+            seen = [{stamp_of(m) for m in configurations if m.section == i + 1} for i in range(n_sections)]
+            seen.append({stamp_of(message) for message in cables})
             parts = n_sections if mode == "cables" else 1
-            told.append({stamp for stamp, count in Counter(map(stamp_of, joints)).items() if count == parts})
-            return sorted(set.intersection(*told))
+            seen.append({stamp for stamp, count in Counter(map(stamp_of, joints)).items() if count == parts})
+            return sorted(set.intersection(*seen))
 
         with launched(domain, tmp_path, *arguments) as launch:
             probe.wait_until(
@@ -119,7 +119,7 @@ def test_a_recorder_that_cannot_begin_ends_the_launch(domain, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "words"),
     [
         (["arm:={folder}/none.yaml"], "{folder}/none.yaml"),
         (["arm:={folder}/bad.yaml"], "{folder}/bad.yaml: arm.sections"),
@@ -128,10 +128,10 @@ def test_a_recorder_that_cannot_begin_ends_the_launch(domain, tmp_path):
         (["trajectory:={folder}/none.yaml"], "{folder}/none.yaml"),
     ],
 )
-def test_a_bad_argument_is_told_in_one_line_and_nothing_runs(arguments, told, domain, tmp_path):
+def test_a_bad_argument_gives_one_line_and_nothing_runs(arguments, words, domain, tmp_path):
     write(tmp_path / "bad.yaml", {"arm": {"sections": []}})
     (tmp_path / "worse.yaml").write_text("{")
     with launched(domain, tmp_path, *(word.format(folder=tmp_path) for word in arguments)) as launch:
         assert launch.exit_code() == 1
         (line,) = launch.said.splitlines()
-        assert told.format(folder=tmp_path) in line
+        assert words.format(folder=tmp_path) in line

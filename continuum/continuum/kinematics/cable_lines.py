@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from continuum.arm import Arm, Section
 from continuum.arrays import Array
-from continuum.kinematics.cables.hole_points import hole_points
-from continuum.kinematics.chain import section_bases
+from continuum.kinematics.cables.hole_points import holes_of_discs
 from continuum.kinematics.configuration import bend, curvature
+from continuum.kinematics.discs import arm_disc_poses
 from continuum.kinematics.routing import cables_through
 
 
@@ -33,33 +34,40 @@ class CableLine:
     points: Array
 
 
-def cable_lines(w: Array, arm: Arm) -> list[CableLine]:
-    """All cables in all sections that they run through, at ``w`` (n_sections, 2) [rad]."""
-    rotations, origins = section_bases(w, arm)
+def cable_lines(bends: Sequence[Array], arm: Arm) -> list[CableLine]:
+    """All cables in all sections that they run through.
+
+    Args:
+        bends: for each section those of its joints, (n_joints, 2) [rad]; :func:`~continuum.kinematics.discs.even_bends`
+            makes them of a configuration.
+        arm: the arm.
+    """
     colours = {name: j for section in arm.sections for j, name in enumerate(section.cable_names)}
     lines = []
-    for i, section in enumerate(arm.sections):
+    for i, (section, discs) in enumerate(zip(arm.sections, arm_disc_poses(bends, arm), strict=True)):
         routing = cables_through(arm, i)
-        local = hole_points(w[i], section, routing.a, routing.azimuths)
-        for name, points in zip(routing.names, local @ rotations[i].T + origins[i], strict=True):
+        for name, points in zip(routing.names, holes_of_discs(discs, routing.a, routing.azimuths), strict=True):
             lines.append(CableLine(name, i, colours[name], name not in section.cable_names, points))
     return lines
 
 
-def curvature_arrows(w: Array, arm: Arm, metres_per_radian: float, longest_radius: float) -> list[Array | None]:
+def curvature_arrows(
+    bends: Sequence[Array], arm: Arm, metres_per_radian: float, longest_radius: float
+) -> list[Array | None]:
     """For each section the arrow of Allen's w = (u, v, 0), from the centre of curvature: start and end (2, 3) [m].
 
+    Where joints of a section are bent differently, it is that of a section that is bent as far evenly.
+
     Args:
-        w: (n_sections, 2) [rad].
+        bends: for each section those of its joints, (n_joints, 2) [rad].
         arm: the arm.
         metres_per_radian: length of an arrow for each radian of bend.
         longest_radius: a section that is straighter than this radius of curvature [m] has no arrow: None.
     """
-    rotations, origins = section_bases(w, arm)
     arrows: list[Array | None] = []
-    for i, section in enumerate(arm.sections):
-        arrow = section_arrow(w[i], section, metres_per_radian, longest_radius)
-        arrows.append(None if arrow is None else arrow @ rotations[i].T + origins[i])
+    for section, bent, discs in zip(arm.sections, bends, arm_disc_poses(bends, arm), strict=True):
+        arrow = section_arrow(bent.sum(axis=0), section, metres_per_radian, longest_radius)
+        arrows.append(None if arrow is None else arrow @ discs[0, :3, :3].T + discs[0, :3, 3])
     return arrows
 
 

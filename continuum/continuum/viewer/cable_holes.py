@@ -21,8 +21,8 @@ def disc_links(section: Section) -> list[str]:
 class CableHoles:
     """Straight pieces of cables from disc to disc.
 
-    Unlike the lines of `continuum.kinematics.cable_lines`, which follow a circle, these go by the links: joints of a
-    section may be bent differently.
+    They are the lines of `continuum.kinematics.cable_lines`, but of the links' poses, which the page has anyway, and in
+    arrays as it draws them.
 
     Args:
         arm: the arm.

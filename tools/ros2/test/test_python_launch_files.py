@@ -143,7 +143,7 @@ def test_the_stock_names_are_free_again_after_loading(evaluate) -> None:
         (")", "Caught exception in launch"),
     ],
 )
-def test_mistakes_are_told_in_one_line(evaluate, entities: str, problem: str) -> None:
+def test_mistakes_come_in_one_line(evaluate, entities: str, problem: str) -> None:
     with pytest.raises(UserError, match=problem) as error:
         evaluate(entities)
     assert "\n" not in str(error.value)
@@ -160,13 +160,13 @@ from launch.actions import IncludeLaunchDescription, RegisterEventHandler
 from launch.event_handlers import OnProcessExit
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 
-def told(event, context):
+def on_exit(event, context):
     if not context.is_shutdown:
         raise RuntimeError(f"{event.process_name} gave {event.returncode}")
 
 def generate_launch_description():
     return LaunchDescription([
-        RegisterEventHandler(OnProcessExit(on_exit=told)),
+        RegisterEventHandler(OnProcessExit(on_exit=on_exit)),
         IncludeLaunchDescription(AnyLaunchDescriptionSource("two.launch.xml")),
     ])
 """)

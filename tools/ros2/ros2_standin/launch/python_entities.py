@@ -16,7 +16,7 @@ from ros2_standin.launch.python_api import (
     OpaqueFunction,
     RegisterEventHandler,
 )
-from ros2_standin.launch.python_file import errors_told, load, python_node
+from ros2_standin.launch.python_file import errors_in_one_line, load, python_node
 from ros2_standin.launch.scope import Scope
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ def _evaluate(entities: Iterable[object], interpreter: Interpreter, scope: Scope
             case _ if interpreter.only_arguments:
                 pass
             case OpaqueFunction():
-                with errors_told():
+                with errors_in_one_line():
                     further = entity.function(LaunchContext(scope.variables)) or ()
                 _evaluate(further, interpreter, scope)
             case RegisterEventHandler():

@@ -26,7 +26,7 @@ def load(file: Path) -> LaunchDescription:
     except (OSError, UnicodeDecodeError) as error:
         raise UserError(f"{file}: {getattr(error, 'strerror', None) or error}") from error
     names: dict[str, object] = {"__name__": "launch_file", "__file__": str(file)}
-    with importable(), errors_told():
+    with importable(), errors_in_one_line():
         exec(compile(code, file, "exec"), names)  # noqa: S102  (a launch file is a program)
         if not callable(make := names.get("generate_launch_description")):
             raise UserError(f"{file}: a Python launch file has a function generate_launch_description")
@@ -34,7 +34,7 @@ def load(file: Path) -> LaunchDescription:
 
 
 @contextmanager
-def errors_told() -> Iterator[None]:
+def errors_in_one_line() -> Iterator[None]:
     """What a launch file's code raises becomes one line, in the stock launch's words.
 
     Raises:

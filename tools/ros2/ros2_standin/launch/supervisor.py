@@ -10,7 +10,7 @@ from ros2_standin.errors import UserError
 from ros2_standin.launch.child import Child
 from ros2_standin.launch.processes import LogLine, ProcessSpec
 from ros2_standin.launch.python_api import LaunchContext, ProcessExited
-from ros2_standin.launch.python_file import errors_told
+from ros2_standin.launch.python_file import errors_in_one_line
 from ros2_standin.launch.screen import Screen
 
 _SIGNALS = {
@@ -96,6 +96,6 @@ class _Supervisor:
         """
         event = ProcessExited(child.label, child.returncode)
         context = LaunchContext(is_shutdown=self._ending.is_set())
-        with errors_told():
+        with errors_in_one_line():
             for handle in self._exit_handlers:
                 handle(event, context)
