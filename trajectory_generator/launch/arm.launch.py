@@ -71,11 +71,13 @@ def generate_launch_description() -> LaunchDescription:
                 description="what of a pose the tip follows",
             ),
             DeclareLaunchArgument(
-                "markers", default_value="true", choices=BOOLEANS, description="markers of cables and curvature"
+                "markers", default_value="true", choices=list(BOOLEANS), description="markers of cables and curvature"
             ),
-            DeclareLaunchArgument("rviz", default_value="false", choices=BOOLEANS, description="RViz with the arm"),
             DeclareLaunchArgument(
-                "use_sim_time", default_value="false", choices=BOOLEANS, description="take the time from /clock"
+                "rviz", default_value="false", choices=list(BOOLEANS), description="RViz with the arm"
+            ),
+            DeclareLaunchArgument(
+                "use_sim_time", default_value="false", choices=list(BOOLEANS), description="take the time from /clock"
             ),
             RegisterEventHandler(OnProcessExit(on_exit=miss)),
             OpaqueFunction(function=nodes),

@@ -1,11 +1,13 @@
 """The launch file of arms: what is commanded arrives at every section, in both modes, and no node dies in silence."""
 
+import os
 import signal
+import subprocess
 from collections import Counter
 
 import numpy as np
 import pytest
-from arm_launch import launched, write, write_arm
+from arm_launch import LAUNCH, launched, write, write_arm
 from domain_coordinator import domain_id
 from harness import Probe
 from rosbags.highlevel import AnyReader
@@ -91,6 +93,26 @@ def check_values(arm, asked, cables, joints, instants) -> None:
         np.testing.assert_allclose(lengths.position, tangle(w, arm), atol=1e-12)
         moved = configurations(joints, stamp)
         np.testing.assert_allclose([moved[i] for i in range(arm.n_sections)], w, atol=1e-6)
+
+
+def test_rviz_shows_the_arm_of_the_file(tmp_path):
+    """With stand-ins for the two packages that no wheel has; nothing is started."""
+    for package in ("robot_state_publisher", "rviz2"):
+        marker = tmp_path / "share" / "ament_index" / "resource_index" / "packages" / package
+        program = tmp_path / "lib" / package / package
+        for path in (marker, program):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch()
+        program.chmod(0o755)
+    prefixes = os.pathsep.join([str(tmp_path), os.environ["AMENT_PREFIX_PATH"]])
+    done = subprocess.run(
+        ["ros2", "launch", "--print", LAUNCH, f"arm:={write_arm(tmp_path, 4)}", "rviz:=true"],
+        env=os.environ | {"AMENT_PREFIX_PATH": prefixes}, capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    names = [line.partition(":")[0] for line in done.stdout.splitlines()]
+    sections = [f"section_{number}" for number in range(1, 5)]
+    assert names == [*sections, "robot", "cable_tangler", "markers", "robot_state_publisher", "rviz2"]
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
