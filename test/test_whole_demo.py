@@ -20,7 +20,7 @@ from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.rosbag2 import Reader
 from sensor_msgs.msg import JointState
 
-from continuum.arm import load_arm
+from continuum.arm import arm_to_mapping, load_arm
 from continuum.parameter_file import flattened
 from continuum.recordings.arm_recording import read_arm_recording
 from continuum.recordings.bag import Bag
@@ -166,12 +166,15 @@ def endless(tmp_path: Path) -> Path:
 
 
 def test_a_node_that_dies_at_start_is_told(domain: int, tmp_path: Path, trajectory: Path) -> None:
-    with DemoProcess(tmp_path / "out", domain, arm=ARMS / "prototype.yaml", trajectory=trajectory) as demo:
+    """The library takes the block of an arm alone; ROS wants it within a node's parameters."""
+    arm = tmp_path / "arm.yaml"
+    arm.write_text(yaml.safe_dump({"arm": arm_to_mapping(load_arm(ARMS / "prototype.yaml"))}))
+    with DemoProcess(tmp_path / "out", domain, arm=arm, trajectory=trajectory) as demo:
         code, _, err = demo.end()
         assert demo.processes() == []
     assert code == 1
     assert re.fullmatch(
-        r"demo: section-[23] died: .*section is [23]; allowed: .* \(exit code 2\); see .*nodes.log\n", err
+        r"demo: (section_1|robot|cable_tangler|markers)-\d died: .* \(exit code 2\); see .*nodes.log\n", err
     )
 
 
