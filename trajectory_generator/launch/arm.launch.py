@@ -89,7 +89,7 @@ def miss(event: ProcessExited, context: LaunchContext) -> None:
     """End everything when a process ends that the others need."""
     name = event.process_name.rpartition("-")[0]
     if not context.is_shutdown and (event.returncode != 0 or name not in MAY_END):
-        raise RuntimeError(f"{name} ended with exit code {event.returncode}, so the launch ends; it said why above")
+        raise RuntimeError(f"{name} ended with exit code {event.returncode}; the launch needs it, and ends")
 
 
 def nodes(context: LaunchContext) -> list[Node | IncludeLaunchDescription]:
