@@ -50,6 +50,8 @@ def test_address_that_is_none_of_this_machine_is_refused(host, port):
         ("http://127.0.0.1:9999", "127.0.0.1:8080", True),
         ("http://rebound.example:8080", "rebound.example:8080", True),
         ("null", "127.0.0.1:8080", True),
+        ("http://[::1", "[::1]:8080", True),
+        ("http://127.0.0.1:8080, http://127.0.0.1:8080", "127.0.0.1:8080", True),  # said twice
         ("http://127.0.0.1:8080", None, True),
     ],
 )

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from viser._messages import ShareUrlRequest
 
 from continuum.kinematics.cable_lines import section_arrow
 from continuum.kinematics.chain import arm_pose
@@ -160,12 +159,6 @@ def test_a_target_that_no_mouse_drags_is_put_back(opened, place):
     page.draw()
     np.testing.assert_allclose(page._scene.tip, before)
     np.testing.assert_allclose(source._controls._gizmo.position, before)
-
-
-def test_no_browser_opens_a_way_from_outside(opened):
-    """The server of pages would, asked so, make itself known at a public address."""
-    server = opened(Hands(ARM))._server
-    assert ShareUrlRequest not in server._websock_server._incoming_handlers
 
 
 def test_plots_have_the_cables_alone_that_somebody_tells_of(opened):

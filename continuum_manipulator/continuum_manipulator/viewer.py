@@ -78,7 +78,8 @@ class ViewerNode(CheckedNode):
         self._known, self._cables = frozenset(self._joints), list(self.arm.cable_names)
         self._statuses: dict[str, tuple[float, Status]] = {}
         self._pulled_until = -float("inf")
-        self._page = Page(self.arm, self._remote, self.values["host"], self.values["port"])
+        host, port = self.values["host"], self.values["port"]
+        self._page = Page(self.arm, self._remote, host, port, self.diagnostics.faults)
         self.diagnostics.values |= {
             "address": lambda: self._page.address,
             "browsers": lambda: self._page.lookers,

@@ -4,17 +4,20 @@ import contextlib
 
 import numpy as np
 import pytest
+import rclpy
 from arm_messages import ARM, cables, joint_state, pose, postures
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
-from harness import NodeProcess, Probe, ended_in_any_case, running
+from harness import NodeProcess, Probe, running
 from harness.visitor import Visitor
 from sensor_msgs.msg import JointState
+from websockets.exceptions import InvalidStatus
 
 from continuum.kinematics.chain import arm_pose
 from continuum.viewer.section_angles import configuration_of_joints
 from continuum_manipulator.nodekit.qos import REPORT
 from continuum_manipulator.nodekit.stamps import nanoseconds
+from continuum_manipulator.viewer import NotDrawnError, ViewerNode
 from continuum_msgs.msg import CableStates
 
 pytestmark = pytest.mark.ros
@@ -188,21 +191,29 @@ def test_joints_that_a_node_moves_are_left_to_it(bench):
         bench.wait(lambda: (say(), "joint_states" in bench.probe.report("viewer").get("message", ""))[1], "told")
 
 
-@pytest.mark.parametrize("origin", ["http://evil.example", "null"])
-def test_a_page_of_another_site_has_no_say(bench, origin):
-    visitor = Visitor(bench.address, origin)
-    bench.wait(lambda: visitor.refusal, "refused")
-    assert visitor.refusal == "a page of another site"
-    bench.probe.wait_for_report("viewer")
-    assert bench.probe.count("viewer", "browsers") == 0
+def test_who_and_what_is_refused_is_on_diagnostics_and_the_viewer_lives(bench):
+    with pytest.raises(InvalidStatus, match="403"):
+        Visitor(bench.address, "http://evil.example")
+    bench.wait(lambda: bench.probe.count("viewer", "dropped: page of another site") == 1, "a page of another site")
+    with bench.visitor() as visitor:
+        for _ in range(20):
+            visitor.put("Section", "section_99")
+        visitor.drag((0.1, 0.2))
+        bench.wait(lambda: bench.probe.count("viewer", "dropped: message of a browser") == 21, "messages dropped")
+        visitor.put(LEAD, "the target")
+        bench.wait(lambda: bench.targets, "a target")
+    assert len([line for line in bench.node.stderr.splitlines() if "message of a browser" in line]) <= 4
 
 
 def test_what_is_drawn_no_more_ends_the_node(domain):
-    """A made-up choice, which no browser makes, ends the drawing."""
-    node = NodeProcess("continuum_manipulator", "viewer", domain, name="mortal", parameters={"port": 0})
-    with ended_in_any_case(node), Probe(domain) as probe:
-        probe.wait_until(lambda: probe.report("mortal").get("address"), "the viewer")
-        with Visitor(probe.report("mortal")["address"]) as visitor:
-            visitor.put("Section", "section_99")
-            assert node.exit_code() == 1
-        assert node.stderr.strip().splitlines()[-1].startswith("viewer: error: the page is drawn no more")
+    rclpy.init(domain_id=domain, args=["--ros-args", "-p", "port:=0"])
+    node = ViewerNode()
+    try:
+        node._stop.set()
+        node._drawing.join()
+        with pytest.raises(NotDrawnError):
+            node._act()
+    finally:
+        node.close()
+        node.destroy_node()
+        rclpy.shutdown()

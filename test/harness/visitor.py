@@ -28,14 +28,15 @@ class Visitor:
     Attributes:
         shown: names of what is to be seen in the scene.
         texts: contents of the panels' texts, by their identity.
-        refusal: why the server ended the connection.
+
+    Raises:
+        InvalidStatus: the page is refused.
     """
 
     def __init__(self, address: str, origin: str | None = None) -> None:
         self._inputs: dict[str, list[str]] = {}
         self.shown: set[str] = set()
         self.texts: dict[str, str] = {}
-        self.refusal: str | None = None
         self._socket = connect(
             address.replace("http", "ws", 1),
             subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
@@ -72,8 +73,7 @@ class Visitor:
             for data in self._socket:
                 self._read(data)
         except ConnectionClosed:
-            pass
-        self.refusal = self._socket.close_reason
+            return
 
     def _read(self, data: bytes) -> None:
         """Eight bytes of a length, eight of another, then messages of that length, compressed; then arrays."""

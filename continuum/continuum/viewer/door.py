@@ -1,59 +1,103 @@
-"""Who comes in by the page's address: browsers that show this very page, as long as they answer; no public one."""
+"""Who comes in by the page's address, and with what: browsers that show this very page, as long as they answer."""
 
 from __future__ import annotations
 
 import asyncio
 import ipaddress
 import socket
+import threading
+from collections.abc import Awaitable, Callable, Collection, Iterator
+from contextlib import contextmanager
+from http import HTTPStatus
 from typing import Any
 from urllib.parse import urlsplit
 
-import viser
-from viser._messages import ShareUrlRequest
-from viser.infra import WebsockClientConnection
+from websockets.asyncio import server as websocket_server
+from websockets.asyncio.server import ServerConnection
+from websockets.http11 import Request, Response
+
+from continuum.burst_log import BurstLog
+from continuum.viewer.browser_messages import LONGEST, BrowserMessageError, check_browser_message
 
 PATIENCE = 10.0
 """A browser that gives no sign of life for so long is sent away [s]; one that lives comes again by itself."""
 
+REFUSED_SITE = "page of another site"
+REFUSED_MESSAGE = "message of a browser"
+
 _ASKING = 2.0
 """Between two questions whether a browser lives [s]."""
 
-_REFUSED = 1008
-"""WebSocket's code for what is against the rules of a server."""
+_LONGEST_DETAIL = 200
+"""Characters of what a browser says that are repeated."""
+
+_Handler = Callable[[ServerConnection], Awaitable[None]]
+_Answer = Callable[[ServerConnection, Request], Response | None]
+
+_hung = threading.Lock()
+"""One door is hung at a time."""
 
 
-def keep_door(server: viser.ViserServer, host: str) -> None:
-    """Let in only who shall.
+@contextmanager
+def kept_door(host: str, words: Collection[str], faults: BurstLog) -> Iterator[None]:
+    """Let a server of pages that is started meanwhile let in only who shall, and only what a page sends.
 
-    The server by itself would take orders from a page of any site that is open in a browser of this host, would on a
-    browser's request open a tunnel to a public address, and would wait for a browser that hangs until its end.
+    The server by itself would take orders from a page of any site that is open in a browser of this host, would let a
+    browser change anything about an input or open a tunnel to a public address, and would wait for a browser that
+    hangs until its end. It hands none of the hooks of `websockets` on (``process_request``, ``create_connection``), so
+    the function that it calls to serve is another one while it starts.
 
     Args:
-        server: of the page.
-        host: address that it is served on.
+        host: address that the page is served on.
+        words: that a browser may say; asked for whenever it speaks.
+        faults: where it is noted who and what was refused.
     """
-    door = server._websock_server
-    door.unregister_handler(ShareUrlRequest)
     own_names = {host, "localhost", socket.gethostname(), f"{socket.gethostname()}.local"}
-    watches: dict[int, asyncio.Task[None]] = {}
+    serve = websocket_server.serve
 
-    async def on_connect(client: WebsockClientConnection) -> None:
-        connection = door._live_connections[client.client_id]
-        headers = connection.request.headers if connection.request is not None else {}
-        if is_stranger(headers.get("Origin"), headers.get("Host"), own_names):
-            await connection.close(_REFUSED, "a page of another site")
-            return
-        watches[client.client_id] = asyncio.create_task(_watch(connection))
+    class Connection(ServerConnection):
+        """Gives messages that a page sends; others are noted."""
 
-    async def on_disconnect(client: WebsockClientConnection) -> None:
-        watch = watches.pop(client.client_id, None)
-        if watch is not None:
-            watch.cancel()
-            await asyncio.gather(watch, return_exceptions=True)  # it may have met the end of the connection
+        async def recv(self, decode: bool | None = None) -> Any:
+            while True:
+                data = await super().recv(decode)
+                try:
+                    check_browser_message(data, words)
+                except BrowserMessageError as error:
+                    _note(faults, REFUSED_MESSAGE, str(error))
+                else:
+                    return data
 
-    door.on_client_connect(on_connect)
-    door.on_client_disconnect(on_disconnect)
-    door.disconnect_all_clients()  # of who came before there was a door
+    def serve_with_door(
+        handler: _Handler, host: str, port: int, *, process_request: _Answer, **options: Any
+    ) -> websocket_server.serve:
+        def answer(connection: ServerConnection, request: Request) -> Response | None:
+            origin, served_as = (", ".join(request.headers.get_all(name)) or None for name in ("Origin", "Host"))
+            if is_stranger(origin, served_as, own_names):
+                _note(faults, REFUSED_SITE, f"{origin} asks for {served_as}")
+                return connection.respond(HTTPStatus.FORBIDDEN, "This is a page of another site.\n")
+            return process_request(connection, request)
+
+        async def handle(connection: ServerConnection) -> None:
+            asyncio.get_running_loop().set_exception_handler(
+                lambda _, context: _note(faults, REFUSED_MESSAGE, str(context.get("exception", context["message"])))
+            )
+            watch = asyncio.create_task(_watch(connection))
+            try:
+                await handler(connection)
+            finally:
+                watch.cancel()
+                await asyncio.gather(watch, return_exceptions=True)  # it may have met the end of the connection
+
+        hooks = {"process_request": answer, "create_connection": Connection, "max_size": LONGEST}
+        return serve(handle, host, port, **(options | hooks))
+
+    with _hung:
+        websocket_server.serve = serve_with_door  # type: ignore[assignment, misc]
+        try:
+            yield
+        finally:
+            websocket_server.serve = serve  # type: ignore[misc]
 
 
 def is_stranger(origin: str | None, served_as: str | None, own_names: set[str]) -> bool:
@@ -67,9 +111,12 @@ def is_stranger(origin: str | None, served_as: str | None, own_names: set[str]) 
     """
     if origin is None:
         return False
-    if served_as is None or urlsplit(origin).netloc != served_as:
+    try:
+        site, name = urlsplit(origin).netloc, urlsplit(f"//{served_as or ''}").hostname or ""
+    except ValueError:  # brackets that do not close
         return True
-    name = urlsplit(f"//{served_as}").hostname or ""
+    if site != served_as:
+        return True
     return not _is_numeric(name) and name not in {own.lower() for own in own_names}
 
 
@@ -81,7 +128,12 @@ def _is_numeric(name: str) -> bool:
     return True
 
 
-async def _watch(connection: Any) -> None:
+def _note(faults: BurstLog, cause: str, detail: str) -> None:
+    """What a browser says is repeated in one line without control characters."""
+    faults.note(cause, "".join(mark if mark.isprintable() else "?" for mark in detail[:_LONGEST_DETAIL]))
+
+
+async def _watch(connection: ServerConnection) -> None:
     """Ask whether it lives; the server's own question waits behind all that a browser that hangs does not take."""
     try:
         while True:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import viser
 
+from continuum.burst_log import BurstLog
+
 _WIDTH = 300
 """Of the panel on the left [pixels]."""
 
@@ -19,12 +21,16 @@ class Layout:
         move: what moves the arm.
         cables: plots.
         status: statuses.
+        faults: where it is noted what a browser must not say.
+        words: that a browser may say: options of what there is to choose.
     """
 
     server: viser.ViserServer
     move: viser.GuiFolderHandle
     cables: viser.GuiTabHandle
     status: viser.GuiTabHandle
+    faults: BurstLog
+    words: set[str]
 
 
 def spoken(name: str) -> str:
@@ -32,7 +38,7 @@ def spoken(name: str) -> str:
     return name.replace("_", " ")
 
 
-def layout_of(server: viser.ViserServer) -> Layout:
+def layout_of(server: viser.ViserServer, faults: BurstLog, words: set[str]) -> Layout:
     """Make the panels."""
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="medium")
     server.gui.set_panel_label("continuum")
@@ -40,4 +46,4 @@ def layout_of(server: viser.ViserServer) -> Layout:
     cables, status = panel.add_tab("Cables"), panel.add_tab("Status")
     panel.dock_left()
     panel.set_width(_WIDTH)
-    return Layout(server, server.gui.add_folder("Arm"), cables, status)
+    return Layout(server, server.gui.add_folder("Arm"), cables, status, faults, words)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import sys
 import threading
 import time
 from contextlib import redirect_stdout
@@ -13,10 +14,11 @@ import viser
 
 from continuum.arm import Arm
 from continuum.arrays import Array
+from continuum.burst_log import BurstLog
 from continuum.viewer.address import HOST, PORT, check_address, url
 from continuum.viewer.arm_scene import ArmLinks, ArmScene
 from continuum.viewer.description import arm_description
-from continuum.viewer.door import keep_door
+from continuum.viewer.door import kept_door
 from continuum.viewer.layout import layout_of
 from continuum.viewer.plots import CablePlots
 from continuum.viewer.seen import Seen, Source
@@ -38,6 +40,7 @@ class Page:
         source: says what is to be seen.
         host: address that the page is served on; the default is reached from this host alone.
         port: 0 for any that is free.
+        faults: where it is noted what browsers must not say; on stderr by default.
 
     Attributes:
         frames: drawn so far.
@@ -47,17 +50,20 @@ class Page:
         NoDescriptionError: no installed package writes the arm's description.
     """
 
-    def __init__(self, arm: Arm, source: Source, host: str = HOST, port: int = PORT) -> None:
+    def __init__(
+        self, arm: Arm, source: Source, host: str = HOST, port: int = PORT, faults: BurstLog | None = None
+    ) -> None:
         check_address(host, port)
         self.frames = 0
         self._source = source
         self._arm = arm
         self._description = arm_description(arm)
-        with redirect_stdout(io.StringIO()):  # it has a banner of its own
+        self._faults = faults or BurstLog(lambda line: print(line, file=sys.stderr), time.monotonic, "dropped, ")
+        words: set[str] = set()
+        with redirect_stdout(io.StringIO()), kept_door(host, words, self._faults):  # it has a banner of its own
             self._server = viser.ViserServer(host=host, port=port, label="continuum", verbose=False)
-        keep_door(self._server, host)
         self._host = host
-        layout = layout_of(self._server)
+        layout = layout_of(self._server, self._faults, words)
         self._set_up_view()
         source.add_controls(layout)
         self._scene = ArmScene(self._server, arm, self._description)
@@ -86,6 +92,7 @@ class Page:
         due = time.monotonic()
         while not stop.wait(max(0.0, due - time.monotonic())):
             due = max(due + 1.0 / FRAME_RATE, time.monotonic())
+            self._faults.tick()
             if self.lookers:
                 self.draw()
 

@@ -7,8 +7,10 @@ import time
 import numpy as np
 import viser
 
+from continuum.viewer.choice import Choice
 from continuum.viewer.layout import Layout
 from continuum.viewer.seen import Seen
+from continuum.viewer.slider_value import value_within
 from continuum.viewer.tracks import Tracks
 
 _SPEEDS = {"1/8": 0.125, "1/4": 0.25, "1/2": 0.5, "1": 1.0, "2": 2.0, "4": 4.0}
@@ -38,7 +40,7 @@ class Playback:
             gui.add_markdown(f"`{self._name}`")
             self._plays: viser.GuiCheckboxHandle = gui.add_checkbox("Play", True)
             self._repeats: viser.GuiCheckboxHandle = gui.add_checkbox("Repeat", True)
-            self._speed = gui.add_dropdown("Speed", tuple(_SPEEDS), initial_value="1")
+            self._speed = Choice(layout, "Speed", tuple(_SPEEDS), "1")
             self._slider: viser.GuiSliderHandle[float] = gui.add_slider("time [s]", 0.0, end, min(_STEP, end), 0.0)
         self._shown = self._slider.value
 
@@ -60,7 +62,7 @@ class Playback:
         now = time.monotonic()
         passed, self._asked = 0.0 if self._asked is None else now - self._asked, now
         if self._slider.value != self._shown:
-            self._time = self._slider.value
+            self._time = value_within(self._slider)
         elif self._plays.value:
             end = self._tracks.duration
             if self._time >= end and self._shown >= end:

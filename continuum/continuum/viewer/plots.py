@@ -13,6 +13,7 @@ from viser import uplot
 from continuum.arm import Arm, Section
 from continuum.arrays import Array
 from continuum.cable_colours import cable_colour
+from continuum.viewer.choice import Choice
 from continuum.viewer.layout import Layout, spoken
 from continuum.viewer.seen import Seen
 
@@ -47,9 +48,8 @@ class CablePlots:
     def __init__(self, layout: Layout, arm: Arm) -> None:
         self._sections = {spoken(section.name): section for section in arm.sections}
         self._rows: deque[tuple[float, dict[str, float], dict[str, float]]] = deque()
-        gui = layout.server.gui
         with layout.cables:
-            self._choice = gui.add_dropdown("Section", tuple(self._sections), visible=arm.n_sections > 1, order=0.0)
+            self._choice = Choice(layout, "Section", tuple(self._sections), visible=arm.n_sections > 1, order=0.0)
         self._due = 0.0
         self._lengths = CablePlot(layout, "Cable lengths [mm]", 1e3, order=1.0)
         self._tensions = CablePlot(layout, "Cable tensions [N]", 1.0, order=2.0)

@@ -52,6 +52,7 @@ class PostureControls:
 
     def __init__(self, layout: Layout, arm: Arm) -> None:
         self._arm = arm
+        self._faults = layout.faults
         self._solver = InverseKinematics(arm, objective="near_start")
         self.w = np.zeros((arm.n_sections, 2))
         self.target = arm_pose(self.w, arm)[:3, 3]
@@ -82,6 +83,7 @@ class PostureControls:
         """Take in what the user moved; True if anything was."""
         place, angles = np.array(self._gizmo.position, dtype=float), self._read()
         if not np.abs(place).max() < _FAR * self._arm.length:  # also of what is no number
+            self._faults.note("target of a browser", f"{place} m; allowed: up to {_FAR:g} lengths of the arm away")
             self._place(self.target)
             return False
         if np.abs(place - self.target).max() > _MOVED:

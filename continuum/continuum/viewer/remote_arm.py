@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from continuum.arm import Arm
 from continuum.arrays import Array
+from continuum.viewer.choice import Choice
 from continuum.viewer.held import Held
 from continuum.viewer.layout import Layout
 from continuum.viewer.posture_controls import PostureControls
@@ -51,8 +52,8 @@ class RemoteArm:
     def add_controls(self, layout: Layout) -> None:
         gui = layout.server.gui
         with layout.move:
-            leads = gui.add_dropdown(
-                "You move", (_NOTHING, "the target", "the joints"),
+            leads = Choice(
+                layout, "You move", (_NOTHING, "the target", "the joints"),
                 hint="the target: poses for the inverse kinematics; the joints: in the place of a node that moves them",
             )  # fmt: skip
             self._unheard = gui.add_markdown(_UNHEARD)

@@ -11,7 +11,7 @@ from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
 
-from continuum_manipulator.nodekit.faults import BurstLog
+from continuum.burst_log import BurstLog
 from continuum_manipulator.nodekit.qos import REPORT
 
 PERIOD = 1.0

@@ -2,7 +2,7 @@
 
 import pytest
 
-from continuum_manipulator.nodekit.faults import BurstLog
+from continuum.burst_log import BurstLog
 
 
 class Clock:
