@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from emulated_bench import CABLES, N_SENSORS, Ears, bridge_at, emulated_bench
-from harness import NodeProcess, Probe, ended_in_any_case
+from harness import NodeProcess, Probe, ended_in_any_case, running
 
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.planar.cables import cable_lengths
@@ -188,6 +188,16 @@ def test_two_commanders_are_refused(active):
     finally:
         active.probe.node.destroy_publisher(other)
     active.pull([5.0, 0.0], lambda: pulled() > 4.9)
+
+
+def test_a_viewer_that_nobody_uses_is_no_commander(active, domain):
+    viewer = NodeProcess("continuum_manipulator", "viewer", domain, parameters={"port": 0})
+    with running(viewer):
+        active.probe.wait_until(lambda: active.probe.count("viewer", "received cable_states") > 0, "the viewer")
+        before = active.probe.count(active.name, "dropped: several commanders")
+        active.pull([5.0, 0.0], lambda: active.bench.status["set_points"][0] > 4.9)
+        active.probe.wait_for_report(active.name)
+        assert active.probe.count(active.name, "dropped: several commanders") == before
 
 
 def test_a_second_bridge_does_not_get_the_port(bridge, bench, domain):

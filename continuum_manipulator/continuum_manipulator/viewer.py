@@ -22,10 +22,12 @@ from continuum.viewer.address import HOST, PORT
 from continuum.viewer.page import FRAME_RATE, Page
 from continuum.viewer.remote_arm import RemoteArm
 from continuum.viewer.seen import Status
+from continuum.viewer.tension_controls import TensionControls
 from continuum.viewer.usual_arm import usual_arm
 from continuum_manipulator.arm_joints import arm_joint_names, arm_joint_values
 from continuum_manipulator.newest import Newest
-from continuum_manipulator.nodekit.checked_node import CheckedNode, CountedPublisher
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.occasional_publisher import OccasionalPublisher
 from continuum_manipulator.nodekit.qos import NEWEST, REPORT
 from continuum_manipulator.nodekit.stamps import nanoseconds
 from continuum_manipulator.sole_voice import SoleVoice
@@ -55,7 +57,8 @@ class ViewerNode(CheckedNode):
     Of a simulated arm beside a measured one, ``simulated/joint_states`` are shown too, and the measured one as a
     ghost. Whoever looks may take control: a target that is dragged is published on ``traj_pose``, sliders of joints
     on ``joint_states``, sliders of tensions on ``cable_tension_cmd``; not while another node speaks there, and not
-    once that browser has left. Without an arm in the parameters, it is the one of three sections.
+    once that browser has left. Each is advertised while somebody speaks by it, and not else: a bench refuses all
+    commands while two nodes advertise them. Without an arm in the parameters, it is the one of three sections.
     """
 
     NAME = "viewer"
@@ -86,9 +89,9 @@ class ViewerNode(CheckedNode):
             "frames": lambda: self._page.frames,
         }
         self._voices = {topic: SoleVoice() for topic in (JOINTS, TARGETS, TENSIONS)}
-        self._publish_target = self.offer(PoseStamped, TARGETS)
-        self._publish_joints = self.offer(JointState, JOINTS)
-        self._publish_tensions = self.offer(CableStates, TENSIONS)
+        self._publish_target = self.offer_at_times(PoseStamped, TARGETS)
+        self._publish_joints = self.offer_at_times(JointState, JOINTS)
+        self._publish_tensions = self.offer_at_times(CableStates, TENSIONS)
         self._newest = Newest[tuple[Callable[[Any], None], Any]]()
         self._look(JointState, JOINTS, self._on_joints)
         self._look(JointState, f"{self.values['simulated']}/joint_states", self._on_simulated)
@@ -161,14 +164,24 @@ class ViewerNode(CheckedNode):
         remote.let_go()
         if remote.target is not None:
             self._move_target(remote.target)
+        else:
+            self._publish_target.withdraw()
         if remote.posture is not None:
             self._move_joints(remote.posture)
+        else:
+            self._publish_joints.withdraw()
         if remote.tensions is not None:
-            wanted, now = remote.tensions.wanted(), time.monotonic()
-            if remote.tensions.taken:
-                self._pulled_until = now + SLACK_TIME
-            if wanted and now < self._pulled_until:
-                self._pull(wanted)
+            self._move_cables(remote.tensions)
+
+    def _move_cables(self, tensions: TensionControls) -> None:
+        """Pull while control is taken, and let go for a moment after."""
+        wanted, now = tensions.wanted(), time.monotonic()
+        if tensions.taken:
+            self._pulled_until = now + SLACK_TIME
+        if wanted and now < self._pulled_until:
+            self._pull(wanted)
+        else:
+            self._publish_tensions.withdraw()
 
     def _move_target(self, target: Array) -> None:
         pose = PoseStamped()
@@ -188,11 +201,12 @@ class ViewerNode(CheckedNode):
     def _hear(self, topic: str, message: Any) -> None:
         self._voices[topic].heard(nanoseconds(message.header.stamp), time.monotonic())
 
-    def _say(self, topic: str, publish: CountedPublisher, message: Any) -> None:
+    def _say(self, topic: str, publish: OccasionalPublisher, message: Any) -> None:
         """Publish with a stamp, unless another node speaks there, which is told."""
         voice, now = self._voices[topic], time.monotonic()
         if voice.is_taken(now):
             self.diagnostics.warnings.note(f"{topic} not from the page", "another node publishes them")
+            publish.withdraw()
         if not voice.may_speak(now):
             return
         message.header.stamp = self.get_clock().now().to_msg()

@@ -69,6 +69,9 @@ class Bench:
 
         self.wait(quiet, "silence")
 
+    def advertises(self, topic):
+        return any(end.node_name == "viewer" for end in self.probe.node.get_publishers_info_by_topic(topic))
+
     def wait_until_silent(self, topic, say):
         """The viewer publishes nothing from one report to the third after it, while another node says the same."""
         counts = []
@@ -101,6 +104,8 @@ def test_cables_are_pulled_by_a_slider_and_slack_once_control_is_given_back(benc
         visitor.put(TAKE, False)
         bench.wait_for_tension(0.0)
         bench.wait_for_silence(bench.tensions)
+        bench.pull(visitor, 3.0)
+        bench.wait_for_tension(3.0)
     assert set(map(len, (bench.targets, bench.joints))) == {0}
 
 
@@ -116,6 +121,26 @@ def test_cables_are_slack_once_the_browser_that_pulls_has_left_also_beside_anoth
         bench.wait_for_tension(5.0)
 
 
+@pytest.mark.parametrize(
+    ("topic", "label", "taken", "back"),
+    [
+        ("/cable_tension_cmd", TAKE, True, False),
+        ("/traj_pose", LEAD, "the target", "nothing"),
+        ("/joint_states", LEAD, "the joints", "nothing"),
+    ],
+)
+def test_a_topic_is_advertised_while_somebody_speaks_by_it(bench, topic, label, taken, back):
+    bench.wait(lambda: bench.probe.count("viewer", "received cable_states") > 0, "tensions heard")
+    bench.probe.wait_for_report("viewer")
+    with bench.visitor() as visitor:
+        for _ in range(2):
+            assert not bench.advertises(topic)
+            visitor.put(label, taken)
+            bench.wait(lambda: bench.advertises(topic), "advertised")
+            visitor.put(label, back)
+            bench.wait(lambda: not bench.advertises(topic), "withdrawn")
+
+
 def test_nobody_is_talked_over(bench):
     """Another's tensions hold while it speaks; then those of the page."""
     say = bench.probe.speaker(CableStates, "cable_tension_cmd").publish
@@ -123,6 +148,7 @@ def test_nobody_is_talked_over(bench):
         bench.pull(visitor, 12.0)
         bench.wait_for_tension(12.0)
         bench.wait_until_silent("cable_tension_cmd", lambda: say(cables(1, 0, CABLES, [0.1, 0.1])))
+        assert not bench.advertises("/cable_tension_cmd")
         heard = len(bench.tensions)
         bench.wait(lambda: any(len(one.effort) for one in bench.tensions[heard:]), "the viewer's voice again")
 

@@ -25,6 +25,7 @@ from continuum.parameter_spec import ParameterSpec, Value
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.diagnostics import Diagnostics
 from continuum_manipulator.nodekit.faults import MessageFault
+from continuum_manipulator.nodekit.occasional_publisher import OccasionalPublisher
 from continuum_manipulator.nodekit.parameters import (
     declare_arm,
     declare_parameters,
@@ -39,26 +40,30 @@ FAREWELL = 1.0
 
 
 class CountedPublisher:
-    """Publishes by being called with a message, and counts."""
+    """Publishes by being called with a message, and counts.
+
+    Attributes:
+        publisher: the publisher itself.
+    """
 
     def __init__(self, publisher: Publisher, topic: str, counts: Counter[str]) -> None:
-        self._publisher = publisher
+        self.publisher = publisher
         self._topic = topic
         self._counts = counts
-        counts[topic] = 0
+        counts[topic] += 0
 
     def __call__(self, message: object) -> None:
-        self._publisher.publish(message)
+        self.publisher.publish(message)
         self._counts[self._topic] += 1
 
     @property
     def subscribers(self) -> int:
         """Subscriptions that it reaches."""
-        return self._publisher.get_subscription_count()
+        return self.publisher.get_subscription_count()
 
     def wait_until_received(self, timeout: float) -> None:
         """Wait until every subscription has confirmed what was published, ``timeout`` [s] at most."""
-        self._publisher.wait_for_all_acked(Duration(seconds=timeout))
+        self.publisher.wait_for_all_acked(Duration(seconds=timeout))
 
 
 class CheckedNode(Node):
@@ -166,6 +171,14 @@ class CheckedNode(Node):
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
         return CountedPublisher(publisher, topic, self.diagnostics.published)
+
+    def offer_at_times(self, message_type: type, topic: str, qos: QoSProfile = STREAM) -> OccasionalPublisher:
+        """A topic that is advertised only while something is to be said."""
+        self._overridden(qos, topic, "publisher")
+        self.diagnostics.published[topic] += 0
+        return OccasionalPublisher(
+            lambda: self.offer(message_type, topic, qos), lambda counted: self.destroy_publisher(counted.publisher)
+        )
 
     def _overridden(self, qos: QoSProfile, topic: str, end: str) -> QoSProfile:
         """A copy for rclpy to change, once the node's parameters ``qos_overrides`` for it are checked."""
