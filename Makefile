@@ -26,7 +26,7 @@ test: check browser ## run the checks and every test, the library's on up to 4 c
 browser: setup ## Chromium and Playwright for the viewer's tests, into out/browser; what cannot be had is left out
 	@$(IN_WORKSPACE) test -d out/browser/extra/playwright || \
 	  python3 -m pip install --quiet --no-deps --upgrade --target out/browser/extra \
-	  -r tools/browser/requirements.txt || echo "Playwright cannot be installed: the browser tests are skipped"
+	  --require-hashes -r tools/browser/requirements.txt || echo "Playwright cannot be installed: the browser tests are skipped"
 	@$(IN_WORKSPACE) python3 -m tools.browser
 
 reproduction: setup ## make the thesis's dynamic results again; overwrites docs/reproduction.md unless ARGS="--out FOLDER"
@@ -34,7 +34,7 @@ reproduction: setup ## make the thesis's dynamic results again; overwrites docs/
 
 bench-dynamics: setup ## measure the integrators (6 minutes); overwrites docs/numerics.md unless ARGS="--out FILE" or --quick
 	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/bench_dynamics/extra \
-	  -r tools/bench_dynamics/requirements.txt || echo "scikit-sundae cannot be installed and is left out"
+	  --require-hashes -r tools/bench_dynamics/requirements.txt || echo "scikit-sundae cannot be installed and is left out"
 	@$(IN_WORKSPACE) python3 -m tools.bench_dynamics $(ARGS)
 
 bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/ik-benchmark.md unless ARGS say otherwise
@@ -48,7 +48,7 @@ bench-discovery: setup ## hide effects and see what is found; ARGS="--half held-
 
 fuzz: setup ## damaged and made-up bytes through the bench protocol's parsers (6 minutes); overwrites docs/bench-fuzzing.md
 	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/fuzz/extra \
-	  -r tools/fuzz_bench/requirements.txt || echo "atheris cannot be installed and is left out"
+	  --require-hashes -r tools/fuzz_bench/requirements.txt || echo "atheris cannot be installed and is left out"
 	@$(IN_WORKSPACE) python3 -m tools.fuzz_bench $(ARGS)
 
 bench-inertial: setup ## measure joint angles from inertial sensors (3 minutes); overwrites a table of docs/inertial.md
@@ -76,7 +76,7 @@ check: setup ## style, lint and types, without the tests
 format: setup ## put the code into the project's style and mend what the linter can
 	@$(IN_WORKSPACE) ruff format && ruff check --fix
 
-lock: ## resolve tools/setup/requirements.in into requirements.lock
+lock: ## resolve tools/setup/requirements.in into requirements.lock; hashes of what single tools need besides
 	@PYTHON="$(PYTHON)" sh tools/setup/run.sh lock
 
 clean: ## remove everything made here: .venv, build, install, log, out and caches

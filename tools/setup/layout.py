@@ -21,6 +21,11 @@ class SetupError(Exception):
     """The set-up cannot go on; the text says why and what to do."""
 
 
+def tool_pins() -> list[Path]:
+    """Return the files with what single tools need beside the environment, pinned; hashes are in the ``.txt`` files."""
+    return sorted(path for path in ROOT.glob("tools/*/requirements.in") if path != REQUIREMENTS)
+
+
 def package_folders() -> list[Path]:
     """Return the ROS packages of the checkout, by name."""
     return sorted(path.parent for path in ROOT.glob("*/package.xml"))

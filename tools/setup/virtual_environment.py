@@ -9,7 +9,7 @@ import tempfile
 from pathlib import Path
 
 from tools.setup.environment import clean_environment, lock_environment
-from tools.setup.layout import LOCK, PYTHON, REQUIREMENTS, ROOT, SETUP, VENV, SetupError
+from tools.setup.layout import LOCK, PYTHON, REQUIREMENTS, ROOT, SETUP, VENV, SetupError, tool_pins
 from tools.setup.progress import Step
 
 NETWORK_HINT = (
@@ -55,20 +55,26 @@ def write_shell_files() -> None:
 
 
 def lock() -> None:
-    """Resolve requirements.in anew into requirements.lock.
+    """Resolve requirements.in into requirements.lock, and write down the hashes of what single tools need besides.
 
     Raises:
         SetupError: no solution, or the network failed.
     """
     with tempfile.TemporaryDirectory() as folder, Step("requirements.lock", NETWORK_HINT) as step:
-        uv_environment = Path(folder) / "uv"
-        _make_with_uv(step, uv_environment)
-        step.run(
-            [uv_environment / "bin" / "uv", "pip", "compile", "--quiet", "--no-config", "--upgrade",
-             "--generate-hashes", "--no-emit-index-url", "--no-emit-find-links", "--python", sys.executable,
-             "--custom-compile-command", "make lock", REQUIREMENTS.relative_to(ROOT), "--output-file", LOCK],
-            lock_environment(),
-        )  # fmt: skip
+        uv = Path(folder) / "uv" / "bin" / "uv"
+        _make_with_uv(step, Path(folder) / "uv")
+        _compile(step, uv, REQUIREMENTS, LOCK)
+        for pins in tool_pins():
+            _compile(step, uv, pins, pins.with_suffix(".txt"), "--no-deps")
+
+
+def _compile(step: Step, uv: Path, requirements: Path, locked: Path, *options: str) -> None:
+    step.run(
+        [uv, "pip", "compile", "--quiet", "--no-config", "--upgrade", "--generate-hashes", "--no-emit-index-url",
+         "--no-emit-find-links", "--python", sys.executable, "--custom-compile-command", "make lock", *options,
+         requirements.relative_to(ROOT), "--output-file", locked],
+        lock_environment(),
+    )  # fmt: skip
 
 
 def _make_with_uv(step: Step, folder: Path) -> None:
