@@ -18,7 +18,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from continuum.errors import ContinuumError, FileError
+from continuum.output_files import check_apart
 from continuum.recordings.motion_columns import TIME, torque_column
+from continuum.whole_file import write_table
 
 JOINTS = (1, 2)
 KEPT = (TIME, "q1_rad", "q2_rad", "dq1_rad_s", "dq2_rad_s")
@@ -31,6 +33,7 @@ def convert(source: Path, target: Path, torque: str = TORQUES[0]) -> None:
     Raises:
         FileError: the source cannot be read or lacks a column, or the target cannot be written.
     """
+    check_apart([target], [source])
     names = dict(zip(KEPT, KEPT, strict=True)) | {f"tau_{torque}_{j}_Nm": torque_column(j) for j in JOINTS}
     try:
         with source.open(newline="", encoding="utf-8-sig") as file:
@@ -41,13 +44,7 @@ def convert(source: Path, target: Path, torque: str = TORQUES[0]) -> None:
     for name in names:
         if name not in known:
             raise FileError(source, f"has no column {name}; it has {', '.join(map(str, known)) or 'no rows'}")
-    try:
-        with target.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow(names.values())
-            writer.writerows([row[name] for name in names] for row in rows)
-    except OSError as error:
-        raise FileError(target, f"cannot be written ({error.strerror or error})") from error
+    write_table(target, [names.values(), *([row[name] for name in names] for row in rows)])
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

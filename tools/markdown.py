@@ -6,6 +6,8 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from continuum.whole_file import write_whole
+
 
 def paragraph(*parts: str) -> str:
     """Parts that are not empty, as lines of the width that all pages have."""
@@ -24,4 +26,4 @@ def replace_between(page: Path, begin: str, end: str, text: str) -> None:
     """Put a text between two lines of a page, in the place of what stands there."""
     head, _, rest = page.read_text(encoding="utf-8").partition(begin)
     tail = rest.partition(end)[2]
-    page.write_text(f"{head}{begin}\n\n{text}\n\n{end}{tail}", encoding="utf-8")
+    write_whole(page, f"{head}{begin}\n\n{text}\n\n{end}{tail}")

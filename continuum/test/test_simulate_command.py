@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 
 from continuum.cli import main
 from continuum.cli.negative_numbers import written_out
-from continuum.cli.output_files import check_picture, check_writable
 from continuum.cli.simulate import release_posture
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model import ActiveEffect
@@ -24,6 +23,7 @@ from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError, InvalidValueError
 from continuum.estimation.structure import absent_values
+from continuum.output_files import check_picture, check_writable
 from continuum.recordings.motion_figure import backbone, write_motion_figure
 from continuum.recordings.tension_table import read_tension_table
 

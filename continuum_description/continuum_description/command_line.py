@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import NoReturn
 
 from continuum.errors import ContinuumError, FileError
+from continuum.output_files import check_apart
+from continuum.whole_file import write_whole
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -33,11 +35,19 @@ def tool_parser(program: str, description: str, epilog: str, formats: Sequence[s
 
 
 def run_tool(
-    parser: OneLineParser, make_text: Callable[[argparse.Namespace], str], arguments: Sequence[str] | None
+    parser: OneLineParser,
+    make_text: Callable[[argparse.Namespace], str],
+    arguments: Sequence[str] | None,
+    inputs: Callable[[argparse.Namespace], Sequence[Path]] = lambda _: (),
 ) -> int:
-    """Parse, make the text, write it; returns the exit code: 0, or 2 after a line on standard error."""
+    """Parse, make the text, write it to a file that is none of the ``inputs``.
+
+    Returns:
+        The exit code: 0, or 2 after a line on standard error.
+    """
     options = parser.parse_args(arguments)
     try:
+        check_apart([options.output], inputs(options))
         _write(make_text(options), options.output)
     except ContinuumError as error:
         print(f"{parser.prog}: {error}", file=sys.stderr)
@@ -47,9 +57,10 @@ def run_tool(
 
 def _write(text: str, output: Path | None) -> None:
     if output is None:
-        sys.stdout.write(text)
+        try:
+            sys.stdout.write(text)
+            sys.stdout.flush()
+        except OSError as error:
+            raise FileError("standard output", f"cannot be written ({error.strerror})") from error
         return
-    try:
-        output.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise FileError(output, f"cannot be written ({error.strerror})") from error
+    write_whole(output, text)

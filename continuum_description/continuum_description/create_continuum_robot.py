@@ -26,7 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "create_continuum_robot", "Write the description of an arm of several sections.", _EPILOG, ["urdf", "xacro"]
     )
     parser.add_argument("--arm", metavar="FILE", type=Path, required=True, help="the arm's parameter file (YAML)")
-    return run_tool(parser, _description, arguments)
+    return run_tool(parser, _description, arguments, lambda options: [options.arm])
 
 
 def _description(options: argparse.Namespace) -> str:

@@ -28,6 +28,20 @@ def refusal(capsys: pytest.CaptureFixture[str], tool: object, arguments: list[st
     return err
 
 
+@pytest.mark.parametrize("link", ["none", "hard", "symbolic"])
+def test_the_arm_file_is_not_overwritten(link: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arm = tmp_path / "arm.yaml"
+    arm.write_bytes(SHIPPED_ARMS[0].read_bytes())
+    target = arm if link == "none" else tmp_path / "arm.urdf"
+    if link == "hard":
+        target.hardlink_to(arm)
+    elif link == "symbolic":
+        target.symlink_to(arm)
+    line = refusal(capsys, create_continuum_robot, ["--arm", str(arm), "--output", str(target)])
+    assert "is read, and would be overwritten" in line
+    assert arm.read_bytes() == SHIPPED_ARMS[0].read_bytes()
+
+
 def test_robot_writes_the_same_to_file_and_standard_output(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = tmp_path / "with space" / "arm.urdf"
     target.parent.mkdir()

@@ -10,16 +10,19 @@ from __future__ import annotations
 
 import argparse
 import signal
+import sys
 import threading
 import time
 from collections.abc import Sequence
 from itertools import islice
 from pathlib import Path
 
+from continuum.whole_file import write_whole
 from tools.bench_discovery.cases import compile_first, run_campaign
 from tools.bench_discovery.page import page
 from tools.bench_discovery.plans import CHOICES, HALVES, campaign, narrowed
 from tools.bench_discovery.result import Result, append, digest_of_sources, load
+from tools.one_line import in_one_line
 
 PAGE = Path("docs/discovery-benchmark.md")
 RESULTS = Path("data/discovery_benchmark.jsonl")
@@ -43,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         _go_on(options, digest, results)
     if results:
         earlier = {one.digest for one in everything if one.digest != digest and one.plan.half == HALVES[1]}
-        options.out.write_text(page(results, len(earlier)), encoding="utf-8")
+        write_whole(options.out, page(results, len(earlier)))
         print(f"written: {options.out}")
 
 
@@ -71,4 +74,4 @@ def _go_on(options: argparse.Namespace, digest: str, results: list[Result]) -> N
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(in_one_line(main))

@@ -21,11 +21,13 @@ if os.environ.get("OPENBLAS_NUM_THREADS") != "1":  # solving small systems by tw
 sys.path.append("out/bench_dynamics/extra")  # what `make bench-dynamics` installs for itself
 
 from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.whole_file import write_whole
 from tools.bench_dynamics.growth import Size, measure
 from tools.bench_dynamics.orders import convergence, slope_error
 from tools.bench_dynamics.page import Result, Score, page
 from tools.bench_dynamics.rivals import rivals
 from tools.bench_dynamics.scene import cpu_time, prototype_release
+from tools.one_line import in_one_line
 
 PAGE = Path("docs/numerics.md")
 SIZES = (5, 10, 20, 50, 100)
@@ -53,7 +55,7 @@ def main() -> None:
     print(f"{result.speed_up:.0f} times as fast as the baseline, {result.best.error:.4f} degrees from convergence")
     print(f"time grows with the joints to the power {result.exponent:.2f}")
     if not quick:
-        options.out.write_text(page(result), encoding="utf-8")
+        write_whole(options.out, page(result))
         print(f"written: {options.out}")
 
 
@@ -83,4 +85,4 @@ def _slope_errors() -> dict[float, float]:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(in_one_line(main))

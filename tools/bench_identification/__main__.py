@@ -8,14 +8,17 @@ from __future__ import annotations
 import argparse
 import json
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
 
 from continuum.cli.diagnose import EXIT_CODES
+from continuum.whole_file import write_whole
 from tools.bench_identification.arms import eight_releases, measured_arm
 from tools.bench_identification.page import Comparison, Diagnosed, goals, page
 from tools.bench_identification.two_ways import by_smoothing, by_swarm
+from tools.one_line import in_one_line
 
 PAGE = Path("docs/identification.md")
 
@@ -34,7 +37,7 @@ def main() -> None:
     diagnosed = _diagnosed(options.seed)
     for what, wanted, reached, met in goals(compared, diagnosed):
         print(f"{what}: {reached} (goal {wanted}), {met.strip('*')}")
-    options.out.write_text(page(compared, diagnosed), encoding="utf-8")
+    write_whole(options.out, page(compared, diagnosed))
     print(f"written: {options.out}")
 
 
@@ -57,4 +60,4 @@ def _diagnosed(seed: int) -> Diagnosed:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(in_one_line(main))

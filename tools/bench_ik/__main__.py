@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from continuum.kinematics.compiled.warm_up import warm_up
+from continuum.whole_file import write_whole
 from tools.bench_ik.rivals import damped_least_squares, fabrikc, scipy_least_squares
 from tools.bench_ik.sample import draw, prototype_arm
 from tools.bench_ik.scores import Score, quietest, score_helix, score_rival, score_solver
+from tools.one_line import in_one_line
 
 SECTIONS = (1, 2, 3, 5, 7)
 BENDS = (90, 180)  # largest bend of a section of the targets [degrees]
@@ -65,7 +68,7 @@ def main() -> None:
     print("\n".join(worst.lines(single)))
     print(f"helix: {single.cells()} a call; {path.median:.1f} us a pose in one call; {farthest:.1e} m")
     if all(getattr(options, name) == parser.get_default(name) for name in vars(options)):
-        PAGE.write_text(text, encoding="utf-8")
+        write_whole(PAGE, text)
         print(f"written: {PAGE}")
 
 
@@ -150,4 +153,4 @@ largest distance of the tip to the helix {farthest:.1e} m.
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(in_one_line(main))

@@ -7,6 +7,7 @@ whole run overwrite the table of docs/inertial.md; those of a run with any optio
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -32,6 +33,7 @@ from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.recorded_angles import recorded_angles
 from tools.markdown import replace_between, table
+from tools.one_line import in_one_line
 
 PAGE = Path("docs/inertial.md")
 BEGIN, END = "<!-- made by `make bench-inertial` -->", "<!-- end -->"
@@ -122,4 +124,4 @@ def speed(motion: Motion) -> str:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(in_one_line(main))

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import tools.bench_link
+from continuum.whole_file import write_whole
 from tools.bench_link import campaign, closed_loop, deaths, soak
 from tools.bench_link.faults import CASES, FAULTS
 from tools.bench_link.page import page
@@ -64,7 +65,7 @@ def main(arguments: list[str] | None = None) -> int:
     except (DemoError, AssertionError) as error:  # these of the tests' harness: something did not come in time
         print(f"bench-link: {error}", file=sys.stderr)
         return 1
-    options.page.write_text(page(load(options.out)), encoding="utf-8")
+    write_whole(options.page, page(load(options.out)))
     print(f"written: {options.page}")
     return 0
 

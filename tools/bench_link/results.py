@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from continuum.whole_file import write_whole
 from tools.bench_link.campaign import Case
 from tools.bench_link.closed_loop import ClosedLoop, Minute
 from tools.bench_link.deaths import Death
@@ -36,7 +37,7 @@ def keep(folder: Path, part: str, result: Any, niceness: int) -> None:
     """Write what a part measured."""
     plain = [asdict(one) for one in result] if isinstance(result, Sequence) else asdict(result)
     text = json.dumps({"niceness": niceness, "result": plain}, indent=1)
-    (folder / f"{part}.json").write_text(f"{text}\n", encoding="utf-8")
+    write_whole(folder / f"{part}.json", f"{text}\n")
 
 
 def together(kept: Sequence[Case] | None, new: Sequence[Case]) -> list[Case]:

@@ -6,6 +6,7 @@ Results of the whole run overwrite the tables of docs/viewer.md; those of a run 
 from __future__ import annotations
 
 import argparse
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -21,6 +22,7 @@ from continuum.viewer.usual_arm import usual_arm
 from tools.bench_viewer.moving_arm import RATE, MovingArm
 from tools.bench_viewer.viewer_process import SETTLING, measured_load, viewer
 from tools.markdown import paragraph, replace_between, table
+from tools.one_line import in_one_line
 
 PAGE = Path("docs/viewer.md")
 BEGIN, END = "<!-- made by `make bench-viewer` -->", "<!-- end -->"
@@ -125,4 +127,4 @@ def moving(arm: Arm, domain: int) -> Iterator[MovingArm]:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(in_one_line(main))

@@ -6,6 +6,7 @@ Overwrites pictures, which are under version control, unless `--out` names anoth
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from continuum.recordings.arm_recording import ArmRecording
 from continuum.recordings.cable_figure import write_cable_figure
 from tools.figures.arm_on_helix import draw_arm
 from tools.figures.helix_run import helix_run
+from tools.one_line import in_one_line
 from tools.small_png import shrink
 
 type Draw = Callable[[ArmRecording, Path], None]
@@ -36,4 +38,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(in_one_line(main))

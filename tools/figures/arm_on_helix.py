@@ -15,6 +15,7 @@ from continuum.cable_colours import cable_colour
 from continuum.kinematics.cable_lines import cable_lines
 from continuum.kinematics.discs import even_bends
 from continuum.recordings.arm_recording import ArmRecording
+from continuum.whole_file import write_figure
 from tools.figures.posture import backbone, discs
 
 _NOW = 0.8
@@ -46,7 +47,7 @@ def draw_arm(run: ArmRecording, path: Path) -> None:
         axis.set_pane_color((1.0, 1.0, 1.0))
         axis.line.set_color("0.6")
     figure.legend(loc="upper left", bbox_to_anchor=(0.02, 0.98), fontsize="small")
-    figure.savefig(path, dpi=110)
+    write_figure(path, figure, dpi=110)
 
 
 def _draw_posture(axes: Any, w: Array, arm: Arm) -> None:

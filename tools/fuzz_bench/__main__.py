@@ -15,9 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
+from continuum.whole_file import write_whole
 from tools.fuzz_bench.campaign import LIMITS, run
 from tools.fuzz_bench.line import WAYS
 from tools.fuzz_bench.page import page
+from tools.one_line import in_one_line
 
 EXTRA = "out/fuzz/extra"
 PAGE = Path("docs/bench-fuzzing.md")
@@ -33,7 +35,7 @@ def main() -> int:
         tallies.append(run(way, blocks(np.random.default_rng(1)), options.bytes))
         print(f"{way}: {tallies[-1].size} bytes, {tallies[-1].accepted} frames accepted", flush=True)
     guided = _guided(options.bytes)
-    options.out.write_text(page(tallies, guided), encoding="utf-8")
+    write_whole(options.out, page(tallies, guided))
     print(f"written: {options.out}")
     return int(any(tally.never_sent or tally.largest_tension > LIMITS.max_tension for tally in tallies))
 
@@ -53,4 +55,4 @@ def _guided(size: int) -> dict[str, int] | None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(in_one_line(main))

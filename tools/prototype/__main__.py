@@ -6,10 +6,13 @@ Overwrites these files, which are under version control, unless `--out` names an
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 from continuum.cli.progress import told
 from continuum.discovery.words import verdict_in_words
+from continuum.whole_file import write_whole
+from tools.one_line import in_one_line
 from tools.prototype.account import account
 from tools.prototype.page import page
 from tools.prototype.picture import draw
@@ -28,9 +31,9 @@ def main() -> None:
     picture.parent.mkdir(parents=True, exist_ok=True)
     draw(found, picture)
     shrink(picture)
-    (options.out / "prototype.md").write_text(page(found), encoding="utf-8")
+    write_whole(options.out / "prototype.md", page(found))
     print(f"{verdict_in_words(found.diagnosis)}\n\nwritten: {options.out / 'prototype.md'}")
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(in_one_line(main))

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+from continuum.whole_file import write_figure
 from tools.prototype.account import Account
 
 _MEASURED, _THESIS, _REFITTED, _EXTENDED = "0.55", "tab:orange", "tab:green", "tab:blue"
@@ -32,4 +33,4 @@ def draw(told: Account, path: Path) -> None:
         panel.grid(alpha=0.3)
     panels[0].set_ylabel("angle [deg]")
     figure.legend(*panels[0].get_legend_handles_labels(), ncols=4, loc="outside upper center", fontsize="small")
-    figure.savefig(path, dpi=90)
+    write_figure(path, figure, dpi=90)

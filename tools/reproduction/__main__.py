@@ -6,10 +6,13 @@ Overwrites these files, which are under version control, unless `--out` names an
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 import numpy as np
 
+from continuum.whole_file import write_whole
+from tools.one_line import in_one_line
 from tools.reproduction.bend import bend_by_one_cable
 from tools.reproduction.figures import draw_bend, draw_release
 from tools.reproduction.page import page
@@ -41,7 +44,7 @@ def main() -> None:
     draw_bend(bend, of_bend)
     for picture in (of_release, of_bend):
         shrink(picture)
-    (folder / "reproduction.md").write_text(page(release, otherwise, bend, as_released), encoding="utf-8")
+    write_whole(folder / "reproduction.md", page(release, otherwise, bend, as_released))
     for name, run in (("from rest", release.from_rest), ("initial rates free", release.thrown)):
         each = release.distance(run)
         print(f"{name}: {over_all(each):.3f} deg rms over all joints, {each.max():.3f} deg the worst joint")
@@ -49,4 +52,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(in_one_line(main))

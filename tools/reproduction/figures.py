@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+from continuum.whole_file import write_figure
 from tools.reproduction.bend import Bend, joint_positions
 from tools.reproduction.release import Release
 
@@ -34,7 +35,7 @@ def draw_release(release: Release, path: Path) -> None:
     axes[0, 1].set_title("ours less the author's [deg]", fontsize="medium")
     for panel in axes[-1]:
         panel.set_xlabel("t [s]")
-    figure.savefig(path, dpi=110)
+    write_figure(path, figure, dpi=110)
 
 
 def draw_bend(bend: Bend, path: Path) -> None:
@@ -63,4 +64,4 @@ def draw_bend(bend: Bend, path: Path) -> None:
     backbone.invert_yaxis()
     backbone.grid(alpha=0.3)
     backbone.legend(fontsize="small")
-    figure.savefig(path, dpi=110)
+    write_figure(path, figure, dpi=110)

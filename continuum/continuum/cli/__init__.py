@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 
@@ -25,6 +26,9 @@ Exit codes: 0 done, 1 the answer is no (a target out of reach, a simulation that
 130 stopped by Ctrl-C; diagnose has some of its own.
 """
 
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""Where stdout is a file, and there is no more room for it."""
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command; returns the process's exit code, 1 where nobody reads on."""
@@ -39,8 +43,19 @@ def main(arguments: list[str] | None = None) -> int:
         print("continuum: stopped", file=sys.stderr)
         return 130
     except BrokenPipeError:  # whoever read, as `head` does, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _print_no_more()
         return 1
+    except OSError as error:
+        if error.errno not in _FULL:
+            raise
+        _print_no_more()
+        print(f"continuum: what is printed cannot be written ({error.strerror})", file=sys.stderr)
+        return 2
+
+
+def _print_no_more() -> None:
+    """What is still to be printed would be tried again at the end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _was_interrupted(error: BaseException | None) -> bool:

@@ -10,9 +10,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from continuum.cli.output_files import check_apart, check_writable
 from continuum.cli.tables import print_pairs
 from continuum.errors import InvalidValueError
+from continuum.output_files import check_apart, check_writable
 from continuum.printable import printable
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ import math
 import sys
 from typing import TYPE_CHECKING, Any
 
-from continuum.cli.output_files import check_apart, check_writable
 from continuum.cli.tables import print_pairs
 from continuum.errors import FileError, InvalidValueError, MeasurementError
+from continuum.output_files import check_apart, check_writable
 
 if TYPE_CHECKING:
     from continuum.inertial.calibration import Calibration

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from continuum.arm import load_arm
 from continuum.cli.tables import print_pairs
 from continuum.errors import FileError, InvalidValueError
+from continuum.output_files import check_apart
 
 if TYPE_CHECKING:
     from continuum.recordings.kinematic_report import KinematicReport
@@ -40,18 +41,20 @@ def run(options: argparse.Namespace) -> int:
 
     if options.expected is not None and options.expected < 0:
         raise InvalidValueError("--expected", options.expected, "a whole number >= 0")
+    folder = None if options.out is None else Path(options.out)
+    outputs = [] if folder is None else [folder / "cable_states.csv", folder / "cables.png"]
+    check_apart(outputs, (options.recording, options.arm))
     with Bag(options.recording) as bag:
         recording = read_arm_recording(bag, load_arm(options.arm))
     _show(report_on(recording, options.expected))
-    if options.out is not None:
-        folder = Path(options.out)
+    if folder is not None:
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            write_cable_table(recording, folder / "cable_states.csv")
-            write_cable_figure(recording, folder / "cables.png")
         except OSError as error:
             raise FileError(folder, f"cannot be written ({error.strerror or error})") from error
-        print(f"written: {folder / 'cable_states.csv'}, {folder / 'cables.png'}")
+        for write, file in zip((write_cable_table, write_cable_figure), outputs, strict=True):
+            write(recording, file)
+        print(f"written: {', '.join(map(str, outputs))}")
     return 0
 
 

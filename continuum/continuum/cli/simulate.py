@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.cli.output_files import check_apart, check_picture, check_writable
 from continuum.cli.tables import print_pairs
 from continuum.errors import InvalidValueError
+from continuum.output_files import check_apart, check_picture, check_writable
 
 if TYPE_CHECKING:
     from continuum.dynamics.input_signal import InputSignal

@@ -10,13 +10,18 @@ from matplotlib.figure import Figure
 from continuum.cable_colours import cable_colour
 from continuum.recordings.arm_recording import ArmRecording
 from continuum.recordings.kinematic_report import central_differences
+from continuum.whole_file import write_figure
 
 _STYLES = ("-", "--", ":", "-.")
 _DOTS = 60  # finite differences shown per cable; all of them would hide the lines
 
 
 def write_cable_figure(recording: ArmRecording, path: str | Path) -> None:
-    """Draw the picture and write it to ``path`` (PNG or any format that Matplotlib knows by its suffix)."""
+    """Draw the picture and write it to ``path`` (PNG or any format that Matplotlib knows by its suffix).
+
+    Raises:
+        FileError: it cannot be written, or its format is not known.
+    """
     figure = Figure(figsize=(13, 5.4))
     length_axes, rate_axes = figure.subplots(1, 2)
     stamps = recording.lengths.stamps
@@ -47,4 +52,4 @@ def write_cable_figure(recording: ArmRecording, path: str | Path) -> None:
     handles, labels = length_axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="lower center", ncols=recording.arm.n_sections * 2, fontsize=8)
     figure.subplots_adjust(left=0.05, right=0.985, top=0.94, bottom=0.23, wspace=0.13)
-    figure.savefig(path, dpi=90)
+    write_figure(path, figure, dpi=90)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 
 from continuum.recordings.arm_recording import ArmRecording
+from continuum.whole_file import write_table
 
 
 def write_cable_table(recording: ArmRecording, path: str | Path) -> None:
@@ -18,8 +18,8 @@ def write_cable_table(recording: ArmRecording, path: str | Path) -> None:
     """
     names = recording.arm.cable_names
     times = (recording.lengths.stamps - recording.lengths.stamps[0]) * 1e-9
-    with Path(path).open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(["t_s", *(f"{name}_m" for name in names), *(f"{name}_m_s" for name in names)])
-        for t, lengths, rates in zip(times, recording.lengths.values, recording.rates.values, strict=True):
-            writer.writerow([f"{t:.9f}", *(f"{value:.9g}" for value in (*lengths, *rates))])
+    head = ["t_s", *(f"{name}_m" for name in names), *(f"{name}_m_s" for name in names)]
+    rows = zip(times, recording.lengths.values, recording.rates.values, strict=True)
+    write_table(
+        path, [head, *([f"{t:.9f}", *(f"{value:.9g}" for value in (*lengths, *rates))] for t, lengths, rates in rows)]
+    )

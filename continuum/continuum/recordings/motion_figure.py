@@ -14,7 +14,7 @@ from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.trajectory import Trajectory
-from continuum.errors import FileError
+from continuum.whole_file import write_figure
 
 _INSTANTS = 6
 """Postures shown."""
@@ -55,12 +55,7 @@ def write_motion_figure(motion: Trajectory, inputs: InputSignal, p: Parameters, 
         panels[name].grid(alpha=0.3)
         panels[name].margins(x=0.01)
     _draw_arm(panels["arm"], motion, p)
-    try:
-        figure.savefig(path, dpi=100)
-    except OSError as error:
-        raise FileError(path, f"cannot be written ({error.strerror or error})") from error
-    except ValueError as error:  # Matplotlib: a format that it does not know
-        raise FileError(path, f"cannot be drawn ({error})") from error
+    write_figure(path, figure, dpi=100)
 
 
 def _draw_tensions(axes: Axes, times: Array, pull: Array) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +10,8 @@ from continuum.arrays import Array
 from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.trajectory import Trajectory
-from continuum.errors import FileError
 from continuum.recordings.motion_columns import TIME, angle_column, rate_column, tension_column, torque_column
+from continuum.whole_file import write_table
 
 
 def write_motion_table(motion: Trajectory, inputs: InputSignal, path: str | Path) -> None:
@@ -53,13 +52,7 @@ def _of_joints(times: Array, theta: Array, theta_rate: Array) -> tuple[list[str]
 
 
 def _write(path: str | Path, names: list[str], columns: Array) -> None:
-    try:
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow(names)
-            writer.writerows(map(_digits, columns))
-    except OSError as error:
-        raise FileError(path, f"cannot be written ({error.strerror or error})") from error
+    write_table(path, [names, *map(_digits, columns)])
 
 
 def _digits(row: Array) -> list[str]:

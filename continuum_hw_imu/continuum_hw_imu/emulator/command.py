@@ -12,6 +12,7 @@ from pathlib import Path
 
 from continuum.dynamics.model_file import load_model
 from continuum.errors import ContinuumError, FileError
+from continuum.output_files import check_apart
 from continuum_hw_imu.emulator.bench import Bench, BenchSettings
 from continuum_hw_imu.emulator.control import ControlSocket
 from continuum_hw_imu.emulator.emulator import Emulator, EmulatorSettings
@@ -45,6 +46,7 @@ def main() -> int:
 
 
 def _run(options: argparse.Namespace, stop: StopRequest) -> None:
+    check_apart((options.truth, options.sent), (options.faults, options.model))
     orders = _script(options.faults)
     bench = Bench(load_model(options.model), _bench_settings(options))
     now = time.monotonic()

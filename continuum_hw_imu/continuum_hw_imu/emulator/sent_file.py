@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
-from continuum.errors import FileError
+from continuum_hw_imu.emulator.growing_file import GrowingFile
 from continuum_hw_imu.protocol.decoder import Decoder
 from continuum_hw_imu.protocol.messages import ImuFrame
 
@@ -18,14 +18,11 @@ class SentFile:
     """Frames that were spoiled on the line are no rows.
 
     Raises:
-        FileError: it cannot be written.
+        FileError: it cannot be written, here or later.
     """
 
     def __init__(self, path: Path) -> None:
-        try:
-            self._file = path.open("w", buffering=1, encoding="utf-8")
-        except OSError as error:
-            raise FileError(path, f"cannot be written: {error.strerror}") from None
+        self._file = GrowingFile(path)
         self._file.write("written_s,device_time_us,sequence\n")
         self._decoder = Decoder.of_host()
 

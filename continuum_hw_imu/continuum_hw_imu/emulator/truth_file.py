@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.errors import FileError
+from continuum_hw_imu.emulator.growing_file import GrowingFile
 
 if TYPE_CHECKING:  # who reads needs no emulator
     from continuum_hw_imu.emulator.bench import Bench
@@ -24,14 +24,11 @@ class TruthFile:
     """Written row by row, so that it can be read while it grows.
 
     Raises:
-        FileError: it cannot be written.
+        FileError: it cannot be written, here or later.
     """
 
     def __init__(self, path: Path, n_joints: int, n_cables: int) -> None:
-        try:
-            self._file = path.open("w", newline="", buffering=1, encoding="utf-8")
-        except OSError as error:
-            raise FileError(path, f"cannot be written: {error.strerror}") from None
+        self._file = GrowingFile(path)
         self._writer = csv.writer(self._file)
         names = ["device_time_us", "monotonic_s"]
         names += [f"{name}_{i + 1}" for name in ("theta", "theta_rate") for i in range(n_joints)]

@@ -1,14 +1,15 @@
-"""Files that a command is asked to write, looked at before it begins its work."""
+"""Files that a command is asked to write, checked before it begins its work."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from continuum.errors import FileError
+from continuum.whole_file import target_of
 
 
-def check_writable(path: str | None) -> None:
+def check_writable(path: str | Path | None) -> None:
     """Open the file for writing, and leave everything as it was; nothing where there is no ``path``.
 
     Raises:
@@ -16,11 +17,11 @@ def check_writable(path: str | None) -> None:
     """
     if path is None:
         return
-    file = Path(path)
-    there = file.exists()
-    if there and not file.is_file() and not file.is_dir():
-        return  # a pipe or a terminal: whoever reads would see it closed
     try:
+        file = target_of(path)
+        there = file.exists()
+        if there and not file.is_file() and not file.is_dir():
+            return  # a pipe or a terminal: whoever reads would see it closed
         with file.open("ab"):
             pass
         if not there:
@@ -29,21 +30,25 @@ def check_writable(path: str | None) -> None:
         raise FileError(path, f"cannot be written ({error.strerror or error})") from error
 
 
-def check_apart(outputs: Sequence[str | None], inputs: Sequence[str | None]) -> None:
+def check_apart(outputs: Sequence[str | Path | None], inputs: Sequence[str | Path | None]) -> None:
     """Every file that is written is another one, and none that is read, nor within a folder that is.
+
+    Names do not matter: links, symbolic and hard ones, are the file that they lead to.
 
     Raises:
         FileError: one is not.
     """
-    read = [Path(path).resolve() for path in inputs if path is not None]
+    read = [target_of(path) for path in inputs if path is not None]
     written: list[Path] = []
     for path in outputs:
-        if path is None or (Path(path).exists() and not Path(path).is_file()):  # pipes, and what is refused anyhow
+        if path is None:
             continue
-        file = Path(path).resolve()
-        if any(one == file or one in file.parents for one in read):
+        file = target_of(path)
+        if file.exists() and not file.is_file():  # pipes, and what is refused anyhow
+            continue
+        if any(one in (file, *file.parents) for one in read) or _is_among(file, _files_of(read)):
             raise FileError(path, "is read, and would be overwritten: write to another file")
-        if file in written:
+        if file in written or _is_among(file, written):
             raise FileError(path, "would be written twice: name another file for each output")
         written.append(file)
 
@@ -63,3 +68,14 @@ def check_picture(path: str | None) -> None:
     suffix = Path(path).suffix.removeprefix(".")
     if suffix and suffix.lower() not in known:
         raise FileError(path, f"cannot be drawn (format {suffix!r}; known: {', '.join(sorted(known))})")
+
+
+def _files_of(read: Sequence[Path]) -> Iterator[Path]:
+    """Files, and those in folders."""
+    for one in read:
+        yield from one.rglob("*") if one.is_dir() else [one]
+
+
+def _is_among(file: Path, others: Iterator[Path] | Sequence[Path]) -> bool:
+    """Whether a file that is there is one of the others under another name."""
+    return file.exists() and any(other.exists() and file.samefile(other) for other in others)
