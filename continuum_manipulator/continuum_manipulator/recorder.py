@@ -15,6 +15,7 @@ from rosbags.interfaces import Connection
 
 from continuum.errors import FileError
 from continuum.parameter_spec import ParameterSpec
+from continuum.recordings.bag import recovery_command
 from continuum_manipulator.bag_qos import heard_by_all, offered
 from continuum_manipulator.bag_writer import STORAGES, BagWriter
 from continuum_manipulator.message_definitions import message_definition
@@ -143,8 +144,7 @@ class RecorderNode(CheckedNode):
         """Finish the recording as far as that goes, and say how the rest is got back."""
         with suppress(FileError):
             self._bag.close()
-        recovery = f"python3 -m continuum_manipulator.bag_recovery {self._bag.path} RECOVERED"
-        return f"{problem}; what was written before can be had with {recovery}"
+        return f"{problem}; what was written before can be had with {recovery_command(self._bag.path)}"
 
     def close(self) -> None:
         super().close()

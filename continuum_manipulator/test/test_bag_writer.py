@@ -1,6 +1,9 @@
 """Recordings: read back by rosbags' own reader, hashes of types as rosidl makes them, what a killed recorder leaves."""
 
+import shlex
 import shutil
+import subprocess
+import sys
 
 import pytest
 import yaml
@@ -11,14 +14,15 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from sensor_msgs.msg import JointState
 
 from continuum.errors import FileError, InvalidValueError
+from continuum.recordings.bag import Bag
 from continuum_manipulator.bag_qos import heard_by_all, offered
-from continuum_manipulator.bag_recovery import recover
+from continuum_manipulator.bag_recovery import Recovered, recover
 from continuum_manipulator.bag_writer import BagWriter
 from continuum_manipulator.message_definitions import message_definition
 from continuum_manipulator.nodekit.qos import STREAM
 
 TYPE = "sensor_msgs/msg/JointState"
-RAW = serialize_message(JointState(name=["a"], position=[1.5]))
+RAW = serialize_message(JointState(name=["a"], position=[1.5], velocity=[0.5], effort=[2.0]))
 
 
 def write(bag, n, first=0):
@@ -85,11 +89,72 @@ def test_flushed_messages_survive_a_kill_at_any_byte(tmp_path, cut):
     (file,) = left.glob("*.mcap")
     whole = file.read_bytes()
     file.write_bytes(whole + (tmp_path / "bag" / "bag.mcap").read_bytes()[len(whole) : len(whole) + cut])
-    assert recover(left, tmp_path / "recovered") == 21
+    assert recover(left, tmp_path / "recovered") == Recovered(21, 0)
     with Reader(tmp_path / "recovered") as reader:
         assert [(c.topic, c.msgcount) for c in reader.connections] == [("/joint_states", 21)]
         assert reader.connections[0].ext.offered_qos_profiles == [offered(STREAM)]
         assert [(stamp, raw) for _, stamp, raw in reader.messages()] == [(1_000 + i, RAW) for i in range(21)]
+
+
+def bag_of_chunks(folder):
+    """Three chunks of 10 messages."""
+    with BagWriter(folder) as bag:
+        handle = bag.add_topic("/joint_states", TYPE, [offered(STREAM)])
+        for stamp in range(30):
+            bag.write(handle, RAW, 1_000 + stamp)
+            if stamp % 10 == 9:
+                bag.flush()
+    (file,) = folder.glob("*.mcap")
+    return file
+
+
+@pytest.mark.parametrize("metadata", [True, False])
+def test_refusal_of_a_damaged_recording_says_how_the_rest_is_had(tmp_path, metadata):
+    broken = tmp_path / "broken bag"
+    file = bag_of_chunks(broken)
+    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    if not metadata:
+        (broken / "metadata.yaml").unlink()
+    for path in (broken, file):
+        with pytest.raises(FileError, match="bag_recovery") as refusal, Bag(path) as bag:
+            list(bag.messages("/joint_states", TYPE))
+        _, *command = shlex.split(str(refusal.value).partition("had with ")[2])
+        command[-1] = str(tmp_path / f"recovered_{path.name}")
+        done = subprocess.run([sys.executable, *command], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        with Bag(command[-1]) as bag:
+            assert 10 <= len(list(bag.messages("/joint_states", TYPE))) < 30
+
+
+def test_what_is_no_mcap_recording_is_not_sent_to_a_recovery(tmp_path):
+    for path in (tmp_path, tmp_path / "none"):
+        with pytest.raises(FileError) as refusal:
+            Bag(path)
+        assert "bag_recovery" not in str(refusal.value)
+
+
+def test_a_changed_byte_ends_no_recovery_without_a_word(tmp_path):
+    file = bag_of_chunks(tmp_path / "bag")
+    whole = file.read_bytes()
+    for number, at in enumerate(range(8, len(whole), 293)):
+        file.write_bytes(whole[:at] + bytes([whole[at] ^ 0x5A]) + whole[at + 1 :])
+        folder = tmp_path / f"recovered_{number}"
+        try:
+            found = recover(file, folder)
+        except FileError:  # what was changed says that it is compressed, or is the name of a type
+            continue
+        if not found.messages:
+            continue
+        with Reader(folder) as reader:
+            assert len(list(reader.messages())) == found.messages <= 30
+
+
+def test_files_of_a_split_recording_are_joined(tmp_path):
+    for number in range(2):
+        file = bag_of_chunks(tmp_path / f"part_{number}")
+        (tmp_path / "split").mkdir(exist_ok=True)
+        shutil.copy(file, tmp_path / "split" / f"{number}.mcap")
+    assert recover(tmp_path / "split", tmp_path / "recovered") == Recovered(60, 0)
 
 
 def test_recovery_of_nothing(tmp_path):

@@ -114,7 +114,7 @@ def test_a_killed_recorder_leaves_what_was_flushed(domain, probe, tmp_path):
         probe.wait_until(lambda: file_size(tmp_path / "bag") > size, "the next flush")
         node.stop(signal.SIGKILL)
     probe.node.destroy_publisher(states)
-    assert recover(tmp_path / "bag", tmp_path / "recovered") == N + 1
+    assert recover(tmp_path / "bag", tmp_path / "recovered").messages == N + 1
     assert contents(tmp_path / "recovered") == {"/cable_states": N + 1}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -40,7 +41,7 @@ class Bag:
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         if self.path.is_dir() and not (self.path / "metadata.yaml").exists():
-            raise FileError(self.path, "is not a readable rosbag2 recording (it has no metadata.yaml)")
+            raise self._unreadable("it has no metadata.yaml")
         with self._readable():
             self._reader = AnyReader([self.path], default_typestore=get_typestore(Stores.ROS2_JAZZY))
             self._reader.open()
@@ -82,12 +83,24 @@ class Bag:
             yield
         except _DAMAGE as error:
             reason = " ".join(str(error).split()) or type(error).__name__
-            raise FileError(self.path, f"is not a readable rosbag2 recording ({reason})") from error
+            raise self._unreadable(reason) from error
+
+    def _unreadable(self, reason: str) -> FileError:
+        """What is wrong with the recording, and what may be had of it all the same."""
+        problem = f"is not a readable rosbag2 recording ({reason})"
+        if any(self.path.glob("*.mcap")) or (self.path.is_file() and self.path.suffix == ".mcap"):
+            problem += f"; what of it is whole can be had with {recovery_command(self.path)}"
+        return FileError(self.path, problem)
 
 
 def is_bag(path: str | Path) -> bool:
     """Whether a path is that of a recording, its folder or its storage file, by its name."""
     return Path(path).is_dir() or Path(path).suffix in _STORAGES
+
+
+def recovery_command(path: Path) -> str:
+    """For a shell: copies what is whole of a damaged recording in MCAP, a folder or its storage file, to a new one."""
+    return f"python3 -m continuum_manipulator.bag_recovery {shlex.quote(str(path))} RECOVERED"
 
 
 def _absolute(topic: str) -> str:
