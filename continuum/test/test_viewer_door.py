@@ -15,6 +15,7 @@ from websockets.typing import Origin, Subprotocol
 from continuum.burst_log import BurstLog
 from continuum.kinematics.chain import arm_pose
 from continuum.viewer.browser_messages import LONGEST
+from continuum.viewer.door import NoDoorError, kept_door
 from continuum.viewer.page import Page
 from continuum.viewer.remote_arm import RemoteArm
 from continuum.viewer.usual_arm import usual_arm
@@ -100,6 +101,11 @@ def test_a_page_of_another_site_is_refused_in_the_handshake(served: Served, orig
         served.client(origin)
     assert refusal.value.response.status_code == 403
     assert served.faults.counts["page of another site"] == before + 1
+
+
+def test_a_server_that_is_served_in_another_way_is_refused(served: Served) -> None:
+    with pytest.raises(NoDoorError), kept_door("127.0.0.1", (), served.faults):
+        pass
 
 
 def test_the_page_itself_and_programs_are_let_in(served: Served) -> None:

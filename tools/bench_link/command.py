@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any
 
 import tools.bench_link
+from continuum.errors import ContinuumError
 from continuum.whole_file import write_whole
 from tools.bench_link import campaign, closed_loop, deaths, soak
 from tools.bench_link.faults import CASES, FAULTS
 from tools.bench_link.page import page
 from tools.bench_link.processes import take_niceness
 from tools.bench_link.results import keep, load, together
-from tools.demo.errors import DemoError
 
 PAGE = Path("docs/bench-link.md")
 
@@ -62,10 +62,10 @@ def main(arguments: list[str] | None = None) -> int:
             if part in parts:
                 print(part, flush=True)
                 keep(options.out, part, run((options.out / part).resolve()), options.niceness)
-    except (DemoError, AssertionError) as error:  # these of the tests' harness: something did not come in time
+        write_whole(options.page, page(load(options.out)))
+    except (ContinuumError, AssertionError) as error:  # these of the tests' harness: something did not come in time
         print(f"bench-link: {error}", file=sys.stderr)
         return 1
-    write_whole(options.page, page(load(options.out)))
     print(f"written: {options.page}")
     return 0
 

@@ -17,6 +17,7 @@ from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
 from continuum.burst_log import BurstLog
+from continuum.errors import ContinuumError
 from continuum.viewer.browser_messages import LONGEST, BrowserMessageError, check_browser_message
 
 PATIENCE = 10.0
@@ -38,6 +39,10 @@ _hung = threading.Lock()
 """One door is hung at a time."""
 
 
+class NoDoorError(ContinuumError):
+    """The server of pages cannot be kept from letting everybody in."""
+
+
 @contextmanager
 def kept_door(host: str, words: Collection[str], faults: BurstLog) -> Iterator[None]:
     """Let a server of pages that is started meanwhile let in only who shall, and only what a page sends.
@@ -51,9 +56,13 @@ def kept_door(host: str, words: Collection[str], faults: BurstLog) -> Iterator[N
         host: address that the page is served on.
         words: that a browser may say; asked for whenever it speaks.
         faults: where it is noted who and what was refused.
+
+    Raises:
+        NoDoorError: the server that was started serves in another way.
     """
     own_names = {host, "localhost", socket.gethostname(), f"{socket.gethostname()}.local"}
     serve = websocket_server.serve
+    served = threading.Event()
 
     class Connection(ServerConnection):
         """Gives messages that a page sends; others are noted."""
@@ -89,6 +98,7 @@ def kept_door(host: str, words: Collection[str], faults: BurstLog) -> Iterator[N
                 watch.cancel()
                 await asyncio.gather(watch, return_exceptions=True)  # it may have met the end of the connection
 
+        served.set()
         hooks = {"process_request": answer, "create_connection": Connection, "max_size": LONGEST}
         return serve(handle, host, port, **(options | hooks))
 
@@ -98,6 +108,8 @@ def kept_door(host: str, words: Collection[str], faults: BurstLog) -> Iterator[N
             yield
         finally:
             websocket_server.serve = serve  # type: ignore[misc]
+    if not served.is_set():
+        raise NoDoorError("this version of viser lets everybody in; docs/dependencies.md names one that does not")
 
 
 def is_stranger(origin: str | None, served_as: str | None, own_names: set[str]) -> bool:
