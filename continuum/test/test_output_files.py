@@ -45,7 +45,7 @@ def test_two_outputs_are_two_files(data: Path) -> None:
     check_apart([data / "b", data / "c"], [])
 
 
-def test_a_look_at_a_dangling_link_changes_nothing(tmp_path: Path) -> None:
+def test_the_check_of_a_dangling_link_changes_nothing(tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to("target")
     check_writable(tmp_path / "link")
     assert [path.name for path in tmp_path.iterdir()] == ["link"]

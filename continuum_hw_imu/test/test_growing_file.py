@@ -17,7 +17,7 @@ def test_every_line_can_be_read_at_once(tmp_path: Path) -> None:
     file.close()
 
 
-def test_a_full_disk_is_told_with_the_files_name(tmp_path: Path) -> None:
+def test_a_full_disk_is_reported_with_the_files_name(tmp_path: Path) -> None:
     file = GrowingFile(tmp_path / "a.csv")
     with at_most(4096):
         with pytest.raises(FileError, match=r"a\.csv: cannot be written"):

@@ -22,7 +22,7 @@ class SetupError(Exception):
 
 
 def tool_pins() -> list[Path]:
-    """Return the files with what single tools need beside the environment, pinned; hashes are in the ``.txt`` files."""
+    """Return the files with what single tools need besides the environment, pinned; hashes are in ``.txt`` files."""
     return sorted(path for path in ROOT.glob("tools/*/requirements.in") if path != REQUIREMENTS)
 
 

@@ -13,7 +13,7 @@ class Choice:
 
     Args:
         layout: of the page.
-        label: beside it.
+        label: what it is called on the page.
         options: what may be chosen.
         first: what is chosen at first; the first option by default.
         properties: as viser's dropdown has them.
