@@ -1,12 +1,15 @@
 """Recordings from rosbag2: what the node `dynamics` publishes comes back as a run."""
 
+import sqlite3
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
 import pytest
 from recorded_runs import START, TYPES, Topics, message, write
 from recorded_runs import run as kinematic_run
+from rosbags.rosbag2 import StoragePlugin
 
 from continuum.cli.diagnose import read_recording
 from continuum.errors import FileError
@@ -203,6 +206,22 @@ def test_others_on_the_topic_are_left_out_and_counted(tmp_path: Path, places: li
 def test_the_storage_file_is_the_recording(tmp_path: Path) -> None:
     folder = write(tmp_path / "swing", swing())
     (storage,) = (path for path in folder.iterdir() if path.suffix != ".yaml")
+    np.testing.assert_array_equal(read_recording(str(storage)).theta, ANGLES)
+
+
+@pytest.mark.parametrize("definition", ["", "this ; is no definition", "unknown_msgs/Other value"])
+def test_topics_of_types_that_nobody_knows_may_be_there(tmp_path: Path, definition: str) -> None:
+    folder = write(tmp_path / "swing", swing(), StoragePlugin.SQLITE3)
+    (storage,) = folder.glob("*.db3")
+    with closing(sqlite3.connect(storage)) as database, database:
+        columns = "(id, name, type, serialization_format, offered_qos_profiles, type_description_hash)"
+        database.execute(f"INSERT INTO topics {columns} VALUES (99, '/foo', 'my_msgs/msg/Foo', 'cdr', '', '')")
+        database.execute(
+            "INSERT INTO message_definitions (topic_type, encoding, encoded_message_definition, type_description_hash) "
+            "VALUES ('my_msgs/msg/Foo', 'ros2msg', ?, '')",
+            (definition,),
+        )
+        database.execute("INSERT INTO messages (topic_id, timestamp, data) VALUES (99, ?, x'0001')", (START,))
     np.testing.assert_array_equal(read_recording(str(storage)).theta, ANGLES)
 
 

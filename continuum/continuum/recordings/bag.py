@@ -1,4 +1,7 @@
-"""A rosbag2 recording read by `rosbags`, without ROS: message definitions come from the recording itself."""
+"""A rosbag2 recording read by `rosbags`, without ROS: message definitions come from the recording itself.
+
+Only those that are asked for are read: topics of types that nobody knows may stand beside them.
+"""
 
 from __future__ import annotations
 
@@ -9,22 +12,24 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from rosbags.highlevel import AnyReader, AnyReaderError
-from rosbags.interfaces import Connection
-from rosbags.rosbag2 import ReaderError
+from rosbags.interfaces import Connection, MessageDefinitionFormat
+from rosbags.interfaces.typing import Typesdict
+from rosbags.rosbag2 import Reader, ReaderError
 from rosbags.rosbag2.storage_sqlite3 import apsw  # type: ignore[attr-defined]
-from rosbags.typesys import Stores, get_typestore
+from rosbags.serde import SerdeError
+from rosbags.typesys import Stores, TypesysError, get_types_from_idl, get_types_from_msg, get_typestore
 
 from continuum.errors import FileError
 
 _DAMAGE = (
-    *(AnyReaderError, ReaderError, OSError),
+    *(ReaderError, TypesysError, SerdeError, OSError),
     # what rosbags lets through where bytes of a recording were changed or cut
     *(apsw.Error, struct.error, ValueError, TypeError, AttributeError, LookupError, ArithmeticError, MemoryError),
     *(AssertionError, EOFError, RecursionError),
 )
 
 
+_NEXT_IDL = "=" * 80 + "\n"
 _STORAGES = (".mcap", ".db3")  # of rosbag2
 
 
@@ -43,7 +48,7 @@ class Bag:
         if self.path.is_dir() and not (self.path / "metadata.yaml").exists():
             raise self._unreadable("it has no metadata.yaml")
         with self._readable():
-            self._reader = AnyReader([self.path], default_typestore=get_typestore(Stores.ROS2_JAZZY))
+            self._reader = Reader(self.path)
             self._reader.open()
 
     def __enter__(self) -> Bag:
@@ -70,8 +75,10 @@ class Bag:
             if connection.msgtype != message_type:
                 raise FileError(self.path, f"has {connection.msgtype} on {topic}, not {message_type}")
         with self._readable():
+            types = get_typestore(Stores.EMPTY)
+            types.register(_definition(self._connections(topic)[0]))
             for connection, _, raw in self._reader.messages(self._connections(topic)):
-                yield self._reader.deserialize(raw, connection.msgtype)
+                yield types.deserialize_cdr(raw, connection.msgtype)
 
     def _connections(self, topic: str) -> list[Connection]:
         return [one for one in self._reader.connections if _absolute(one.topic) == topic]
@@ -101,6 +108,19 @@ def is_bag(path: str | Path) -> bool:
 def recovery_command(path: Path) -> str:
     """For a shell: copies what is whole of a damaged recording in MCAP, a folder or its storage file, to a new one."""
     return f"python3 -m continuum_manipulator.bag_recovery {shlex.quote(str(path))} RECOVERED"
+
+
+def _definition(connection: Connection) -> Typesdict:
+    """A topic's message type and those that it is made of, by Jazzy where the recording does not define them."""
+    text, kind = connection.msgdef.data, connection.msgdef.format
+    if kind is MessageDefinitionFormat.NONE:
+        return get_typestore(Stores.ROS2_JAZZY).fielddefs
+    if kind is MessageDefinitionFormat.MSG:
+        return get_types_from_msg(text, connection.msgtype)
+    found: Typesdict = {}
+    for part in filter(None, text.split(_NEXT_IDL)):
+        found |= get_types_from_idl(part.partition("\n")[2] if part.startswith("IDL: ") else part)
+    return found
 
 
 def _absolute(topic: str) -> str:
