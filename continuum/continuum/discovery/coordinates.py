@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.planar.eq13_joint_friction import dry_friction
 from continuum.dynamics.values import with_vector
 from continuum.estimation.columns import Change, Column, Slope
@@ -123,6 +124,11 @@ class Coordinates:
                 found.append(name)
         return frozenset(found)
 
+    @cached_property
+    def _given(self) -> Parameters:
+        """The reference values as the model's effects make them."""
+        return with_vector(self.structure.model, self.reference).changed_parameters
+
     def constraints(self, p: Array, columns: Sequence[Column], width: int) -> tuple[Array, Array]:
         """Rows G and values g, g + G dtheta >= 0 about p: masses, inertias, springs and friction stay positive."""
         here = self._physical(p)
@@ -142,8 +148,7 @@ class Coordinates:
 
     def _physical(self, p: Array, rates_of: Array | None = None) -> Array:
         """Quantities that must not be negative, over their references."""
-        changed = with_vector(self.structure.model, p).changed_parameters
-        given = with_vector(self.structure.model, self.reference).changed_parameters
+        changed, given = with_vector(self.structure.model, p).changed_parameters, self._given
         parts = [
             np.where(one > 0, two / np.where(one > 0, one, 1.0) - _LEAST, 1.0)
             for one, two in (

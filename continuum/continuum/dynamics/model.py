@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.expressions import Numbers
@@ -74,7 +75,7 @@ class Model:
         """Number of inputs: of cables, or of joints."""
         return len(SIDES) if self.inputs is InputKind.CABLES else self.n_joints
 
-    @property
+    @cached_property
     def changed_parameters(self) -> Parameters:
         """Parameters of Eq. 12 as the effects make them."""
         p = self.parameters
