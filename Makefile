@@ -5,7 +5,7 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo bench-demo test browser reproduction bench-dynamics bench-ik bench-identification bench-discovery \
+.PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-discovery \
   bench-inertial bench-link bench-viewer fuzz prototype figures api check format lock clean
 
 help: ## list the targets
@@ -20,8 +20,11 @@ demo: setup ## follow the thesis's helix with real nodes, results in out/demo; V
 bench-demo: setup ## emulated bench, bridge and simulated arm: pulled, released, recorded, diagnosed; results in out/bench_demo
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.bench_demo $(ARGS)
 
-test: check browser ## run the checks and every test, the library's on up to 4 cores (ARGS="-k name" are given to pytest)
+test: check browser ## run the checks and every test (ARGS="-k name" are given to pytest)
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.run_tests $(ARGS)
+
+quick: check ## run the checks and the fast unit tests: what to run after every change
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.run_tests --quick $(ARGS)
 
 browser: setup ## Chromium and Playwright for the viewer's tests, into out/browser; what cannot be had is left out
 	@$(IN_WORKSPACE) test -d out/browser/extra/playwright || \

@@ -33,25 +33,29 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Let ``make test`` run the tests in two parts."""
-    parser.addoption("--library", choices=("only", "left-out"), help="tests of the library, which start no nodes")
+    """Let ``make test`` run the tests in parts."""
+    parser.addoption("--part", choices=("nodes", "units", "hidden-effects", "quick"), help="run this part alone")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out the part that ``--library`` names."""
-    if (part := config.getoption("library")) is None:
+    """Leave out what ``--part`` does not name."""
+    if (part := config.getoption("part")) is None:
         return
     kept: list[pytest.Item] = []
     left_out: list[pytest.Item] = []
     for item in items:
-        (kept if _is_of_the_library(item.path) == (part == "only") else left_out).append(item)
+        (kept if part in _parts_of(item) else left_out).append(item)
     config.hook.pytest_deselected(items=left_out)
     items[:] = kept
 
 
-def _is_of_the_library(path: Path) -> bool:
-    """Whether a test only computes, and may run beside others that do."""
-    return any(path.is_relative_to(Path(__file__).parent / folder) for folder in ("continuum/test", "test/blind"))
+def _parts_of(item: pytest.Item) -> tuple[str, ...]:
+    """The part of a test, and "quick" where it is one of the fast ones."""
+    if item.get_closest_marker("ros"):
+        return ("nodes",)
+    if item.get_closest_marker("hidden_effects"):
+        return ("hidden-effects",)
+    return ("units",) if item.get_closest_marker("slow") else ("units", "quick")
 
 
 sys.path.append(str(Path(__file__).parent / "test"))  # for the package harness

@@ -19,6 +19,8 @@ from tools.bench_discovery.plans import PLANTS, Plan
 from tools.bench_discovery.result import Result
 
 FIRST_SEED = 8000
+pytestmark = pytest.mark.hidden_effects
+
 NOISES = ("low", "ordinary")
 PAIRS = (("rest_angle", "joint_friction"), ("tip_payload", "sensor_delay"), ("angle_offset", "actuator_lag"))
 

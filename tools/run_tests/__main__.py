@@ -1,21 +1,28 @@
-"""`make test`: first the tests that start nodes, one after the other, then those of the library on up to four cores.
+"""`make test` in three parts, and `make quick`.
 
-A node that starts beside tests that compute waits for a core, on a busy machine for a minute; then tests fail that say
-what happens within seconds.
+Tests that start nodes wait more than they compute: three files at a time, each module in a ROS domain of its own. Unit
+tests compute: one file for each core. The hidden effects share out their cases themselves.
 """
 
 from __future__ import annotations
 
+import argparse
 import subprocess
 import sys
+import time
 from enum import IntEnum
 from typing import Final
 
-PARTS: Final = (
-    ("--library=left-out",),
-    ("--library=only", "--numprocesses=auto", "--maxprocesses=4", "--dist=loadfile"),
-)
-"""What pytest is told for each part; ``--library`` is an option of ``conftest.py``."""
+_SIDE_BY_SIDE: Final = ("--dist=loadfile", "--numprocesses=auto", "--maxprocesses=4")
+PARTS: Final = {
+    "nodes": ("--dist=loadfile", "--numprocesses=3"),
+    "units": _SIDE_BY_SIDE,
+    "hidden-effects": (),
+}
+"""What pytest is told for each part of all tests; ``--part`` is an option of ``conftest.py``."""
+
+QUICK: Final = {"quick": _SIDE_BY_SIDE}
+"""The fast ones of the unit tests alone."""
 
 
 class Code(IntEnum):
@@ -27,13 +34,19 @@ class Code(IntEnum):
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run both parts, the second also where the first fails; give pytest's exit code of the first that failed."""
-    given = sys.argv[1:] if arguments is None else arguments
-    codes: list[int] = []
-    for part in PARTS:
-        codes.append(subprocess.run([sys.executable, "-m", "pytest", *part, *given], check=False).returncode)
+    """Run every part, also after one that failed; give pytest's exit code of the first that failed."""
+    parser = argparse.ArgumentParser(prog="run_tests", description="Further arguments are given to pytest.")
+    parser.add_argument("--quick", action="store_true", help="the fast unit tests alone")
+    options, given = parser.parse_known_args(arguments)
+    codes, lines = list[int](), list[str]()
+    for part, how in (QUICK if options.quick else PARTS).items():
+        began = time.monotonic()
+        command = [sys.executable, "-m", "pytest", f"--part={part}", *how, *given]
+        codes.append(subprocess.run(command, check=False).returncode)
+        lines.append(f"{part} {time.monotonic() - began:.0f} s")
         if codes[-1] == Code.INTERRUPTED:
             break
+    print(f"time: {', '.join(lines)}", flush=True)
     return exit_code(codes)
 
 

@@ -1,4 +1,4 @@
-"""Every test is in one of the two parts, and a failure of either is one of the whole."""
+"""Every test is in one of the parts, and a failure of any is one of the whole."""
 
 import subprocess
 import sys
@@ -10,14 +10,17 @@ import pytest
 from tools.run_tests import __main__ as run_tests
 
 ROOT = Path(__file__).parents[3]
-OF_THE_LIBRARY, OTHER = "continuum/test/test_arm.py", "test/test_pages.py"
+FILES = ("continuum/test/test_arm.py", "test/blind/test_hidden_effects.py", "tools/ros2/test/test_graph.py")
 
 
 @pytest.mark.parametrize(
     ("codes", "whole"),
-    [([0, 0], 0), ([1, 0], 1), ([0, 1], 1), ([5, 0], 0), ([0, 5], 0), ([5, 1], 1), ([4, 1], 4), ([5, 5], 5), ([2], 2)],
-)
-def test_a_failure_of_either_part_is_one_of_the_whole(codes, whole, monkeypatch):
+    [
+        ([0, 0, 0], 0), ([1, 0, 0], 1), ([0, 1, 0], 1), ([5, 0, 0], 0), ([0, 5, 5], 0), ([5, 0, 1], 1), ([4, 1, 0], 4),
+        ([5, 5, 5], 5), ([2], 2),
+    ],
+)  # fmt: skip
+def test_a_failure_of_any_part_is_one_of_the_whole(codes, whole, monkeypatch):
     remaining, commands = iter(codes), []
 
     def ended(command, **_):
@@ -30,9 +33,17 @@ def test_a_failure_of_either_part_is_one_of_the_whole(codes, whole, monkeypatch)
     assert all(command[-2:] == ["-k", "cable"] for command in commands)
 
 
-@pytest.mark.parametrize(("part", "there"), [("only", OF_THE_LIBRARY), ("left-out", OTHER)])
-def test_each_test_is_in_one_part(part, there):
-    command = [sys.executable, "-m", "pytest", "--collect-only", "-q", f"--library={part}", OF_THE_LIBRARY, OTHER]
+def collected(*options: str) -> list[str]:
+    command = [sys.executable, "-m", "pytest", "--collect-only", "-q", *options, *FILES]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True, timeout=120)
-    collected = {line.partition("::")[0] for line in done.stdout.splitlines() if "::" in line}
-    assert collected == {there}
+    return [line for line in done.stdout.splitlines() if "::" in line]
+
+
+def test_each_test_is_in_one_part():
+    parts = [collected(f"--part={part}") for part in run_tests.PARTS]
+    assert all(parts)
+    assert sorted(test for part in parts for test in part) == sorted(collected())
+
+
+def test_quick_tests_are_unit_tests():
+    assert set(collected("--part=quick")) <= set(collected("--part=units"))
