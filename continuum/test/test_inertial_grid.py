@@ -23,3 +23,19 @@ def test_long_pauses_are_missing_readings() -> None:
     recording = on_one_grid([stream(times)])
     assert recording.times.size == 2200
     assert np.sum(recording.valid) == 400
+
+
+def test_missing_readings_are_counted_once_though_two_instants_of_the_grid_lack_them() -> None:
+    all_times = np.arange(1000) / 60
+    kept = np.delete(all_times, np.arange(5, 995, 10))
+    one, other = stream(all_times + 0.3 / 60), stream(kept)
+    recording = on_one_grid([one, other])
+    assert one.missing == 0.0
+    assert other.missing == pytest.approx(0.099, abs=0.001)
+    assert np.mean(~recording.valid[:, 1]) == pytest.approx(2 * 0.099, abs=0.003)
+
+
+def test_a_period_is_exact_though_stamps_are_rounded_to_a_coarse_tick() -> None:
+    times = np.rint(np.arange(6000) / 60 * 1e4) / 1e4
+    assert stream(times).period == pytest.approx(1 / 60, rel=1e-6)
+    assert stream(times).missing == 0.0

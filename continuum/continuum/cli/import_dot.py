@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from continuum.cli.tables import print_pairs
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from continuum.inertial.calibration import Calibration
     from continuum.inertial.imu_recording import ImuRecording
     from continuum.inertial.recorded_angles import RecordedAngles
+    from continuum.inertial.time_grid import Stream
 
 Span = tuple[float, float]
 
@@ -62,13 +64,14 @@ def run(options: argparse.Namespace) -> int:
         check_writable(path)
     check_apart((options.out, options.save_calibration), (*options.files, options.calibration))
     exports = [read_dot_export(path) for path in options.files]
-    recording = on_one_grid(on_one_clock(exports))
+    streams = on_one_clock(exports)
+    recording = on_one_grid(streams)
     check_common_clock(recording)
     found = rests(recording)
     for export in exports:
         for note in export.notes:
             print(f"continuum: {export.name}: {note}", file=sys.stderr)
-    _show(recording, found, [export.name for export in exports])
+    _show(recording, found, streams)
     if options.out is None and options.save_calibration is None:
         print("nothing written; --out names a file for the joint angles")
         return 0
@@ -82,18 +85,24 @@ def run(options: argparse.Namespace) -> int:
     return _write(options, recorded_angles(recording, calibration, settings))
 
 
-def _show(recording: ImuRecording, found: list[Span], names: list[str]) -> None:
+def _show(recording: ImuRecording, found: list[Span], streams: Sequence[Stream]) -> None:
+    """What was read. A missing reading leaves two common instants without values where instants differ."""
     lasts = recording.times[-1] - recording.times[0]
-    lost, clipped = (100 * (block.mean(axis=0)) for block in (~recording.valid, recording.clipped))
+    unknown, clipped = (block.mean(axis=0) for block in (~recording.valid, recording.clipped))
     spans = ", ".join(f"{begin:.2f} to {end:.2f}" for begin, end in found)
-    pairs = [(f"sensor {number}", name) for number, name in enumerate(names, start=1)]
+    pairs = [(f"sensor {number}", stream.name) for number, stream in enumerate(streams, start=1)]
     pairs += [
         ("together", f"{lasts:.2f} s, {(recording.times.size - 1) / lasts:.0f} readings a second"),
-        ("missing", ", ".join(f"{share:.1f}" for share in lost) + " % of the readings"),
-        ("clipped", ", ".join(f"{share:.1f}" for share in clipped) + " % of the readings"),
+        ("missing", f"{_percent(stream.missing for stream in streams)} of the readings"),
+        ("unknown", f"{_percent(unknown)} of the common instants"),
+        ("clipped", f"{_percent(clipped)} of the common instants"),
         ("at rest", f"{spans} s" if found else "never for as long as a second"),
     ]
     print_pairs(pairs)
+
+
+def _percent(shares: Iterable[float]) -> str:
+    return ", ".join(f"{100 * share:.1f}" for share in shares) + " %"
 
 
 def _calibration(options: argparse.Namespace, recording: ImuRecording, found: list[Span]) -> Calibration:

@@ -47,8 +47,18 @@ class Stream:
     @property
     def period(self) -> float:
         """Between readings, as exact as the whole stream tells it [s]."""
-        lasts = self.times[-1] - self.times[0]
-        return float(lasts / round(lasts / np.median(np.diff(self.times))))
+        return float((self.times[-1] - self.times[0]) / self._periods)
+
+    @property
+    def missing(self) -> float:
+        """Share of its readings that are missing between the first and the last, 0 to 1."""
+        return 1 - self.times.size / (1 + self._periods)
+
+    @property
+    def _periods(self) -> int:
+        """From the first reading to the last; counted step by step, as ticks of a clock may be a coarse unit."""
+        steps = np.diff(self.times)
+        return int(np.sum(np.rint(steps / np.median(steps))))
 
 
 def on_one_grid(streams: Sequence[Stream]) -> ImuRecording:
