@@ -33,8 +33,9 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Let ``make test`` run the tests in parts."""
+    """Let ``make test`` run the tests in parts, and ``make exam`` one of them with more seeds."""
     parser.addoption("--part", choices=("nodes", "units", "hidden-effects", "quick"), help="run this part alone")
+    parser.addoption("--rounds", type=int, default=1, help="of hidden effects, each with seeds of its own")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
