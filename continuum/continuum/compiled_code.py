@@ -1,79 +1,137 @@
 """Functions compiled by numba and kept on disk, by a key that follows all of their sources.
 
-Numba's cache looks at the file of the compiled function alone; loops here call equations from many files. So every
-entry point carries a digest of all of them in its closure, which is a part of the cache's key.
-
-What was compiled is kept beside the sources. Where that folder is read-only it is read from there, or else kept in
-``$XDG_CACHE_HOME/continuum/compiled`` (``~/.cache/...`` without it); where nothing can be written, it is kept nowhere.
+Numba's cache follows the file of the compiled function alone, and loads machine code unchecked: a damaged file ends the
+program. So what numba keeps of an entry point is packed into one file with a digest of its content and of all sources.
+Numba works in a temporary folder of this program, which is filled from that file if the digest fits, and packed again
+after something was compiled. Programs that start at the same time never see a file that is half written.
 """
 
 from __future__ import annotations
 
-import contextlib
+import functools
 import hashlib
-import os
+import inspect
+import shutil
+import tempfile
+import threading
+import weakref
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numba
-from numba.core import caching as numba_caching
 
-caching: Any = numba_caching  # numba has types in some places alone
+from continuum.compile_cache import CompiledFunction, config, warn_not_kept
 
 compiled = numba.njit(error_model="numpy")
 """Compiles a function that is called from compiled code alone; not cached by itself."""
 
+ErrorModel = Literal["numpy", "python"]
 
-def sources_digest(*folders: Path) -> str:
-    """Digest of all Python files below the ``folders``."""
+_cache_dir_is_set = threading.Lock()
+
+
+@functools.cache
+def sources_digest(*places: Path) -> str:
+    """Digest of Python files, and of all of them below folders."""
     digest = hashlib.sha256()
-    for folder in folders:
-        for path in sorted(folder.rglob("*.py")):
+    for place in places:
+        for path in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
             digest.update(path.read_bytes())
     return digest.hexdigest()
 
 
-def entry_point(build: Callable[[str], Callable[..., Any]], digest: str) -> Callable[..., Any]:
-    """Compile, once and cached on disk, the function that ``build`` makes around the ``digest`` of its sources."""
-    function: Callable[..., Any] = compiled(build(digest))
-    if hasattr(function, "py_func"):  # not where numba is switched off
-        with contextlib.suppress(RuntimeError):  # no folder can be written: compiled anew in every program
-            dispatcher: Any = function
-            dispatcher._cache = _Cache(dispatcher.py_func)
-    return function
+def entry_point(*sources: Path, error_model: ErrorModel = "numpy") -> Callable[[Callable[..., Any]], Any]:
+    """Decorate a function that Python calls: compiled when it is first called, and kept on disk.
+
+    Args:
+        sources: files, and folders of files, that the compiled code may come from.
+        error_model: numba's; with ``python``, division by zero is an error.
+    """
+
+    def decorate(function: Callable[..., Any]) -> Any:
+        return function if config.DISABLE_JIT else EntryPoint(function, sources, error_model)
+
+    return decorate
 
 
-class _Installed(caching.InTreeCacheLocator):  # type: ignore[misc]
-    """Reads what was compiled by whoever installed the package, in a folder that cannot be written."""
+class EntryPoint:
+    """A compiled function; call it as the one that it was made of, by position."""
 
-    @classmethod
-    def from_function(cls, py_func: Any, py_file: str) -> Any:
-        """The locator, or None where nothing was compiled."""
-        found = cls(py_func, py_file)
-        there = Path(found.get_cache_path())
-        return found if any(there.glob(f"{Path(py_file).stem}.*.nbi")) else None
+    def __init__(self, function: Callable[..., Any], sources: tuple[Path, ...], error_model: ErrorModel) -> None:
+        functools.update_wrapper(self, function)
+        self._function, self._sources, self._error_model = function, sources, error_model
+        self._dispatcher: Any = None
+        self._folder: Path | None = None
+        self._lock = threading.RLock()
+        self._n_known, self._n_compiled = 0, 0
 
-
-class _OfUser(caching.InTreeCacheLocator):  # type: ignore[misc]
-    """Keeps what was compiled in the user's cache folder."""
-
-    def __init__(self, py_func: Any, py_file: str) -> None:
-        super().__init__(py_func, py_file)
-        base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-        self._cache_path = str(Path(base, "continuum", "compiled", self.get_suitable_cache_subpath(py_file)))
-
-
-class _Folders(caching.CompileResultCacheImpl):  # type: ignore[misc]
-    _locator_classes = [caching.UserProvidedCacheLocator, caching.InTreeCacheLocator, _Installed, _OfUser]  # noqa: RUF012
-
-
-class _Cache(caching.FunctionCache):  # type: ignore[misc]
-    _impl_class = _Folders
-
-    def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep what was compiled if the folder lets it."""
+    def __call__(self, *arguments: Any) -> Any:
+        dispatcher = self._dispatcher or self._started()
         try:
-            super().save_overload(sig, data)
-        except OSError:  # read-only, full: the program works all the same
-            return
+            result = dispatcher(*arguments)
+        except OSError as error:  # of numba, before the call: it cannot keep what it compiled
+            if self._folder is None:
+                raise
+            self._start_in_memory(error)
+            return self(*arguments)
+        if len(dispatcher.overloads) != self._n_known:
+            self._keep()
+        return result
+
+    @property
+    def signatures(self) -> list[Any]:
+        """Types of arguments that it is compiled for in this program."""
+        return list(self._dispatcher.signatures) if self._dispatcher else []
+
+    @property
+    def n_compiled(self) -> int:
+        """For how many types of arguments this program had to compile it, which found nothing on disk."""
+        return sum(self._dispatcher.stats.cache_misses.values()) if self._dispatcher else 0
+
+    @functools.cached_property
+    def _kept(self) -> CompiledFunction:
+        source = Path(inspect.getfile(self._function))
+        return CompiledFunction(
+            source, self._function.__qualname__, f"{sources_digest(*self._sources)} {self._error_model}"
+        )
+
+    def _started(self) -> Any:
+        """The function as numba calls it, with a folder that holds what was kept."""
+        with self._lock:
+            if self._dispatcher is None:
+                try:
+                    self._folder = Path(tempfile.mkdtemp(prefix="continuum-"))
+                    weakref.finalize(self, shutil.rmtree, self._folder, ignore_errors=True)
+                    self._kept.unpack(self._folder)
+                    self._dispatcher = _with_cache(self._function, self._error_model, self._folder)
+                except (OSError, RuntimeError) as error:  # RuntimeError: numba finds no place for its cache
+                    self._start_in_memory(error)
+            return self._dispatcher
+
+    def _start_in_memory(self, error: Exception) -> None:
+        warn_not_kept(error)
+        self._folder = None
+        self._dispatcher = numba.njit(error_model=self._error_model)(self._function)
+
+    def _keep(self) -> None:
+        """Pack what numba keeps if there is more of it than before."""
+        with self._lock:
+            self._n_known = len(self._dispatcher.overloads)
+            if self._folder is not None and self._n_compiled != self.n_compiled:
+                self._n_compiled = self.n_compiled
+                try:
+                    self._kept.pack(self._folder)
+                except OSError as error:
+                    warn_not_kept(error)
+
+
+def _with_cache(function: Callable[..., Any], error_model: ErrorModel, folder: Path) -> Any:
+    """The function as numba compiles it, which chooses the folder of its cache now and keeps to it."""
+    with _cache_dir_is_set:
+        before = config.CACHE_DIR
+        config.CACHE_DIR = str(folder)
+        try:
+            return numba.njit(cache=True, error_model=error_model)(function)
+        finally:
+            config.CACHE_DIR = before

@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ from continuum_laws.targets import misses, targets_at
 
 from continuum.arm import Arm
 from continuum.kinematics.chain import arm_jacobian, arm_pose
-from continuum.kinematics.compiled import equations
 from continuum.kinematics.compiled.arm_arrays import arm_arrays
 from continuum.kinematics.compiled.rate import run_tip_rate
 from continuum.kinematics.compiled.solver import run_solver
@@ -72,27 +70,6 @@ def test_the_task_tells_distance_and_angle_and_the_descent_of_its_squared_error(
         assert np.linalg.norm(error) == pytest.approx(np.hypot(told[0], weight * told[1]), rel=1e-9)
         slope = differences(half_square, w.reshape(-1), step=0.01)
         assert_same_slopes((-jacobian[:kind].T @ error)[None], slope[None], relative=1e-7)
-
-
-def test_the_digest_follows_every_source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("chord.py", "section/eq04.py"):
-        path = tmp_path / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_text("one = 1\n")
-    monkeypatch.setattr(equations.kinematics, "__path__", [str(tmp_path)])
-    first = equations.sources_digest()
-    assert equations.sources_digest() == first
-    (tmp_path / "section/eq04.py").write_text("one = 2\n")
-    assert equations.sources_digest() != first
-    (tmp_path / "section/eq04.py").write_text("one = 1\n")
-    assert equations.sources_digest() == first
-    (tmp_path / "added.py").write_text("two = 2\n")
-    assert equations.sources_digest() != first
-
-
-def test_entry_points_carry_the_digest_where_the_cache_sees_it() -> None:
-    cells = [cell.cell_contents for cell in run_solver.py_func.__closure__]
-    assert equations.sources_digest() in cells
 
 
 def test_after_the_warm_up_nothing_is_compiled() -> None:

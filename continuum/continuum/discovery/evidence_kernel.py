@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
+from pathlib import Path
 
-import numba
 import numpy as np
 
-compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
+from continuum.compiled_code import entry_point
+from continuum.estimation.compiled_loops import compiled
 
 
 @compiled
@@ -20,7 +19,7 @@ def _log_normal(z: float) -> float:
     return math.log(0.5 * math.erfc(-z / math.sqrt(2.0)))
 
 
-@compiled
+@entry_point(Path(__file__), error_model="python")
 def evidences(L, e, c, G, g, index, sd, least, found, worst):  # type: ignore[no-untyped-def]
     """Log-evidence of the coefficients ``index`` at every level, their bounds by their marginals.
 

@@ -10,19 +10,15 @@ for any theta, so that one pass serves every hypothesis.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
-import numba
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.estimation.compiled_loops import compiled, entry_point
 from continuum.estimation.run import Run, Trajectory
 from continuum.estimation.sensor_noise import NoiseModel
 from continuum.estimation.transition import Transition
-
-compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
 
 
 @dataclass(frozen=True)
@@ -170,7 +166,7 @@ def _defect(k, q, w, d, end, D):  # type: ignore[no-untyped-def]
     return out
 
 
-@compiled
+@entry_point
 def _filter(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d, B, C, L_out, e_out):  # type: ignore[no-untyped-def]
     rows, size = y.shape
     n, n4, P = q.shape[1], 4 * q.shape[1], B.shape[2]
@@ -211,7 +207,7 @@ def _filter(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d,
     return z @ z, log_det
 
 
-@compiled
+@entry_point
 def _smooth(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d, Bt, Ct):  # type: ignore[no-untyped-def]
     """Filter, then the smoother of Bryson and Frazier, which inverts no covariance of states."""
     rows, size = y.shape

@@ -6,20 +6,18 @@ in its size, and the effect's whole torque at a given size where it has states o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Protocol
 
-import numba
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.estimation.compiled_loops import entry_point
 from continuum.estimation.effect_states import SubstepMotion
 from continuum.estimation.motion_equations import evaluate, packed, torques
 from continuum.estimation.run import Run, Trajectory
 from continuum.estimation.structure import Point, Structure
-
-compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
 
 _DIFFERENCE = 1e-5  # of a sensor's parameter: readings are linear in most of them
 
@@ -258,7 +256,7 @@ def assembled(columns: Sequence[Column], scene: Scene) -> tuple[Array, Array]:
     return torque, reading
 
 
-@compiled
+@entry_point
 def to_states(W: Array, torque: Array, first: Array) -> Array:
     """From torque in the substeps to the state at the interval's end, (n_times - 1, 2 n, P)."""
     out = np.zeros((first.size - 1, W.shape[1], torque.shape[2]))

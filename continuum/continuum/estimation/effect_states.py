@@ -6,12 +6,10 @@ converge is halved.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
-import numba
 import numpy as np
 
 from continuum.arrays import Array
@@ -20,9 +18,8 @@ from continuum.dynamics.effect import Effect
 from continuum.dynamics.integration.call_at import call_at
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.values import with_vector
+from continuum.estimation.compiled_loops import compiled, entry_point
 from continuum.estimation.motion_equations import MotionEquations, packed, torques
-
-compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
 
 _ITERATIONS = 25  # of Newton's method in a step
 _STEP = 2.1e-3  # s, longest: implicit Euler damps swings of 100 rad/s by a fifth in it
@@ -89,7 +86,7 @@ class EffectAlongMotion:
         return torques(self._with, rows, n) - without
 
 
-@compiled
+@entry_point
 def _states(address: int, rows: Array, length: Array, z0: Array, n: int) -> tuple[Array, Array]:
     """States and their rates at every row, (rows, n_states) each; row 0 is reached from ``z0``."""
     size = z0.size

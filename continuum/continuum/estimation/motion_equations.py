@@ -6,13 +6,11 @@ along a given motion friction's sign is known. So nothing stiff is differentiate
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import casadi
-import numba
 import numpy as np
 
 from continuum.arrays import Array
@@ -22,8 +20,7 @@ from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance, Traced
 from continuum.dynamics.integration.call_at import call_at
 from continuum.dynamics.model import Model
 from continuum.dynamics.values import parameter_vector
-
-compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
+from continuum.estimation.compiled_loops import entry_point
 
 
 @dataclass(frozen=True)
@@ -125,7 +122,7 @@ def evaluate(function: Any, given: Array, size: int) -> Array:
     return out
 
 
-@compiled
+@entry_point
 def _evaluate(address: int, given: Array, out: Array) -> None:
     for k in range(given.shape[0]):
         call_at(address, given[k], out[k])

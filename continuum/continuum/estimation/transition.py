@@ -7,21 +7,17 @@ acts through the inertia of the reference model: how large it is must not depend
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
-import numba
 import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.compiled.machine_code import address_of
 from continuum.dynamics.integration.call_at import call_at
+from continuum.estimation.compiled_loops import compiled, entry_point
 from continuum.estimation.friction_modes import FrictionModes, slip_rates
 from continuum.estimation.motion_equations import MotionEquations
 from continuum.estimation.run import Run, Trajectory
-
-compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit(cache=True)
 
 
 @dataclass(frozen=True)
@@ -81,7 +77,7 @@ def transition(
     return out
 
 
-@compiled
+@entry_point
 def _linearise(  # type: ignore[no-untyped-def]
     linear, inertia, q, w, d, q_mid, w_mid, sign, rate_noise, torque_noise, prescribed_all, first, length, inputs, slip,
     values, reference, held, end, F, D, W, noise, acceleration,

@@ -9,7 +9,6 @@ links, so the answer is exact for inextensible sections: leg = chord / (2 cos(th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -210,16 +209,10 @@ def _base_axis() -> Array:
     return np.array([0.0, 0.0, 1.0])
 
 
-def _build(digest: str) -> Callable[..., Any]:
-    def run(table: Array, weight: float, row: Array, w: Array, tolerance: float, max_iterations: int) -> Any:
-        _ = digest
-        arm, target = arrays_of(table, table[BEND_LIMIT]), target_of(row, weight)
-        iterations, distance, angle = fabrikc(arm, target, w, tolerance, max_iterations)
-        if distance > 0.5 * FAR * weight:
-            distance = distance_to(arm, w, row)
-        return iterations, distance, angle
-
-    return run
-
-
-_fabrikc = entry_point(_build)
+@entry_point
+def _fabrikc(table: Array, weight: float, row: Array, w: Array, tolerance: float, max_iterations: int) -> Any:
+    arm, target = arrays_of(table, table[BEND_LIMIT]), target_of(row, weight)
+    iterations, distance, angle = fabrikc(arm, target, w, tolerance, max_iterations)
+    if distance > 0.5 * FAR * weight:
+        distance = distance_to(arm, w, row)
+    return iterations, distance, angle

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +39,7 @@ _EQUATIONS = (
 for _equation in _EQUATIONS:
     register_jitable(_equation)
 
-__all__ = ["argument", "compiled", "entry_point", "inlined", "merged", "sources_digest"]
+__all__ = ["argument", "compiled", "entry_point", "inlined", "merged"]
 
 inlined = numba.njit(error_model="numpy", forceinline=True)
 """As `compiled`, for small functions called all the time: handing over an arm's arrays takes as long as their work."""
@@ -54,11 +53,5 @@ def argument(value: Any) -> Any:
     return np.asarray(value)[()]
 
 
-def sources_digest() -> str:
-    """Digest of all source files that compiled code may come from."""
-    return compiled_code.sources_digest(Path(kinematics.__path__[0]))
-
-
-def entry_point(build: Callable[[str], Callable[..., Any]]) -> Callable[..., Any]:
-    """Compile, once and cached on disk, the function that ``build`` makes around the digest of the sources."""
-    return compiled_code.entry_point(build, sources_digest())
+entry_point = compiled_code.entry_point(Path(kinematics.__path__[0]))
+"""Decorates the function that Python calls; its code may come from all files of the kinematics."""

@@ -6,7 +6,6 @@ the largest (Nakamura and Hanafusa 1986). Sections at their bend limit are not b
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -70,14 +69,9 @@ def _damped_rate(jacobian: Array, task: Array, free: Array) -> Array:
     return right.T @ (along - seen) + free
 
 
-def _build(digest: str) -> Callable[..., Any]:
-    def run(
-        table: Array, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array, ahead: float
-    ) -> Any:
-        _ = digest
-        return tip_rate(arrays_of(table, table[BEND_LIMIT]), kind, weight, w, velocity, spin, wish, ahead)
-
-    return run
-
-
-run_tip_rate = entry_point(_build)
+@entry_point
+def run_tip_rate(
+    table: Array, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array, ahead: float
+) -> Any:
+    """As `tip_rate`, of an arm's table."""
+    return tip_rate(arrays_of(table, table[BEND_LIMIT]), kind, weight, w, velocity, spin, wish, ahead)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 
 from continuum.arrays import Array
@@ -99,36 +96,30 @@ def _least_bent(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float
     return iterations
 
 
-def _build(digest: str) -> Callable[..., Any]:
-    def run(
-        table: Array,
-        weight: float,
-        rows: Array,
-        w: Array,
-        start: int,
-        tolerance: float,
-        objective: int,
-        postures: Array,
-        numbers: Array,
-    ) -> None:
-        _ = digest
-        arm, unlimited = arrays_of(table, table[BEND_LIMIT]), arrays_of(table, table[CONTACT])
-        for k in range(len(rows)):
-            target = target_of(rows[k], weight)
-            wish = objective
-            if start == FOLLOW and k > 0:
-                w[k] = w[k - 1]
-                if objective == LEAST_BENDING:
-                    wish = LESS_BENDING  # no other neighbourhoods, so that the motion has no jumps
-            status, iterations, distance, angle = answer(
-                arm, unlimited, target, w[k], start != COLD, tolerance, wish, postures
-            )
-            if distance > 0.5 * FAR * weight:
-                distance = distance_to(arm, w[k], rows[k])
-            numbers[k, 0], numbers[k, 1], numbers[k, 2], numbers[k, 3] = status, iterations, distance, angle
-
-    return run
-
-
-run_solver = entry_point(_build)
-"""Answer `Targets.rows` from ``w`` (n, 2 n_sections), in place; fills ``numbers`` (n, 4): see `answer`."""
+@entry_point
+def run_solver(
+    table: Array,
+    weight: float,
+    rows: Array,
+    w: Array,
+    start: int,
+    tolerance: float,
+    objective: int,
+    postures: Array,
+    numbers: Array,
+) -> None:
+    """Answer `Targets.rows` from ``w`` (n, 2 n_sections), in place; fill ``numbers`` (n, 4): see `answer`."""
+    arm, unlimited = arrays_of(table, table[BEND_LIMIT]), arrays_of(table, table[CONTACT])
+    for k in range(len(rows)):
+        target = target_of(rows[k], weight)
+        wish = objective
+        if start == FOLLOW and k > 0:
+            w[k] = w[k - 1]
+            if objective == LEAST_BENDING:
+                wish = LESS_BENDING  # no other neighbourhoods, so that the motion has no jumps
+        status, iterations, distance, angle = answer(
+            arm, unlimited, target, w[k], start != COLD, tolerance, wish, postures
+        )
+        if distance > 0.5 * FAR * weight:
+            distance = distance_to(arm, w[k], rows[k])
+        numbers[k, 0], numbers[k, 1], numbers[k, 2], numbers[k, 3] = status, iterations, distance, angle
