@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import os
+import platform
 import shutil
 import subprocess
 import tempfile
@@ -14,6 +15,8 @@ from typing import Any
 
 import casadi
 
+from continuum.checked_file import read_checked, write_checked
+from continuum.compile_cache import user_cache_folder, warn_not_kept
 from continuum.dynamics.compiled.code_in_parts import in_parts
 from continuum.errors import ContinuumError, FileError
 
@@ -27,16 +30,12 @@ def compile_function(function: casadi.Function) -> Any:
 
     Raises:
         CompilerError: no C compiler is found (named by the environment's CC, else cc or gcc), or it fails.
-        FileError: the cache folder cannot be made.
+        FileError: there is neither a cache folder nor a temporary one.
     """
     code = _c_code(function)
     compiler = _compiler()
     key = hashlib.sha256("\0".join((code, compiler, version("casadi"))).encode()).hexdigest()[:32]
-    library = _cache_folder() / f"{key}.so"
-    if not library.exists():
-        _compile(code, compiler, library)
-    loaded = ctypes.CDLL(str(library))
-    found = loaded["flat"]
+    found = _loaded(code, compiler, user_cache_folder() / "models" / f"{key}.so")["flat"]
     found.argtypes, found.restype = [ctypes.c_void_p, ctypes.c_void_p], None
     return found
 
@@ -62,21 +61,31 @@ def _compiler() -> str:
     raise CompilerError("no C compiler is found (CC, cc, gcc); the dynamics need one, on Debian: build-essential")
 
 
-def _compile(code: str, compiler: str, library: Path) -> None:
+def _loaded(code: str, compiler: str, library: Path) -> ctypes.CDLL:
+    """The library, compiled if its file is missing, damaged or of another kind of machine."""
+    if read_checked(library, platform.machine()) is None:
+        with _temporary_folder() as folder:
+            built = _compile(code, compiler, Path(folder))
+            try:
+                write_checked(library, built.read_bytes(), platform.machine())
+            except OSError as error:
+                warn_not_kept(error)
+                return ctypes.CDLL(str(built))  # stays loaded when its file is gone
+    return ctypes.CDLL(str(library))
+
+
+def _temporary_folder() -> tempfile.TemporaryDirectory[str]:
     try:
-        library.parent.mkdir(parents=True, exist_ok=True)
+        return tempfile.TemporaryDirectory(prefix="continuum-")
     except OSError as error:
-        raise FileError(library.parent, f"cannot keep compiled models ({error}); set XDG_CACHE_HOME") from error
-    with tempfile.TemporaryDirectory(dir=library.parent) as folder:
-        source, built = Path(folder, "model.c"), Path(folder, "model.so")
-        source.write_text(code, encoding="utf-8")
-        command = [compiler, "-O1", "-fPIC", "-shared", "-o", str(built), str(source), "-lm"]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise CompilerError(f"{' '.join(command)} failed: {' '.join(done.stderr.split())[:500]}")
-        built.replace(library)
+        raise FileError("TMPDIR", f"models cannot be compiled ({error})") from error
 
 
-def _cache_folder() -> Path:
-    base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
-    return Path(base, "continuum", "models")
+def _compile(code: str, compiler: str, folder: Path) -> Path:
+    source, built = folder / "model.c", folder / "model.so"
+    source.write_text(code, encoding="utf-8")
+    command = [compiler, "-O1", "-fPIC", "-shared", "-o", str(built), str(source), "-lm"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise CompilerError(f"{' '.join(command)} failed: {' '.join(done.stderr.split())[:500]}")
+    return built
