@@ -210,7 +210,7 @@ def test_all_of_the_arm_moves_with_its_joints(opened):
     page.draw()
     for links, mesh in scene.links._meshes:
         np.testing.assert_allclose(mesh.batched_positions, scene.links.poses[links, :3, 3], atol=1e-6)
-        turns = Rotation.from_quat(mesh.batched_wxyzs, scalar_first=True).as_matrix()
+        turns = Rotation.from_quat(np.roll(mesh.batched_wxyzs, -1, axis=-1)).as_matrix()
         np.testing.assert_allclose(turns, scene.links.poses[links, :3, :3], atol=1e-6)
     np.testing.assert_allclose(list(scene.cable_lengths().values()), tangle(w, ARM), atol=1e-6)
     assert scene._arrows.visible

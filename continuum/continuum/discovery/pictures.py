@@ -13,6 +13,7 @@ from continuum.discovery.fitted import OpenLoop
 from continuum.recordings.recording import Recording
 
 MEASURED, REFITTED, EXTENDED = "#222222", "#d1802b", "#1f6fb4"
+_LEGEND_HEIGHT = 0.25  # in, kept free for it: loc="outside ..." is not known to Matplotlib before 3.7
 
 
 class Simulated(Protocol):
@@ -115,4 +116,5 @@ def png(figure: Figure) -> bytes:
 def _legend(figure: Figure, ax: Any) -> None:
     handles, labels = ax.get_legend_handles_labels()
     by_label = dict(zip(labels, handles, strict=True))
-    figure.legend(by_label.values(), by_label.keys(), loc="outside upper right", ncols=3, fontsize=7, frameon=False)
+    figure.set_layout_engine("constrained", rect=(0, 0, 1, 1 - _LEGEND_HEIGHT / figure.get_figheight()))
+    figure.legend(by_label.values(), by_label.keys(), loc="upper right", ncols=3, fontsize=7, frameon=False)

@@ -111,7 +111,7 @@ class ArmLinks:
 
     def _placed(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Quaternions (n_links, 4), real part first, and positions (n_links, 3) [m]."""
-        turns = Rotation.from_matrix(self.poses[:, :3, :3]).as_quat(scalar_first=True)
+        turns = Rotation.from_matrix(self.poses[:, :3, :3]).as_quat()[:, [3, 0, 1, 2]]
         return turns.astype(np.float32), self.poses[:, :3, 3].astype(np.float32)
 
 
