@@ -6,7 +6,7 @@ IN_WORKSPACE := source install/setup.bash &&
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-discovery \
-  bench-inertial bench-link bench-viewer fuzz prototype figures api check format lock clean
+  bench-inertial bench-link bench-viewer fuzz prototype figures api check check-old format lock clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -79,10 +79,13 @@ api: setup ## the library's reference from its docstrings, in out/api/index.html
 check: setup ## style, lint and types, without the tests
 	@$(IN_WORKSPACE) ruff format --check --quiet && ruff check --quiet && mypy
 
+check-old: setup ## the versions of Ubuntu 24.04 in a second environment below out/: commands, a diagnosis, a node (10 minutes at first)
+	@$(IN_WORKSPACE) PYTHON="$(PYTHON)" python3 -m tools.check_old
+
 format: setup ## put the code into the project's style and mend what the linter can
 	@$(IN_WORKSPACE) ruff format && ruff check --fix
 
-lock: ## resolve tools/setup/requirements.in into requirements.lock; hashes of what single tools need besides
+lock: ## resolve tools/setup/requirements.in into requirements.lock; the same for check-old; hashes of what single tools need
 	@PYTHON="$(PYTHON)" sh tools/setup/run.sh lock
 
 clean: ## remove everything made here: .venv, build, install, log, out and caches

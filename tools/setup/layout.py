@@ -8,6 +8,9 @@ ROOT = SETUP.parent.parent
 REQUIREMENTS = SETUP / "requirements.in"
 LOCK = SETUP / "requirements.lock"
 
+OLD_VERSIONS = ROOT / "tools" / "check_old" / "versions.txt"
+OLD_LOCK = ROOT / "tools" / "check_old" / "requirements.lock"
+
 VENV = ROOT / ".venv"
 PYTHON = VENV / "bin" / "python3"
 BUILD = ROOT / "build"

@@ -9,7 +9,19 @@ import tempfile
 from pathlib import Path
 
 from tools.setup.environment import clean_environment, lock_environment
-from tools.setup.layout import LOCK, PYTHON, REQUIREMENTS, ROOT, SETUP, VENV, SetupError, tool_pins
+from tools.setup.layout import (
+    LOCK,
+    OLD_LOCK,
+    OLD_VERSIONS,
+    PYTHON,
+    REQUIREMENTS,
+    ROOT,
+    SETUP,
+    VENV,
+    SetupError,
+    tool_pins,
+)
+from tools.setup.old_versions import with_versions
 from tools.setup.progress import Step
 
 NETWORK_HINT = (
@@ -55,24 +67,26 @@ def write_shell_files() -> None:
 
 
 def lock() -> None:
-    """Resolve requirements.in into requirements.lock, and write down the hashes of what single tools need besides.
+    """Resolve requirements.in, also with old versions for `make check-old`; hashes of what single tools need besides.
 
     Raises:
         SetupError: no solution, or the network failed.
     """
     with tempfile.TemporaryDirectory() as folder, Step("requirements.lock", NETWORK_HINT) as step:
-        uv = Path(folder) / "uv" / "bin" / "uv"
+        uv, old = Path(folder) / "uv" / "bin" / "uv", Path(folder) / "old.in"
         _make_with_uv(step, Path(folder) / "uv")
-        _compile(step, uv, REQUIREMENTS, LOCK)
+        _compile(step, uv, REQUIREMENTS.relative_to(ROOT), LOCK)
+        old.write_text(with_versions(REQUIREMENTS.read_text(), OLD_VERSIONS.read_text()))
+        _compile(step, uv, old, OLD_LOCK, "--no-annotate")
         for pins in tool_pins():
-            _compile(step, uv, pins, pins.with_suffix(".txt"), "--no-deps")
+            _compile(step, uv, pins.relative_to(ROOT), pins.with_suffix(".txt"), "--no-deps")
 
 
 def _compile(step: Step, uv: Path, requirements: Path, locked: Path, *options: str) -> None:
     step.run(
         [uv, "pip", "compile", "--quiet", "--no-config", "--upgrade", "--generate-hashes", "--no-emit-index-url",
          "--no-emit-find-links", "--python", sys.executable, "--custom-compile-command", "make lock", *options,
-         requirements.relative_to(ROOT), "--output-file", locked],
+         requirements, "--output-file", locked],
         lock_environment(),
     )  # fmt: skip
 
