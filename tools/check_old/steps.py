@@ -45,5 +45,6 @@ STEPS = (
         codes=(0, 3, 4, 5),  # each is a verdict
     ),
     Step("node robot", "python3 -m pytest -q continuum_manipulator/test/test_robot_node.py"),
+    Step("viewer", "python3 -m pytest -q continuum/test/test_viewer_page.py"),
     Step("compiled code, its cache", "python3 -m pytest -q continuum/test/test_compiled_code.py"),
 )
