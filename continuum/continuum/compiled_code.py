@@ -11,6 +11,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import inspect
+import os
 import shutil
 import tempfile
 import threading
@@ -28,6 +29,7 @@ compiled = numba.njit(error_model="numpy")
 
 ErrorModel = Literal["numpy", "python"]
 
+_FOLDER = "continuum-compiled-"
 _cache_dir_is_set = threading.Lock()
 
 
@@ -101,7 +103,7 @@ class EntryPoint:
         with self._lock:
             if self._dispatcher is None:
                 try:
-                    self._folder = Path(tempfile.mkdtemp(prefix="continuum-"))
+                    self._folder = _temporary_folder()
                     weakref.finalize(self, shutil.rmtree, self._folder, ignore_errors=True)
                     self._kept.unpack(self._folder)
                     self._dispatcher = _with_cache(self._function, self._error_model, self._folder)
@@ -124,6 +126,25 @@ class EntryPoint:
                     self._kept.pack(self._folder)
                 except OSError as error:
                     warn_not_kept(error)
+
+
+def _temporary_folder() -> Path:
+    """A folder that is named after this program; those of programs that were killed are removed."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{_FOLDER}*-*"):
+        number = folder.name.removeprefix(_FOLDER).partition("-")[0]
+        if number.isdecimal() and not _is_running(int(number)):
+            shutil.rmtree(folder, ignore_errors=True)
+    return Path(tempfile.mkdtemp(prefix=f"{_FOLDER}{os.getpid()}-"))
+
+
+def _is_running(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:  # somebody else's
+        return True
+    return True
 
 
 def _with_cache(function: Callable[..., Any], error_model: ErrorModel, folder: Path) -> Any:

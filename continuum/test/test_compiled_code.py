@@ -25,7 +25,7 @@ def run(x):
     return 2.0 * x
 """
 PROGRAM = """
-import importlib.util, resource, sys, warnings
+import importlib.util, os, resource, signal, sys, warnings
 spec = importlib.util.spec_from_file_location("doubling", sys.argv[1])
 module = importlib.util.module_from_spec(spec)
 sys.modules["doubling"] = module
@@ -35,6 +35,9 @@ if len(sys.argv) > 2:
 with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")
     results = [module.run(3.0), module.run(3), module.run(3)]
+if len(sys.argv) > 3:
+    print("killed", flush=True)
+    os.kill(os.getpid(), signal.SIGKILL)
 print(results == [6.0, 6.0, 6.0], module.run.n_compiled, len(caught))
 """
 
@@ -220,3 +223,15 @@ def test_programs_that_start_at_the_same_time_do_not_disturb_each_other(file: Pa
     assert all(said(program).startswith("True") for program in programs)
     assert said(in_another_program(file, TMPDIR=str(temporary))) == "True 0 0"
     assert list(temporary.iterdir()) == []
+
+
+def test_a_program_that_is_killed_leaves_nothing_for_long(file: Path, tmp_path: Path) -> None:
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    foreign = temporary / "continuum-compiled-by-hand"
+    foreign.mkdir()
+    killed = in_another_program(file, "-1", "kill", TMPDIR=str(temporary))
+    assert said(killed) == "killed"
+    assert len(list(temporary.iterdir())) == 2
+    assert said(in_another_program(file, TMPDIR=str(temporary))).startswith("True")
+    assert list(temporary.iterdir()) == [foreign]
