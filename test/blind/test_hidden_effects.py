@@ -1,8 +1,8 @@
 """Effects hidden in the data of two independent plants are found, and none that is not there.
 
 Every effect of the library once in each plant, effects from outside of it, arms without any, and pairs; the diagnosis
-is handed files only. What is not asked of each case is asked of all: `make bench-discovery` measures it. `make exam` takes
-more seeds.
+is handed files only. What is not asked of each case is asked of all: `make bench-discovery` measures it. `make exam`
+takes more seeds.
 """
 
 import multiprocessing
@@ -27,14 +27,14 @@ PAIRS = (("rest_angle", "joint_friction"), ("tip_payload", "sensor_delay"), ("an
 
 
 def plans(rounds: int = 1) -> list[Plan]:
-    """Medium size, two recordings: a multisine, and a hold with a release; or two releases."""
+    """Medium size, two recordings: a release and a multisine, or two releases."""
     hidden: list[tuple[str, ...]] = [(name,) for name in (*LIBRARY, *OUTSIDE)]
     found = []
     for plant in PLANTS * rounds:
         for effects in [*hidden, (), (), *PAIRS]:
             seed = FIRST_SEED + len(found)
             alone = all(RELEASE in EFFECTS[name].seen_in for name in effects) and seed % 4 == 0
-            regime = "releases" if alone else "driven"
+            regime = "releases" if alone else "mixed"
             found.append(Plan(plant, effects, "medium", regime, 2, NOISES[seed % 2], seed))
     return found
 

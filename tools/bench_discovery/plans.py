@@ -21,7 +21,7 @@ PLANTS: Final = ("mujoco", "moreau")
 NOISES: Final = ("low", "ordinary", "high")
 REGIMES: Final = {
     "releases": (RELEASE,) * 8,
-    "mixed": (RELEASE, RELEASE, "multisine", "hold_and_release", RELEASE, RELEASE, "steps", "reversals"),
+    "mixed": (RELEASE, "multisine", RELEASE, "hold_and_release", RELEASE, RELEASE, "steps", "reversals"),
     "driven": ("multisine", "hold_and_release", "steps", "reversals") * 2,
     "slow": ("ramp", "reversals", "ramp", "cocontraction") * 2,
     "fast": ("chirp", "steps", "multisine", "chirp") * 2,
