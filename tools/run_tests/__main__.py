@@ -10,7 +10,6 @@ import argparse
 import subprocess
 import sys
 import time
-from enum import IntEnum
 from typing import Final
 
 _SIDE_BY_SIDE: Final = ("--dist=loadfile", "--numprocesses=auto", "--maxprocesses=4")
@@ -25,12 +24,8 @@ QUICK: Final = {"quick": _SIDE_BY_SIDE}
 """The fast ones of the unit tests alone."""
 
 
-class Code(IntEnum):
-    """Exit codes of pytest that are no failure."""
-
-    PASSED = 0
-    INTERRUPTED = 2
-    NOTHING_TO_RUN = 5
+PASSED, INTERRUPTED, NOTHING_TO_RUN = 0, 2, 5
+"""Exit codes of pytest."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -43,17 +38,18 @@ def main(arguments: list[str] | None = None) -> int:
         began = time.monotonic()
         command = [sys.executable, "-m", "pytest", f"--part={part}", *how, *given]
         codes.append(subprocess.run(command, check=False).returncode)
-        lines.append(f"{part} {time.monotonic() - began:.0f} s")
-        if codes[-1] == Code.INTERRUPTED:
+        word = {PASSED: "passed", NOTHING_TO_RUN: "nothing to run"}.get(codes[-1], "failed")
+        lines.append(f"{part}: {word}, {time.monotonic() - began:.0f} s")
+        if codes[-1] == INTERRUPTED:
             break
-    print(f"time: {', '.join(lines)}", flush=True)
+    print("\n".join(lines), flush=True)
     return exit_code(codes)
 
 
 def exit_code(codes: list[int]) -> int:
     """Exit code of the whole: a part without tests is no failure unless no part has any."""
-    ran = [code for code in codes if code != Code.NOTHING_TO_RUN]
-    return next(filter(None, ran), Code.PASSED) if ran else Code.NOTHING_TO_RUN
+    ran = [code for code in codes if code != NOTHING_TO_RUN]
+    return next(filter(None, ran), PASSED) if ran else NOTHING_TO_RUN
 
 
 if __name__ == "__main__":

@@ -44,6 +44,3 @@ def test_each_test_is_in_one_part():
     assert all(parts)
     assert sorted(test for part in parts for test in part) == sorted(collected())
 
-
-def test_quick_tests_are_unit_tests():
-    assert set(collected("--part=quick")) <= set(collected("--part=units"))
