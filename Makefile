@@ -6,7 +6,7 @@ IN_WORKSPACE := source install/setup.bash &&
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-discovery \
-  bench-inertial bench-link bench-viewer fuzz prototype figures api check check-old format lock clean
+  bench-inertial bench-link bench-viewer fuzz prototype figures api check check-old format lock clean seeded-faults
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -34,6 +34,9 @@ browser: setup ## Chromium and Playwright for the viewer's tests, into out/brows
 	  python3 -m pip install --quiet --no-deps --upgrade --target out/browser/extra \
 	  --require-hashes -r tools/browser/requirements.txt || echo "Playwright cannot be installed: the browser tests are skipped"
 	@$(IN_WORKSPACE) python3 -m tools.browser
+
+seeded-faults: setup ## put small faults into a copy of the code and tell which ones no test finds; ARGS="--only dynamics"
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.seeded_faults $(ARGS)
 
 reproduction: setup ## make the thesis's dynamic results again; overwrites docs/reproduction.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.reproduction $(ARGS)
