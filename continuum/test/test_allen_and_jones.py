@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from continuum_laws.differences import assert_same_slopes, differences
+from continuum_laws.differences import differences
 from continuum_laws.samples import AZIMUTHS, PROTOTYPE, SECTIONS, bends, postures
 
 from continuum.arm import Section
 from continuum.kinematics.configuration import (
     allen_from_jones,
-    allen_rate_jacobian,
     allen_rates,
     arc_length,
     arc_rates,
@@ -60,14 +59,6 @@ def test_arc_subtends_the_bend(section: Section) -> None:
 @pytest.mark.parametrize("section", SECTIONS, ids=lambda section: section.name)
 def test_arc_length_of_the_straight_section_is_the_backbone(section: Section) -> None:
     np.testing.assert_allclose(arc_length(np.array([0.0, 1e-9]), section), section.length, rtol=1e-15)
-
-
-def test_allen_rate_jacobian_is_the_slope() -> None:
-    phi, theta = jones_grid()
-    numeric = differences(lambda q: allen_from_jones(q[..., 0], q[..., 1]), np.stack([phi, theta], axis=-1))
-    analytic = allen_rate_jacobian(phi, theta)
-    for column in range(2):  # each by its own size: the first vanishes with theta
-        assert_same_slopes(analytic[..., column : column + 1], numeric[..., column : column + 1], relative=1e-6)
 
 
 def test_jones_rates_undo_allen_rates() -> None:

@@ -1,7 +1,7 @@
 """Geometry of sections and arms: what follows from it, and that a wrong value is refused by name."""
 
 import math
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import pytest
 from continuum_laws.labels import label
@@ -162,10 +162,3 @@ def test_left_out_parameters_take_their_declared_defaults() -> None:
 
 def test_every_field_of_a_section_is_a_parameter() -> None:
     assert [spec.name for spec in SECTION_PARAMETERS] == [f.name for f in fields(Section) if f.name != "name"]
-
-
-def test_sections_and_arms_are_values() -> None:
-    assert replace(PROTOTYPE) == PROTOTYPE
-    assert hash(mixed_arm(3)) == hash(mixed_arm(3))
-    with pytest.raises(AttributeError):
-        PROTOTYPE.a = 1.0

@@ -62,6 +62,10 @@ def test_a_folder_is_no_file(tmp_path: Path) -> None:
         b"\xff\xfe",
         b"a: 2001-99-99",
         b"{a: 1, ? [b]: 2}",
+        b"sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02, b: 0.03}",
+        b"sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02}\ns.b: 0.03",
+        b"sections: [s]\ns: &s {n_joints: 2, b: 0.01, a: 0.02}\nt: *s",
+        b"a: &a {k: 1}\nsections: [s]\ns: {<<: *a}",
         b"[" * 5000,
     ],
 )

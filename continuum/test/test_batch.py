@@ -8,7 +8,7 @@ from continuum_laws.targets import misses, targets_at
 from continuum.errors import InvalidValueError
 from continuum.kinematics.ik_result import IkBatch, IkResult, IkStatus
 from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION, Target, Targets
-from continuum.kinematics.inverse_kinematics import OBJECTIVES, InverseKinematics, solve
+from continuum.kinematics.inverse_kinematics import OBJECTIVES, InverseKinematics
 
 
 def one_of(targets: Targets, k: int) -> Target:
@@ -114,29 +114,3 @@ def test_malformed_starts_are_refused(starts: object) -> None:
     targets = targets_at(arm, random_postures(arm, 4, seed=7), POSITION)
     with pytest.raises(InvalidValueError, match=r"^starts(\[\d\])? is "):
         InverseKinematics(arm).solve_many(targets, starts)
-
-
-@pytest.mark.parametrize("objective", ["", "nearest", "FIRST"])
-def test_an_unknown_objective_is_refused(objective: str) -> None:
-    with pytest.raises(InvalidValueError, match=r"^objective is .*first, near_start, least_bending"):
-        InverseKinematics(arm_of(2), objective=objective)
-
-
-@pytest.mark.parametrize("tolerance", [0.0, -1e-6, np.nan, np.inf])
-def test_a_tolerance_is_a_number_above_zero(tolerance: float) -> None:
-    with pytest.raises(InvalidValueError, match=r"^tolerance is "):
-        InverseKinematics(arm_of(2), tolerance=tolerance)
-    with pytest.raises(InvalidValueError, match=r"^tolerance is "):
-        solve(arm_of(2), (0.1, 0.0, 0.2), tolerance=tolerance)
-
-
-@pytest.mark.parametrize("n_restarts", [-1, -10])
-def test_restarts_are_not_negative(n_restarts: int) -> None:
-    with pytest.raises(InvalidValueError, match=r"^n_restarts is "):
-        InverseKinematics(arm_of(2), n_restarts=n_restarts)
-
-
-def test_without_restarts_easy_targets_are_solved() -> None:
-    arm = arm_of(3)
-    postures = random_postures(arm, 20, seed=8, largest=0.5)
-    assert np.mean(InverseKinematics(arm, n_restarts=0).solve_many(targets_at(arm, postures, POSITION)).solved) > 0.8

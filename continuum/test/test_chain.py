@@ -3,15 +3,14 @@
 import numpy as np
 import pytest
 from continuum_laws.differences import assert_same_slopes, geometric_jacobian
-from continuum_laws.rigid_links import arm_discs, turn
-from continuum_laws.samples import arm_of, mixed_arm, random_postures
+from continuum_laws.rigid_links import arm_discs
+from continuum_laws.samples import mixed_arm, random_postures
 from continuum_laws.strategies import LAW, arms_and_postures
 from hypothesis import given
 
 from continuum.arm import Arm
 from continuum.kinematics.chain import arm_jacobian, arm_pose, section_base_rotations, section_bases, section_tip_poses
 from continuum.kinematics.configuration import jones_from_allen
-from continuum.kinematics.section import section_pose
 
 each_count = pytest.mark.parametrize("n_sections", [1, 2, 3, 5, 7])
 
@@ -49,26 +48,3 @@ def test_jacobian_is_the_slope_of_the_tip(n_sections: int, largest: float) -> No
     analytic = arm_jacobian(w, arm)
     assert_same_slopes(analytic[..., :3, :], numeric[..., :3, :])
     assert_same_slopes(analytic[..., 3:, :], numeric[..., 3:, :])
-
-
-@each_count
-def test_straight_arm_stands_on_the_axis_turned_by_all_twists(n_sections: int) -> None:
-    arm = mixed_arm(n_sections)
-    expected = turn("z", sum(section.twist for section in arm.sections))
-    expected[2, 3] = arm.length
-    np.testing.assert_allclose(arm_pose(np.zeros((n_sections, 2)), arm), expected, rtol=0, atol=1e-14)
-
-
-def test_one_section_without_twist_is_the_arm() -> None:
-    arm = arm_of(1)
-    w = random_postures(arm, 4, seed=0)
-    np.testing.assert_array_equal(arm_pose(w, arm), section_pose(w[:, 0], arm.sections[0]))
-
-
-def test_equal_bends_of_untwisted_sections_are_one_long_section() -> None:
-    arm, long = arm_of(3), arm_of(1).sections[0]
-    w = random_postures(arm_of(1), 6, seed=2)
-    long = type(long)("long", 3 * long.n_joints, long.b, long.a)
-    np.testing.assert_allclose(
-        arm_pose(np.repeat(w, 3, axis=1) / 3, arm), section_pose(w[:, 0], long), rtol=0, atol=1e-14
-    )

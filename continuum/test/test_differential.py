@@ -74,11 +74,6 @@ def test_the_wish_is_followed_as_far_as_the_tip_does_not_notice(n_sections: int,
         np.testing.assert_allclose(null @ without.rate.reshape(-1), 0.0, atol=1e-10)  # the smallest without a wish
 
 
-def test_least_bending_is_down_the_slope_of_the_bend() -> None:
-    w = np.array([[0.3, -0.4], [0.0, 0.0]])
-    np.testing.assert_array_equal(least_bending(w, 2.0), [[-0.6, 0.8], [0.0, 0.0]])
-
-
 @pytest.mark.parametrize("twist", [0.0, 0.7])
 def test_one_section_follows_eq_22(twist: float) -> None:
     """For any velocity, be it one that the tip of one section cannot have."""

@@ -130,10 +130,3 @@ def test_least_bending_does_not_jump_along_a_trajectory(seed: int) -> None:
     assert np.all(path.solved)
     assert np.max(np.abs(np.diff(path.configurations, axis=0))) <= 0.2
     assert np.max(np.abs(np.diff(alone.configurations, axis=0))) >= 1.0
-
-
-def test_an_unreachable_target_is_one_beyond_the_arm_s_length() -> None:
-    arm = arm_of(2)
-    positions = np.random.default_rng(5).normal(size=(40, 3))
-    positions *= 1.001 * arm.length / np.linalg.norm(positions, axis=1)[:, None]
-    assert set(InverseKinematics(arm).solve_many(Targets(positions)).statuses) == {IkStatus.UNREACHABLE}

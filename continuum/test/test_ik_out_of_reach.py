@@ -52,9 +52,9 @@ def rows(batch: IkBatch, chosen: np.ndarray) -> IkBatch:
 @each_arm
 def test_farther_away_than_the_arm_is_long(arm: Arm) -> None:
     random = np.random.default_rng(1)
-    directions = random.normal(size=(8, 3))
+    directions = random.normal(size=(5, 3))
     directions[0], directions[1] = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
-    lengths = random.uniform(1.01, 1.6, (8, 1)) * arm.length
+    lengths = random.uniform(1.01, 1.6, (5, 1)) * arm.length
     positions = lengths * directions / np.linalg.norm(directions, axis=-1, keepdims=True)
     batch = answers_that_attain(arm, Targets(positions))
     assert set(batch.statuses) == {IkStatus.UNREACHABLE}
@@ -68,7 +68,7 @@ def test_reachable_by_bending_beyond_the_limits_alone(arm: Arm) -> None:
     postures *= (beyond / bend(postures))[..., None]
     targets = targets_at(arm, postures, POSITION)
     batch = answers_that_attain(arm, targets)
-    missed = np.flatnonzero(~batch.solved)[:8]
+    missed = np.flatnonzero(~batch.solved)[:4]
     assert len(missed) > 0 or arm.n_sections > 1
     assert set(batch.statuses[missed]) <= {IkStatus.LIMIT_REACHED}
     assert_true_distances(arm, targets.positions[missed], rows(batch, missed))
@@ -88,8 +88,8 @@ def test_these_arms_do_miss_such_targets(name: str) -> None:
 def test_within_the_arm_s_length(arm: Arm) -> None:
     """Anywhere near the base: what is not solved is truly that far away."""
     random = np.random.default_rng(4)
-    directions = random.normal(size=(8, 3))
-    positions = random.uniform(0.1, 1.0, (8, 1)) * arm.length * directions
+    directions = random.normal(size=(5, 3))
+    positions = random.uniform(0.1, 1.0, (5, 1)) * arm.length * directions
     positions /= np.linalg.norm(directions, axis=-1, keepdims=True)
     batch = answers_that_attain(arm, Targets(positions))
     missed = ~batch.solved
@@ -128,18 +128,3 @@ def test_the_straight_arm_is_nearest_to_what_is_straight_above_it() -> None:
     assert batch.statuses[0] == IkStatus.UNREACHABLE
     assert batch.distances[0] == pytest.approx(arm.length, rel=1e-12)
     np.testing.assert_allclose(batch.configurations[0], 0.0, atol=1e-6)
-
-
-@pytest.mark.parametrize("times", [1e1, 1e3, 1e6])
-@pytest.mark.parametrize("name", ["one", "three", "three_short_bends", "three_mixed"])
-def test_ever_so_far_away_is_out_of_reach(name: str, times: float) -> None:
-    """By the status, and by a distance that differs from the target's by no more than the arm's length."""
-    arm = ARMS[name]
-    directions = np.random.default_rng(9).normal(size=(20, 3))
-    directions[0], directions[1] = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
-    far = times * arm.length
-    positions = far * directions / np.linalg.norm(directions, axis=-1, keepdims=True)
-    for wanted in (None, -directions):
-        batch = answers_that_attain(arm, Targets(positions, wanted))
-        assert set(batch.statuses) == {IkStatus.UNREACHABLE}
-        assert np.all(np.abs(batch.distances - far) <= arm.length + 1e-9 * far)

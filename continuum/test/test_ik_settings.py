@@ -43,23 +43,10 @@ def test_kinds(kind: object) -> None:
         DifferentialKinematics(ARM, kind)  # type: ignore[arg-type]
 
 
-def test_a_posture_is_needed_for_a_rate() -> None:
-    with pytest.raises(InvalidValueError, match="w is"):
-        DifferentialKinematics(ARM).rate(None, [0, 0, 0])  # type: ignore[arg-type]
-    with pytest.raises(InvalidValueError, match="wish"):
-        DifferentialKinematics(ARM).rate(np.ones((3, 2)), [0, 0, 0], wish=[1.0])
-
-
 @pytest.mark.parametrize("target", [Targets([POINT, POINT]), Targets(np.zeros((0, 3))), POINT, None])
 def test_solve_answers_one_target(target: object) -> None:
     with pytest.raises(InvalidValueError, match="target"):
         InverseKinematics(ARM).solve(target)  # type: ignore[arg-type]
-
-
-def test_an_arm_that_is_told_to_stop_follows() -> None:
-    tracker = Tracker(ARM)
-    tracker.pose(POINT, None)
-    assert tracker.twist(np.zeros(3), None, 0.01).result.solved
 
 
 @pytest.mark.parametrize("arm", ["three_sections.yaml", None, 3])

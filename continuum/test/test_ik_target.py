@@ -103,7 +103,7 @@ def test_a_target_is_a_copy() -> None:
 def test_large_numbers_are_finite_and_long_directions_have_a_length() -> None:
     np.testing.assert_array_equal(Target((1e200, -1e308, 0.0)).position, [1e200, -1e308, 0.0])
     np.testing.assert_allclose(Target((0, 0, 1), (3e200, 0.0, 4e200)).direction, [0.6, 0.0, 0.8], rtol=1e-15)
-    np.testing.assert_allclose(Targets(np.eye(3), 1e300 * np.eye(3)).directions, np.eye(3), rtol=1e-15)
+    np.testing.assert_allclose(Targets(2.0 * np.eye(3), 1e300 * np.eye(3)).directions, np.eye(3), rtol=1e-15)
 
 
 def test_rows_hold_what_is_wanted() -> None:
@@ -112,20 +112,6 @@ def test_rows_hold_what_is_wanted() -> None:
     np.testing.assert_array_equal(Target(position, [0, 2, 0]).rows, [[*position, 0, 1, 0]])
     np.testing.assert_array_equal(Target(position, rotation=rotation).rows, [[*position, *rotation.ravel()]])
     np.testing.assert_array_equal(Targets([position], rotations=[rotation]).rotations, [rotation])
-
-
-@pytest.mark.parametrize("target", [Targets([(0.1, 0.0, 0.2)] * 2), (0.1, 0.0, 0.2), None])
-def test_one_answer_wants_one_target(target: object) -> None:
-    with pytest.raises(InvalidValueError, match=r"^target is .*solve_many"):
-        InverseKinematics(arm_of(2)).solve(target)
-
-
-@pytest.mark.parametrize("start", [np.zeros((3, 2)), np.zeros(4), [[0, np.nan], [0, 0]], [[0, 0], [0]], "ab"])
-def test_a_malformed_start_is_refused(start: object) -> None:
-    with pytest.raises(InvalidValueError, match=r"^start(\[\d\])? is "):
-        solve(arm_of(2), (0.1, 0.0, 0.2), start=start)
-    with pytest.raises(InvalidValueError, match=r"^start(\[\d\])? is "):
-        InverseKinematics(arm_of(2)).follow(Targets([(0.1, 0.0, 0.2)]), start)
 
 
 def test_no_input_makes_the_solver_compile_again() -> None:
@@ -144,8 +130,3 @@ def test_no_input_makes_the_solver_compile_again() -> None:
     ik.follow(Targets([[0, 0, 1]], [[0, 0, 1]]), w[0].tolist())
     InverseKinematics(arm, n_restarts=0).solve(Target((0, 0, 1)))
     assert len(run_solver.signatures) == count
-
-
-@pytest.mark.parametrize("scale", [1e-300, 1e-13, 1e155, 1e300])
-def test_a_direction_may_have_any_length(scale: float) -> None:
-    np.testing.assert_allclose(Target([0, 0, 0.3], [3 * scale, 0, 4 * scale]).direction, [0.6, 0, 0.8], rtol=1e-14)

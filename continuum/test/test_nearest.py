@@ -3,14 +3,12 @@
 import numpy as np
 import pytest
 from continuum_laws.limits import free_part
-from continuum_laws.samples import arm_of, limited, mixed_arm, random_postures
-from continuum_laws.targets import misses, targets_at
+from continuum_laws.samples import arm_of, limited, mixed_arm
 
 from continuum.arm import Arm
 from continuum.kinematics.chain import arm_jacobian, arm_pose
-from continuum.kinematics.configuration import bend
 from continuum.kinematics.ik_result import IkStatus
-from continuum.kinematics.ik_target import DIRECTION, POSE, Targets
+from continuum.kinematics.ik_target import Targets
 from continuum.kinematics.inverse_kinematics import InverseKinematics
 
 ARMS = {
@@ -35,26 +33,6 @@ def test_the_error_pushes_no_section(arm: Arm) -> None:
         error = (position - arm_pose(w, arm)[:3, 3]) / np.linalg.norm(position)
         push = (arm_jacobian(w, arm)[:3] / arm.length).T @ error
         assert free_part(arm, w, push.reshape(-1, 2), np.zeros((1, w.size))) <= 1e-8
-
-
-@pytest.mark.parametrize("kind", [DIRECTION, POSE], ids=["direction", "pose"])
-def test_no_small_change_meets_position_and_rotation_better(kind: int) -> None:
-    arm = arm_of(4, 1.2)
-    reachable = targets_at(arm, random_postures(arm, 10, seed=2), kind)
-    targets = Targets(reachable.positions + np.array([0.9, 0.0, 0.0]), reachable.directions, reachable.rotations)
-    batch = InverseKinematics(arm).solve_many(targets)
-    assert not np.any(batch.solved)
-
-    def cost(configurations: np.ndarray) -> np.ndarray:
-        distances, angles = misses(arm, configurations, targets)
-        return np.hypot(distances, 0.1 * arm.length * angles)
-
-    random = np.random.default_rng(3)
-    for size in (1e-2, 1e-3):
-        for _ in range(200):
-            near = batch.configurations + size * random.normal(size=batch.configurations.shape)
-            near *= np.minimum(1.0, 1.2 / bend(near))[..., None]
-            assert np.all(cost(near) >= cost(batch.configurations) - 1e-12)
 
 
 def test_a_warm_start_stays_with_its_nearest_pose() -> None:

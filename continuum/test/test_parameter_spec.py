@@ -8,7 +8,7 @@ from continuum_laws.strategies import LAW
 from hypothesis import given
 from hypothesis import strategies as st
 
-from continuum.errors import ContinuumError, InvalidValueError
+from continuum.errors import InvalidValueError
 from continuum.parameter_spec import ParameterSpec
 
 COUNT = ParameterSpec("count", int, "a count", lower=1, upper=10)
@@ -71,22 +71,6 @@ def test_an_item_is_refused_by_its_place(item: object) -> None:
         POINT.check([0.0, item], "arm.")
 
 
-@pytest.mark.parametrize(
-    ("spec", "words"),
-    [
-        (COUNT, "a whole number >= 1 and <= 10"),
-        (RADIUS, "a finite number > 0 and <= 2 m"),
-        (RATE, "a finite number rad/s"),
-        (MODE, "one of fast, slow"),
-        (FLAG, "true or false"),
-        (POINT, "a list, each a finite number >= -1 m"),
-        (ParameterSpec("x", float, "x", "s", upper=3.0), "a finite number <= 3 s"),
-    ],
-)
-def test_allowed_values_in_words(spec: ParameterSpec, words: str) -> None:
-    assert spec.allowed == words
-
-
 @LAW
 @given(value=st.integers() | st.floats())
 def test_a_number_is_kept_where_it_is_in_range(value: float) -> None:
@@ -96,8 +80,3 @@ def test_a_number_is_kept_where_it_is_in_range(value: float) -> None:
         assert not 0 < value <= 2
     else:
         assert 0 < kept == value <= 2
-
-
-def test_the_error_is_of_the_family_and_a_value_error() -> None:
-    assert issubclass(InvalidValueError, ContinuumError)
-    assert issubclass(InvalidValueError, ValueError)

@@ -69,12 +69,3 @@ def test_one_call_equals_the_loop(case: Case) -> None:
         alone = function(*[argument[index] for argument in arguments])
         assert alone.shape == whole[index].shape
         np.testing.assert_allclose(alone, whole[index], rtol=1e-13, atol=1e-13)
-
-
-@each_map
-def test_arguments_are_left_alone(case: Case) -> None:
-    function, arguments, _ = case
-    before = [argument.copy() for argument in arguments]
-    function(*arguments)
-    for argument, copy in zip(arguments, before, strict=True):
-        np.testing.assert_array_equal(argument, copy)

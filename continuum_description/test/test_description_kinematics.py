@@ -7,7 +7,6 @@ import pytest
 from description_model import SHIPPED_ARMS, Description, arms, random_posture, shipped_name
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.spatial.transform import Rotation
 
 from continuum.arm import Arm, load_arm
 from continuum.kinematics.chain import section_tip_poses
@@ -29,35 +28,15 @@ def assert_tips_equal_library(description: Description, phi: np.ndarray, theta: 
         np.testing.assert_allclose(description.pose(section.tip_frame), pose, rtol=0, atol=TOLERANCE)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(4))
 def test_tips_of_shipped_arms(shipped: Description, seed: int) -> None:
     assert_tips_equal_library(shipped, *random_posture(shipped.arm, np.random.default_rng(seed)))
-
-
-def test_straight_posture_is_along_z(shipped: Description) -> None:
-    shipped.move(np.zeros(shipped.arm.n_sections), np.zeros(shipped.arm.n_sections))
-    tip = shipped.pose(shipped.arm.sections[-1].tip_frame)
-    np.testing.assert_allclose(tip[:3, 3], [0, 0, shipped.arm.length], rtol=0, atol=1e-12)
 
 
 @settings(max_examples=15, deadline=None)
 @given(arms(), st.integers(0, 2**32 - 1))
 def test_tips_of_any_arm(arm: Arm, seed: int) -> None:
     assert_tips_equal_library(Description(arm), *random_posture(arm, np.random.default_rng(seed)))
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_every_disc_turns_by_its_part_of_the_rotation_vector(shipped: Description, seed: int) -> None:
-    phi, theta = random_posture(shipped.arm, np.random.default_rng(seed))
-    shipped.move(phi, theta)
-    for i, section in enumerate(shipped.arm.sections):
-        base = np.linalg.inv(shipped.pose(section.base_frame))
-        for k, frame in enumerate(shipped.disc_frames(section), start=1):
-            part = theta[i] * k / section.n_joints
-            rotation_vector = part * np.array([-np.sin(phi[i]), np.cos(phi[i]), 0.0])
-            disc = base @ shipped.pose(frame)
-            expected = Rotation.from_rotvec(rotation_vector).as_matrix()
-            np.testing.assert_allclose(disc[:3, :3], expected, rtol=0, atol=TOLERANCE)
 
 
 def test_disc_k_is_the_tip_of_a_section_of_k_joints(shipped: Description) -> None:

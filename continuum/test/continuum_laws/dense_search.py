@@ -1,5 +1,7 @@
 """Distance from a target to all that an arm can reach, by brute force: many postures, the best of them polished."""
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.optimize import minimize
 
@@ -27,18 +29,21 @@ def distance_of_one_section(arm: Arm, position: np.ndarray) -> float:
     return best
 
 
-def distance_of_sections(arm: Arm, position: np.ndarray, n: int = 20000, n_polished: int = 6) -> float:
-    """Distance [m] from ``position`` (3,) [m] to the tips within the bend limits, from ``n`` postures.
-
-    Random ones, more of the bends at their limits than chance would give; SciPy's SLSQP polishes the best of them.
-    """
-    random = np.random.default_rng(99)
-    postures = random_postures(arm, n, seed=98)
+@lru_cache
+def drawn(arm: Arm, n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Random postures (n, n_sections, 2) [rad], more bends at their limits than chance would give, and tips [m]."""
+    random, postures = np.random.default_rng(99), random_postures(arm, n, seed=98)
     limits = np.array([section.bend_limit for section in arm.sections])
     stretched = random.random((n, arm.n_sections, 1)) < 0.3
     bends = np.linalg.norm(postures, axis=-1, keepdims=True)
     postures = np.where(stretched, postures * limits[:, None] / bends, postures)
-    tips = arm_pose(postures, arm)[:, :3, 3]
+    return postures, arm_pose(postures, arm)[:, :3, 3]
+
+
+def distance_of_sections(arm: Arm, position: np.ndarray, n: int = 20000, n_polished: int = 6) -> float:
+    """Distance [m] from ``position`` (3,) [m] to the tips within the bend limits; SciPy's SLSQP polishes the best."""
+    limits = np.array([section.bend_limit for section in arm.sections])
+    postures, tips = drawn(arm, n)
     order = np.argsort(np.linalg.norm(tips - position, axis=-1))
 
     def half_square(x: np.ndarray) -> float:
