@@ -128,11 +128,6 @@ def test_damaged_files_are_refused_by_row(tmp_path: Path, text: str, told: str) 
         parsed(tmp_path, text)
 
 
-def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="cannot be read"):
-        read_dot_export(tmp_path / "no.csv")
-
-
 GOOD = "\n".join([HEAD + COLUMNS, *(f"{k},{8333 * k},1.5,2,3,4,5,9.81" for k in range(5))])
 
 

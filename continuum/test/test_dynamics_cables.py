@@ -120,16 +120,6 @@ def test_chords_add_up_to_the_lengths_of_the_kinematics(n: int, bend: float) -> 
     np.testing.assert_allclose(found, cable_lengths(w, section)[:2], rtol=1e-13)
 
 
-def test_cable_1_bends_towards_positive_angles_and_grows_shorter() -> None:
-    p = prototype_model().parameters
-    straight, positive = np.zeros(5), np.full(5, 0.1)
-    np.testing.assert_array_less(0, cable_torque(moving(straight, straight), np.array([10.0, 0.0]), p))
-    np.testing.assert_array_less(cable_torque(moving(straight, straight), np.array([0.0, 10.0]), p), 0)
-    shortened = chord_lengths(straight, p) - chord_lengths(positive, p)
-    assert np.all(shortened[:, 0] > 0)
-    assert np.all(shortened[:, 1] < 0)
-
-
 def test_a_cable_does_not_push() -> None:
     for p, theta, rate, u in cases(5, 5):
         pulled = cable_torque(moving(theta, rate), u * [1, 0], p)
@@ -165,9 +155,3 @@ def test_friction_on_the_discs_takes_power(n: int) -> None:
         lost = u * taken_in.sum(axis=0) - np.sum(tension_propagation(theta, rate, p) * u * taken_in, axis=0)
         assert np.all(lost >= -1e-12)
         assert np.any(lost > 1e-9)
-
-
-def test_no_capstan_friction_no_loss() -> None:
-    for p, theta, rate, _ in cases(5, 8):
-        p = replace(p, capstan_friction=np.zeros(1))
-        np.testing.assert_array_equal(tension_propagation(theta, rate, p), np.ones((5, 2)))

@@ -11,10 +11,8 @@ from dynamics_laws import (
     TipLoad,
     TurningBase,
     Wind,
-    accelerations,
     active,
     random_model,
-    random_parameters,
 )
 
 from continuum.dynamics.balance import balance
@@ -154,13 +152,8 @@ def test_names_of_values() -> None:
         {"wind.torque": 0.1},
         {"stiffness": -1.0},
         {"stiffness": [1.0, 2.0]},
-        {"stiffness": np.ones((N, 1))},
         {"stiffness": True},
-        {"stiffness": "1"},
-        {"stiffness": None},
-        {"stiffness": 1j},
         {"stiffness": np.complex128(1j)},
-        {"stiffness": []},
         {"stiffness": 10**400},
         {"gravity": [9.81, 9.81, 9.81]},
         {"mass": np.nan},
@@ -182,8 +175,3 @@ def test_models_do_not_share_their_arrays() -> None:
     model = PLAIN.with_values({"stiffness": given})
     given[0] = 7.0
     np.testing.assert_array_equal(model.parameters.stiffness, np.ones(N))
-
-
-def test_accelerations_balance() -> None:
-    model, (x, _) = Model(random_parameters(np.random.default_rng(42), N)), instant(10)
-    np.testing.assert_allclose(balance(model, x, accelerations(model, x, U), U), 0, atol=1e-12)

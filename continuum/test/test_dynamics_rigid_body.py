@@ -28,14 +28,6 @@ def cases(n: int, seed: int, count: int = 8) -> list[tuple[Parameters, np.ndarra
 
 
 @each_size
-def test_inertia_is_symmetric_and_positive_definite(n: int) -> None:
-    for p, theta, _, _ in cases(n, 1):
-        M = inertia_matrix(np.cumsum(theta), p)
-        np.testing.assert_allclose(M, M.T, rtol=0, atol=1e-15 * np.abs(M).max())
-        assert np.linalg.eigvalsh(M)[0] > 0
-
-
-@each_size
 def test_rate_of_inertia_less_twice_coriolis_is_skew(n: int) -> None:
     for p, theta, rate, _ in cases(n, 2):
         M_rate = differences(lambda t: inertia_matrix(np.cumsum(theta + t * rate), p), [0.0], 1e-3)[..., 0]  # noqa: B023

@@ -31,7 +31,6 @@ from continuum.dynamics.statics.resting_arm import Load, RestingArm
 from continuum.dynamics.statics.sticking_zone import StickingZone, break_away, sticking_zone
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
-from continuum.dynamics.values import parameter_vector
 from continuum.errors import InvalidValueError
 
 N = 3
@@ -250,10 +249,3 @@ def test_bad_loads_are_told(wrong: Mapping[str, object]) -> None:
 def test_bad_starts_are_told(start: object) -> None:
     with pytest.raises(InvalidValueError, match="start"):
         equilibrium(compiled(False), Load(np.zeros(2)), start)  # type: ignore[arg-type]
-
-
-def test_a_resting_arm_borrows_equations_not_values() -> None:
-    model = model_of(12)
-    assert not np.array_equal(parameter_vector(model), parameter_vector(compiled(False).model))
-    own = equilibrium(RestingArm(model), Load(PULL))
-    np.testing.assert_array_equal(own.theta, found_at(model, Load(PULL)).theta)

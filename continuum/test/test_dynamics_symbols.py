@@ -112,19 +112,6 @@ def test_code_cut_into_parts_computes_the_same(name: str, monkeypatch: pytest.Mo
     np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-13)
 
 
-def test_long_code_is_cut_and_short_code_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
-    code = "static int casadi_f0(int mem) {\n  casadi_real a0, a01,\n  a02;\n" + "  a01=(a0+a02);\n" * 7
-    code += "  if (res[0]!=0) res[0][0]=a02;\n  return 0;\n}\nint f() {\n  return 0;\n}\n"
-    assert code_in_parts.in_parts(code) == code
-    monkeypatch.setattr(code_in_parts, "_LONGEST", 7)
-    monkeypatch.setattr(code_in_parts, "_PART", 5)
-    cut = code_in_parts.in_parts(code)
-    assert cut.count("static void part_") == 2
-    assert cut.count("a[1]=(a[0]+a[2]);") == 7
-    assert "casadi_real a[3];\n  part_0(arg, res, a);\n  part_1(arg, res, a);\n  return 0;" in cut
-    assert "res[0][0]=a[2];" in cut
-
-
 def test_tracing_does_not_look_at_the_values() -> None:
     model, _ = model_and_symbols("five joints")
     packed = random_point(model, 3)

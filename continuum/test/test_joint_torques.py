@@ -14,7 +14,7 @@ from continuum.dynamics.live.live_arm import LiveArm
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.model_file import load_model, model_from_mapping, save_model
 from continuum.dynamics.model_inputs import undriven
-from continuum.dynamics.parameters import PARAMETERS, Parameters
+from continuum.dynamics.parameters import PARAMETERS
 from continuum.dynamics.planar.eq12_coriolis_matrix import coriolis_matrix
 from continuum.dynamics.planar.eq12_gravity_torque import gravity_torque
 from continuum.dynamics.planar.eq12_inertia_matrix import inertia_matrix
@@ -150,13 +150,3 @@ def test_compiled_equations_serve_only_models_of_the_same_structure() -> None:
     assert simulator.around(heavier).run(STILL, SHORT).states.shape == (2, 4)
     with pytest.raises(InvalidValueError, match="same joints and inputs"):
         simulator.around(PENDULUM.with_values({"half_spacing": 0.1}))
-
-
-def test_parameters_left_out_in_code_have_their_defaults() -> None:
-    ones = np.ones(3)
-    p = Parameters(mass=ones, inertia=ones, center_of_mass=0.1 * ones, link_length=ones)
-    np.testing.assert_array_equal(p.rotor_inertia, np.zeros(3))
-    np.testing.assert_array_equal(p.gravity, [9.81])
-    assert np.all(np.isinf(p.contact_angle))
-    with pytest.raises(InvalidValueError, match=r"^half_spacing is None"):
-        Model(p)
