@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from continuum_laws.outcomes import outcome
-from continuum_laws.samples import arm_of
 from hypothesis import given
 from hypothesis import strategies as st
 from recorded_runs import STAMPS, TYPES, Topics, point, read, run, write
@@ -33,12 +32,6 @@ def test_a_topic_of_another_type(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     topics: Topics = {"/traj_pose": [point(np.zeros(3))]}
     with pytest.raises(FileError, match=r"geometry_msgs/msg/Pose on /traj_pose, not geometry_msgs/msg/PoseStamped"):
         read(write(tmp_path / "recording", topics))
-
-
-def test_joints_of_another_arm(tmp_path: Path) -> None:
-    write(tmp_path / "recording", run())
-    with pytest.raises(FileError, match=r"is of another arm: it has section_1 .*; the arm file .*section_3"):
-        read(tmp_path / "recording", arm_of(3))
 
 
 def test_cables_of_another_arm(tmp_path: Path) -> None:
@@ -70,11 +63,6 @@ def test_too_few_messages(tmp_path: Path, topic: str, count: int) -> None:
     del topics[topic][count:]
     with pytest.raises(InvalidValueError, match=f"in the recording is {count}; allowed: 3 or more"):
         report_on(read(write(tmp_path / "recording", topics)))
-
-
-def test_a_recording_without_topics(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="has no topic /traj_pose; it has none"):
-        read(write(tmp_path / "recording", {}))
 
 
 def test_no_recording(tmp_path: Path) -> None:
@@ -109,7 +97,7 @@ def test_damage_is_told_in_one_line(
         assert "\n" not in str(found)
 
 
-@pytest.mark.parametrize("share", [0.0, 0.5, 0.999])
+@pytest.mark.parametrize("share", [0.0, 0.999])
 @pytest.mark.parametrize("name", ["metadata.yaml", "recording.mcap"])
 def test_a_cut_file_is_refused(tmp_path: Path, name: str, share: float) -> None:
     file = write(tmp_path / "recording", run()) / name

@@ -11,13 +11,10 @@ import numpy as np
 import pytest
 import yaml
 from command_line import CONFIG, THREE, Captured, code, refused, rows_of
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 from recorded_runs import ARM, arm_file, run, tips, write
 
 from continuum.arm import Arm, arm_to_mapping, load_arm
 from continuum.cli import main
-from continuum.cli.tables import print_pairs
 from continuum.dynamics.model_path import model_path
 
 MODEL = model_path("lamecc_prototype.yaml")
@@ -47,12 +44,6 @@ def test_help_says_what_can_be_done_next(capsys: Captured) -> None:
         assert (CONFIG.parents[1] / package / "launch" / file).is_file()
 
 
-@pytest.mark.parametrize("command", ["info", "solve", "simulate", "report"])
-def test_help_of_a_command(capsys: Captured, command: str) -> None:
-    assert code(command, "--help") == 0
-    assert f"usage: continuum {command}" in capsys.readouterr().out
-
-
 def test_a_flag_that_a_command_does_not_know_shows_its_usage(capsys: Captured) -> None:
     with pytest.raises(SystemExit, match="2"):
         main(["diagnose", "--foo", "run.csv"])
@@ -80,7 +71,7 @@ def test_the_installed_command() -> None:
     assert done.stderr.count("\n") == 1
 
 
-@pytest.mark.parametrize("words", [("--help",), ("info", THREE), ("solve", THREE, "0.1", "0", "0.4", "--json")])
+@pytest.mark.parametrize("words", [("--help",), ("solve", THREE, "0.1", "0", "0.4", "--json")])
 def test_nobody_reads_on(words: tuple[str, ...]) -> None:
     reader, writer = os.pipe()
     os.close(reader)
@@ -89,15 +80,6 @@ def test_nobody_reads_on(words: tuple[str, ...]) -> None:
     os.close(writer)
     assert done.stderr == ""
     assert done.returncode in (0, 1)  # argparse ends with 0, read or not
-
-
-def test_an_interrupt_ends_in_one_line(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(_arguments: list[str]) -> int:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("continuum.cli._run", interrupted)
-    assert main(["diagnose"]) == 130
-    assert capsys.readouterr().err == "continuum: stopped\n"
 
 
 @pytest.mark.parametrize("kind", [SystemError, RuntimeError])
@@ -173,17 +155,8 @@ def test_info_tells_what_the_file_says_in_80_columns(capsys: Captured, file: Pat
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("", "holds no parameters, but None"),
         ("a: [1", "is not valid YAML"),
-        ("sections: []", "arm.sections"),
         ("sections: [s]\ns: {n_joints: 2, b: -0.1, a: 0.02}", "arm.s.b is -0.1; allowed: "),
-        ("sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02, c: 1}", "arm.s.c is 1"),
-        ("sections: [s]\ns: {n_joints: 2, b: 0.01}", "arm.s.a is None"),
-        ("\x00", "is not valid YAML"),
-        ("sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02, b: 0.03}", "the key 'b' stands twice"),
-        ("sections: [s]\ns: &s {n_joints: 2, b: 0.01, a: 0.02}\nt: *s", "an alias"),
-        ("sections: [s]\ns: {n_joints: 2, b: 0.01, a: 0.02}\ns.b: 0.03", "stands twice"),
-        ("a: &a {k: 1}\nsections: [s]\ns: {<<: *a}", "an alias"),
     ],
 )
 def test_every_command_refuses_a_bad_arm_file(
@@ -200,14 +173,6 @@ def test_every_command_refuses_a_missing_file(capsys: Captured, tmp_path: Path, 
         for words in (("info", path), ("solve", path, 0, 0, 0.1), ("report", recording, "--arm", path)):
             assert refused(capsys, *words).startswith(f"{path}: cannot be read")
         assert "is not a readable rosbag2 recording" in refused(capsys, "report", path, "--arm", THREE)
-
-
-@given(text=st.text() | st.binary().map(lambda raw: raw.decode("latin-1")))
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
-def test_any_file_is_an_arm_or_refused(capsys: Captured, tmp_path: Path, text: str) -> None:
-    file = tmp_path / "arm.yaml"
-    file.write_bytes(text.encode("utf-8", "replace"))
-    refused(capsys, "info", file)
 
 
 def test_report_tells_figures_and_losses(capsys: Captured, recording: str, arm: str, tmp_path: Path) -> None:
@@ -231,20 +196,6 @@ def test_report_tells_figures_and_losses(capsys: Captured, recording: str, arm: 
     files = {path.name: path.stat().st_size for path in (tmp_path / "new" / "out").iterdir()}
     assert files.keys() == {"cable_states.csv", "cables.png"}
     assert min(files.values()) > 5_000
-
-
-def test_names_of_figures_stay_on_one_line(capsys: Captured) -> None:
-    pairs = [
-        ("lost on /section_cable_states of section 1", "7"),
-        ("rates", "0.04 % of the largest, at some place or other"),
-    ]
-    print_pairs(pairs)
-    assert [line.split("  ")[0] for line in capsys.readouterr().out.splitlines()][:2] == [name for name, _ in pairs]
-
-
-def test_report_counts_what_was_expected(capsys: Captured, recording: str, arm: str) -> None:
-    assert code("report", recording, "--arm", arm, "--expected", len(tips()) + 2) == 0
-    assert re.search(r"^messages lost +21 *$", capsys.readouterr().out, re.MULTILINE)  # 2 in 9 streams, and the 3
 
 
 def test_report_of_unreached_poses_without_rates(capsys: Captured, tmp_path: Path, arm: str) -> None:
@@ -280,7 +231,3 @@ def test_an_arm_of_which_a_recording_is_not_is_refused(
         words = ", ".join(f"{section.name} ({section.n_joints} joints)" for section in sections)
         assert refused(capsys, command, recording, "--arm", shorter) == f"{told}{words}\n"
     assert refused(capsys, command, recording, "--arm", THREE).startswith(told)
-
-
-def test_the_arm_of_the_recordings_is_read_back(arm: str) -> None:
-    assert load_arm(arm) == ARM

@@ -1,7 +1,6 @@
 """`continuum solve`: targets from the command line or a file, answers as a table or as JSON."""
 
 import json
-import re
 from pathlib import Path
 
 import numpy as np
@@ -159,23 +158,11 @@ def test_a_file_without_targets_is_refused_by_its_line(
     assert "cannot be read" in refused(capsys, "solve", THREE, "--targets", tmp_path)
 
 
-def test_a_target_out_of_reach_is_no(capsys: Captured) -> None:
-    assert code("solve", THREE, 0, 0, 2) == 1
-    output = capsys.readouterr().out
-    assert "not reached: out of reach" in output
-    distance = float(re.search(r"the tip is (\S+) mm", output)[1])
-    assert distance == pytest.approx(2000 - 1e3 * load_arm(THREE).length, rel=1e-2)
-
-
 @pytest.mark.parametrize(
     ("words", "problem"),
     [
         (("nan", 0, 0), "position is [nan, 0.0, 0.0]; allowed: three finite numbers"),
-        ((0, "inf", 0), "position is [0.0, inf, 0.0]"),
-        ((0, 0, 0.3, "--direction", 0, 0, 0), "direction is [0.0, 0.0, 0.0]"),
         ((0, 0, 0.3, "--tolerance", 0), "--tolerance is 0.0; allowed: a number > 0"),
-        ((0, 0, 0.3, "--tolerance", "nan"), "--tolerance is nan"),
-        ((0, 0, 0.3, "--quaternion", 0, 0, 0, 0), "--quaternion is [0.0, 0.0, 0.0, 0.0]"),
         (
             (0, 0, 0.3, "--quaternion", 0, 0, 0, 1, "--direction", 0, 0, 1),
             "--direction is [0.0, 0.0, 1.0]; allowed: none",
@@ -184,7 +171,6 @@ def test_a_target_out_of_reach_is_no(capsys: Captured) -> None:
             (0, 0, 0.3, "--start", 10, 20),
             "--start is [10.0, 20.0]; allowed: finite numbers, bend and azimuth of each of 3",
         ),
-        ((0, 0, 0.3, "--start", *[90] * 5, "nan"), "--start is [90.0, 90.0, 90.0, 90.0, 90.0, nan]; allowed: finite"),
     ],
 )
 def test_solve_refuses_values(capsys: Captured, words: tuple[object, ...], problem: str) -> None:

@@ -8,7 +8,7 @@ import pytest
 import scipy.special
 import scipy.stats
 from continuum_laws.strategies import LAW
-from drawn_evidence import NUISANCES, WIDTH, Drawn, hypothesis, log_integral, without
+from drawn_evidence import WIDTH, Drawn, hypothesis, log_integral, without
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -67,39 +67,6 @@ def test_what_each_run_has_for_itself_is_integrated_run_by_run(seed: int) -> Non
     for chosen, rest in (((drawn.own,), [0, 1]), ((drawn.pair, drawn.own), [0, 1, 2, 3])):
         expected = [log_integral(*without(*drawn.quadratic(k, chosen), rest), np.full(3, -np.inf)) for k in (0, 1)]
         np.testing.assert_allclose(evidence.by_level(chosen), expected, rtol=1e-6)
-
-
-@LAW
-@given(SEEDS)
-def test_the_order_of_runs_and_of_hypotheses_does_not_matter(seed: int) -> None:
-    drawn, order = Drawn.by(seed), np.random.default_rng(seed).permutation(3)
-    chosen = drawn.pair, drawn.own
-    first = drawn.evidence(*chosen)
-    again = drawn.evidence(drawn.own, drawn.pair, runs=[[at[k] for k in order] for at in drawn.runs])
-    np.testing.assert_allclose(again.by_level(chosen[::-1]), first.by_level(chosen), rtol=1e-9)
-    np.testing.assert_allclose(again.optimum(chosen, 0).local, first.optimum(chosen, 0).local[order], atol=1e-7)
-
-
-@LAW
-@given(SEEDS, st.floats(1e-3, 1e3), st.floats(1e-3, 1e3))
-def test_units_of_a_coefficient_do_not_matter(seed: int, unit: float, unit_of_own: float) -> None:
-    """A column per another unit, its prior and its bound in it: the same evidence, the same effect on theta."""
-    drawn, scale = Drawn.by(seed), np.ones(WIDTH)
-    scale[5], scale[3], scale[4] = unit, unit_of_own, unit
-    runs = [[replace(one, L=one.L * np.outer(scale, scale), e=one.e * scale) for one in at] for at in drawn.runs]
-    nuisance = replace(drawn.nuisance, sd=drawn.nuisance.sd / scale[NUISANCES])
-    pair = replace(drawn.pair, least=np.array([-1.0, 0.1]))
-    chosen = pair, drawn.own
-    rescaled = (
-        replace(pair, sd=pair.sd / [1, unit], least=pair.least / [1, unit]),
-        replace(drawn.own, local_sd=drawn.own.local_sd / unit_of_own),
-    )
-    one = Evidence(drawn.runs, drawn.nuisance, chosen, WIDTH, 2)
-    other = Evidence(runs, nuisance, rescaled, WIDTH, 2)
-    np.testing.assert_allclose(other.by_level(rescaled), one.by_level(chosen), rtol=1e-7, atol=1e-7)
-    best = one.optimum(chosen, 0)
-    np.testing.assert_allclose(other.optimum(rescaled, 0).theta * scale, best.theta, rtol=1e-5, atol=1e-7)
-    np.testing.assert_allclose(other.optimum(rescaled, 0).sd * [1, unit], best.sd, rtol=1e-6)
 
 
 @LAW

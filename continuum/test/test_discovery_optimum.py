@@ -65,14 +65,6 @@ def assert_solved(A: np.ndarray, b: np.ndarray, G: np.ndarray, least: np.ndarray
 
 
 @LAW
-@given(SEEDS, st.integers(1, 8), st.data())
-def test_the_bounded_minimum_is_the_least_within_independent_constraints(
-    seed: int, variables: int, data: st.DataObject
-) -> None:
-    assert_solved(*convex(seed, variables, data.draw(st.integers(0, variables))))
-
-
-@LAW
 @given(SEEDS, st.integers(1, 8))
 def test_the_bounded_minimum_is_the_least_within_a_box(seed: int, variables: int) -> None:
     A, b, _, _ = convex(seed, variables, 0)
@@ -121,4 +113,4 @@ def test_the_bounded_minimum_is_the_least_within_any_constraints(
     seed: int, variables: int, data: st.DataObject
 ) -> None:
     """Also where there are more than can be independent."""
-    assert_solved(*convex(seed, variables, data.draw(st.integers(variables + 1, 3 * variables + 2))))
+    assert_solved(*convex(seed, variables, data.draw(st.integers(0, 3 * variables + 2))))

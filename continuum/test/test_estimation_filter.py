@@ -60,18 +60,6 @@ def test_an_unmeasured_reading_tells_nothing(one: LinearRun, seed: int, share: f
 
 @LAW
 @given(RUNS, SEEDS)
-def test_columns_that_nothing_has_change_no_other(one: LinearRun, seed: int) -> None:
-    """Each column passes through the filter by itself."""
-    kept = np.random.default_rng(seed).permutation(COLUMNS)[: COLUMNS - 1]
-    whole = likelihood(one)
-    part = likelihood(replace(one, columns=(one.columns[0][:, :, kept].copy(), one.columns[1][:, :, kept].copy())))
-    np.testing.assert_allclose(part.L, whole.L[np.ix_(kept, kept)], rtol=1e-9, atol=1e-9)
-    np.testing.assert_allclose(part.e, whole.e[kept], rtol=1e-9, atol=1e-9)
-    np.testing.assert_allclose([part.energy, part.log_det], [whole.energy, whole.log_det], rtol=1e-12)
-
-
-@LAW
-@given(RUNS, SEEDS)
 def test_smoothed_states_are_the_dense_conditional_ones(one: LinearRun, seed: int) -> None:
     for theta in some_thetas(seed)[1:3]:
         states, variances, _ = smoothed_at(one, theta)
@@ -97,17 +85,3 @@ def test_whitened_innovations_carry_the_whole_energy(one: LinearRun, seed: int) 
     for theta in some_thetas(seed):
         innovations = smoothed_at(one, theta)[2]
         np.testing.assert_allclose(np.sum(innovations**2), quadratic(likelihood(one), theta), rtol=1e-7)
-
-
-@LAW
-@given(RUNS, SEEDS)
-def test_what_columns_add_is_what_the_model_would_do_without_them(one: LinearRun, seed: int) -> None:
-    """Columns at theta are the same as a model that ends, and sensors that read, by so much elsewhere."""
-    theta = some_thetas(seed)[2]
-    of_states, of_readings = one.added(theta)
-    moved = replace(
-        one,
-        step=replace(one.step, end=one.step.end + of_states),
-        seen=replace(one.seen, expected=one.seen.expected + of_readings),
-    )
-    np.testing.assert_allclose(likelihood(moved).energy, quadratic(likelihood(one), theta), rtol=1e-7)

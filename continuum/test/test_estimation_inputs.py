@@ -60,25 +60,6 @@ def test_later_inputs_are_those_of_a_signal_that_begins_later(
 
 
 @LAW
-@given(SEEDS, DELAYS, st.booleans())
-def test_rows_that_move_with_the_inputs_see_the_same(seed: int, delay: float, held: bool) -> None:
-    run = drawn(seed, held)
-    together = replace(run, times=run.times + delay, signal=(run.signal[0] + delay, run.signal[1]))
-    np.testing.assert_allclose(together.inputs, run.inputs, rtol=1e-6, atol=1e-6)
-
-
-@LAW
-@given(SEEDS, DELAYS, st.booleans())
-def test_inputs_that_never_change_are_the_same_at_any_time(seed: int, delay: float, held: bool) -> None:
-    """Whether they are told once or again and again."""
-    run = drawn(seed, held)
-    value = np.random.default_rng(seed).uniform(0, 5, 2)
-    for times in (run.signal[0], run.signal[0][:1]):
-        still = replace(run, signal=(times, np.tile(value, (times.size, 1))))
-        np.testing.assert_allclose(still.inputs_later(delay), np.tile(value, (run.length.size, 1)), rtol=1e-9)
-
-
-@LAW
 @given(SEEDS, st.booleans())
 def test_substeps_fill_the_intervals(seed: int, held: bool) -> None:
     """Each interval by equal ones."""
@@ -86,13 +67,3 @@ def test_substeps_fill_the_intervals(seed: int, held: bool) -> None:
     for k, (a, b) in enumerate(pairwise(run.first)):
         np.testing.assert_allclose(run.length[a:b], run.intervals[k] / (b - a), rtol=1e-12)
     np.testing.assert_allclose(edges(run)[run.first], run.times, rtol=0, atol=1e-12)
-
-
-@LAW
-@given(SEEDS, st.booleans())
-def test_held_inputs_differ_from_linear_ones_only_where_they_change(seed: int, held: bool) -> None:
-    run = drawn(seed, held)
-    other, ends = run.with_held(not held), edges(run)
-    outside = (ends[1:] <= run.signal[0][0]) | (ends[:-1] >= run.signal[0][-1])
-    np.testing.assert_allclose(other.inputs[outside], run.inputs[outside], rtol=1e-9, atol=1e-9)
-    assert other.held != run.held

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from continuum_laws.differences import assert_same_slopes, differences
 from continuum_laws.strategies import LAW
-from dynamics_laws import moving
 from estimation_arm import N, drawn_motion, drawn_own, drawn_values, left_side, structure
 from hypothesis import given
 from hypothesis import strategies as st
@@ -88,14 +87,6 @@ def test_what_an_effect_adds_to_the_joints_rates_dry_friction_sees_too(name: str
         np.testing.assert_allclose(found[k], -left[:N], rtol=1e-9, atol=1e-10)
 
 
-@LAW
-@given(SEEDS)
-def test_a_motion_of_its_own_slips_at_the_joints_rates(seed: int) -> None:
-    random = np.random.default_rng(seed)
-    rate = random.normal(0, 2, N)
-    np.testing.assert_array_equal(moving(random.normal(0, 1, N), rate).slip_rate, rate)
-
-
 @pytest.mark.parametrize("name", [None, *STATEFUL])
 def test_a_simulation_s_equations_keep_all_of_friction_s_slope(name: str | None) -> None:
     """They are those of the joints' own rate, and so are their derivatives."""
@@ -115,12 +106,3 @@ def test_a_simulation_s_equations_keep_all_of_friction_s_slope(name: str | None)
         lambda w: balance(model, np.concatenate([x[:N], w, x[2 * N :]]), v, u)[:N], x[N : 2 * N], 1e-4
     )
     assert_same_slopes(by_x[:N, N : 2 * N], by_rate, 1e-6)
-
-
-def test_a_joint_that_turns_without_slipping_has_viscous_friction_only() -> None:
-    random = np.random.default_rng(0)
-    values = drawn_values(random, with_effects=False, mass=1e-9, stiffness=0.0)
-    rate, none = random.normal(0, 2, N), np.zeros(N)
-    model = with_vector(structure().model, values)
-    left = left_side(model, np.concatenate([none, rate]), none, np.zeros(2), none)
-    np.testing.assert_allclose(left, values[structure().slots["viscous_friction"]] * rate, atol=1e-6)

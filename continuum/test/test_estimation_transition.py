@@ -91,25 +91,6 @@ def test_derivatives_by_torque_are_those_of_the_end(seed: int, joint: int | None
 
 
 @LAW
-@given(SEEDS, st.sampled_from([SHORT, LONG]))
-def test_missing_torque_is_torque_that_is_held_over_the_interval(seed: int, length: float) -> None:
-    """Where the reference model is the model itself."""
-    found = Arm.drawn(seed).over(length)
-    np.testing.assert_allclose(found.D[0], found.W.sum(axis=0), rtol=1e-9, atol=1e-12 * np.abs(found.D).max())
-
-
-@LAW
-@given(SEEDS)
-def test_missing_torque_acts_by_the_inertia_of_the_reference(seed: int) -> None:
-    """Over a short interval it is all that matters: rates change by the length times its inverse."""
-    arm, random, short = Arm.drawn(seed), np.random.default_rng(seed + 1), 1e-6
-    reference = drawn_values(random)
-    model = with_vector(structure().model, reference)
-    inertia = differences(lambda v: left_side(model, arm.x, v, arm.u, arm.x[N:]), np.zeros(N), 1.0)
-    assert relative(arm.over(short, reference=reference).D[0, N:], short * np.linalg.inv(inertia)) < 0.05
-
-
-@LAW
 @given(SEEDS, st.lists(st.sampled_from([-1.0, 0.0, 1.0]), min_size=N, max_size=N), st.sampled_from([SHORT, LONG]))
 def test_process_noise_is_a_covariance(seed: int, sign: list[float], length: float) -> None:
     arm, random = Arm.drawn(seed), np.random.default_rng(seed)

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from identification_laws import recorded, releases, small_simulator
+from identification_laws import releases, small_simulator
 
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
 from continuum.identification.free import Free, FreeSpace
-from continuum.identification.nrmse import measured_rates, nrmse, nrmse_by_joint, position_nrmse, rate_nrmse
+from continuum.identification.nrmse import measured_rates, nrmse, nrmse_by_joint, rate_nrmse
 from continuum.identification.swarm import SwarmSettings, particle_swarm, swarm_identification
 from continuum.recordings.recording import Recording
 
@@ -53,13 +53,6 @@ def test_rates_that_were_not_measured_are_slopes_of_the_angles() -> None:
     assert measured_rates(Recording("cubic", t, cubic, rates)) is rates
 
 
-def test_a_simulation_of_itself_has_no_error() -> None:
-    run = recorded(small_simulator())
-    assert run.theta_rate is not None
-    seen = Reading(run.times, run.theta, run.theta_rate, 0.0)
-    assert position_nrmse(seen, run) == rate_nrmse(seen, run) == 0.0
-
-
 LOWER, UPPER, BEST = np.array([-2.0, -1.0, 0.0]), np.array([1.0, 3.0, 5.0]), np.array([-0.5, 2.0, 1.0])
 
 
@@ -72,7 +65,7 @@ def test_a_swarm_finds_the_least_of_a_parabola() -> None:
     assert lowest == pytest.approx(np.sum((place - BEST) ** 2))
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_swarm_stays_within_bounds_and_never_gets_worse(seed: int) -> None:
     tried: list[np.ndarray] = []
 

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from command_line import Captured, code, refused
 from inertial_arm import (
-    FINE,
     RELEASE,
     REST,
     Motion,
@@ -16,7 +15,6 @@ from inertial_arm import (
     pull_and_release,
     rms,
     sensed,
-    with_losses,
     write_exports,
 )
 
@@ -62,27 +60,6 @@ def test_a_release_is_imported_for_diagnose(
     assert rms(np.degrees(run.theta_rate - motion.at(times - 0.5 / 120)[1])).max() < 5  # of up to 560 degrees/s
 
 
-def test_losses_clips_and_starts_one_after_the_other(
-    motion: Motion, recording: ImuRecording, tmp_path: Path, capsys: Captured
-) -> None:
-    rng = np.random.default_rng(0)
-    lost = rng.random((recording.times.size, N)) < 0.003
-    for sensor in range(N):
-        lost[: 30 * sensor, sensor] = True
-    limit = np.radians(300)
-    clipped = np.any(np.abs(recording.rates) > limit, axis=2)
-    assert clipped.any()
-    troubled = replace(with_losses(recording, lost), rates=np.clip(recording.rates, -limit, limit), clipped=clipped)
-    out = tmp_path / "run.csv"
-    assert code("import-dot", *write_exports(tmp_path, troubled), *HOW, "--end", 20, "--out", out) in (0, 1)
-    assert "without good angles left out" in capsys.readouterr().out
-    table = np.loadtxt(out, delimiter=",", skiprows=1)
-    theta, _ = motion.at(table[:, 0] + recording.times[0])
-    off = table[:, 1 : N + 1] - np.degrees(theta)
-    assert np.abs(off).max() < 1.0
-    assert rms(off).max() < 0.5
-
-
 def test_a_calibration_serves_the_next_recording(
     files: list[Path], motion: Motion, recording: ImuRecording, tmp_path: Path, capsys: Captured
 ) -> None:
@@ -98,17 +75,6 @@ def test_a_calibration_serves_the_next_recording(
     table = np.loadtxt(out, delimiter=",", skiprows=1)
     off = table[:, 1 : N + 1] - np.degrees(motion.at(table[:, 0] + later.times[0])[0])
     assert rms(off).max() < 0.5
-
-
-def test_a_zero_in_a_known_posture(files: list[Path], motion: Motion, recording: ImuRecording, tmp_path: Path) -> None:
-    begin, end = recording.times[-1] - recording.times[0] - 2.0, recording.times[-1] - recording.times[0]
-    posture = ",".join(f"{angle:.3f}" for angle in np.degrees(motion.theta[-FINE]))
-    out = tmp_path / "run.csv"
-    words = ("--first-turn", "1", "--zero", f"{begin}:{end}", "--posture", posture, "--out", out)
-    assert code("import-dot", *files, *words) == 0
-    table = np.loadtxt(out, delimiter=",", skiprows=1)
-    off = table[:, 1 : N + 1] - np.degrees(motion.at(table[:, 0] + recording.times[0])[0])
-    assert rms(off).max() < 0.3
 
 
 def test_only_looking_tells_when_the_arm_rests(files: list[Path], capsys: Captured) -> None:
@@ -129,6 +95,7 @@ def test_what_diagnose_would_refuse_is_said(files: list[Path], tmp_path: Path, c
     ("words", "told"),
     [
         (("--first-turn", "1"), "the zero of the sensors is not known: give --zero"),
+        (("--first-turn", "1", "--posture", "0,0,0,0,0"), "--posture is '0,0,0,0,0'; allowed: only with --zero"),
         (("--zero", "0:5"), "the axis of the sensors is not known: give --first-turn"),
         (("--first-turn", "1", "--zero", "5"), "--zero is '5'; allowed: two times"),
         (("--first-turn", "1", "--zero", "5:1"), "--zero is '5:1'"),
@@ -164,9 +131,3 @@ def test_files_that_do_not_fit_are_refused(files: list[Path], tmp_path: Path, ca
     assert code("import-dot", *files[:3], *HOW, "--save-calibration", sensors) == 0
     assert code("import-dot", *files, "--calibration", sensors, "--out", tmp_path / "run.csv") == 2
     assert "is of 3 sensors, not 5" in capsys.readouterr().err
-
-
-def test_a_posture_of_no_time_is_refused(files: list[Path], tmp_path: Path, capsys: Captured) -> None:
-    words = ("--first-turn", "1", "--posture", "0,0,0,0,0", "--out", tmp_path / "run.csv")
-    assert code("import-dot", *files, *words) == 2
-    assert "--posture is '0,0,0,0,0'; allowed: only with --zero" in capsys.readouterr().err

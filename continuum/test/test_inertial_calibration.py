@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from inertial_arm import DEG, GRAVITY, RELEASE, REST, N, SensorModel, any_rotation, pull_and_release, rotation, sensed
+from inertial_arm import DEG, RELEASE, REST, N, SensorModel, any_rotation, pull_and_release, rotation, sensed
 
 from continuum.arrays import Array
 from continuum.errors import FileError, InvalidValueError, MeasurementError
@@ -16,7 +16,6 @@ from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum.inertial.gyro_bias import bias_at_rest
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.inclination import inclination, turned
-from continuum.inertial.joint_angles import of_neighbours, within_half_a_turn
 from continuum.inertial.rests import rests
 from continuum.inertial.rotation_axis import axes_of_motion
 from continuum.inertial.stillness import unrest
@@ -122,13 +121,6 @@ def test_inclination_is_the_angle_by_which_the_link_turned(seed: int, angle: flo
     np.testing.assert_allclose(inclination(seen, axis, zero), [angle], atol=1e-9)
 
 
-@given(st.lists(st.floats(-0.6, 0.6), min_size=1, max_size=8))
-def test_joints_are_differences_of_links(joints: list[float]) -> None:
-    links = np.cumsum(joints)
-    np.testing.assert_allclose(of_neighbours(links), joints, atol=1e-12)
-    np.testing.assert_allclose(within_half_a_turn(of_neighbours(within_half_a_turn(links))), joints, atol=1e-12)
-
-
 def test_a_zero_from_a_known_posture_is_the_straight_one(recording: ImuRecording, rest: ImuRecording) -> None:
     known = steps(recording, rest)
     posture = np.array([10, -20, 30, 5, 15]) * DEG
@@ -192,15 +184,12 @@ ONE = "{bias: [0.0, 0.0, 0.0], axis: [0.0, 1.0, 0.0], zero: [0.0, 0.0, -9.8], so
         ("axis: [0.0, 1.0, 0.0]", "axis: [0.0, 1.0]", "axis"),
         ("axis: [0.0, 1.0, 0.0]", "axis: [0.0, 0.9, 0.0]", "axis of sensor 1 .* a unit vector"),
         ("axis: [0.0, 1.0, 0.0]", "axis: [0.0, 0.0, 1.0]", "away from gravity"),
-        ("axis: [0.0, 1.0, 0.0]", "axis: [0.0, .nan, 0.0]", "axis"),
-        ("axis: [0.0, 1.0, 0.0]", "axis: east", "axis"),
         ("bias: [0.0, 0.0, 0.0]", "bias: [9.0, 0.0, 0.0]", "bias of sensor 1"),
         ("-9.8", "-98.0", "zero of sensor 1"),
         (", source: by hand", "", "sensor 1 has to have bias, axis, zero, source"),
         ("source:", "sauce: x, source:", "and nothing else"),
         ("sensors", "sensor", "no calibration of sensors"),
         (f"[{ONE}]", "[]", "no calibration of sensors"),
-        (f"[{ONE}]", "7", "no calibration of sensors"),
         (ONE, "7", "sensor 1 has to have"),
     ],
 )
@@ -213,9 +202,3 @@ def test_a_damaged_file_is_refused_by_name(tmp_path: Path, was: str, becomes: st
     path.write_text(good.replace(was, becomes))
     with pytest.raises((FileError, InvalidValueError), match=f"sensors.yaml: .*{told}"):
         load_calibration(path)
-
-
-def test_gravity_is_what_the_accelerometers_read(recording: ImuRecording, rest: ImuRecording) -> None:
-    found = steps(recording, rest).complete()
-    assert found is not None
-    np.testing.assert_allclose(found.gravity, GRAVITY, atol=0.05)

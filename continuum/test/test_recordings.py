@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.image import imread
 from recorded_runs import ARM, RATE, STAMPS, Topics, postures, read, run, write
 from rosbags.rosbag2 import StoragePlugin
 
@@ -84,12 +83,6 @@ def test_rates_that_are_wrong(tmp_path: Path) -> None:
     assert found.rate_disagreement_ratio == pytest.approx(0.03 / 1.03, abs=5e-4)
 
 
-def test_one_wrong_rate_is_found(tmp_path: Path) -> None:
-    topics = run()
-    topics["/cable_states"][40].velocity[3] += 0.01
-    assert report(tmp_path, topics).rate_disagreement == pytest.approx(0.01, rel=0.01)
-
-
 def test_velocities_missing(tmp_path: Path) -> None:
     topics = run()
     for state in topics["/cable_states"]:
@@ -112,7 +105,7 @@ def test_an_arm_at_rest(tmp_path: Path) -> None:
 
 
 @each_topic
-@pytest.mark.parametrize("i", [0, N // 2, N - 1])
+@pytest.mark.parametrize("i", [0, N - 1])
 def test_a_lost_message_is_found(tmp_path: Path, topic: str, i: int) -> None:
     topics = run()
     lost = topics[topic][2 * i if "section" in topic else i]
@@ -181,34 +174,6 @@ def test_the_table_keeps_columns_and_values(tmp_path: Path) -> None:
     np.testing.assert_allclose(values[:, 0], np.arange(N) / RATE, atol=1e-9)
     np.testing.assert_allclose(values[:, 1:9], tangle(w, ARM), rtol=1e-8)
     np.testing.assert_allclose(values[:, 9:], tangle_rates(w, w_rate, ARM), rtol=1e-8)
-
-
-def test_the_picture_shows_lengths_and_rates(tmp_path: Path) -> None:
-    """Without rates only the right half loses lines; of an arm at rest both halves look otherwise."""
-    topics = run()
-    pictures = [picture(tmp_path / "sway", topics)]
-    for state in topics["/cable_states"]:
-        state.velocity = np.zeros(0)
-    pictures.append(picture(tmp_path / "no_rates", topics))
-    for state in topics["/cable_states"]:
-        state.position = topics["/cable_states"][0].position
-    pictures.append(picture(tmp_path / "rest", topics))
-    sway, no_rates, rest = pictures
-    assert sway.shape[1] > 1000
-    left, right = differing(sway, no_rates)
-    assert left == 0
-    assert right > 1_000
-    assert min(differing(sway, rest)) > 5_000
-
-
-def picture(folder: Path, topics: Topics) -> np.ndarray:
-    write_cable_figure(read(write(folder, topics)), folder / "cables.png")
-    return imread(folder / "cables.png")
-
-
-def differing(a: np.ndarray, b: np.ndarray) -> list[int]:
-    """How many pixels differ in the left and in the right half of two pictures."""
-    return [int(np.count_nonzero(half)) for half in np.array_split(np.any(a != b, axis=-1), 2, axis=1)]
 
 
 def test_topics_that_need_not_be_there(tmp_path: Path) -> None:

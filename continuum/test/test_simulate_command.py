@@ -125,12 +125,6 @@ def test_a_cable_does_not_push():
         pulled_posture(tilted, -0.1)
 
 
-def test_the_picture_is_drawn(tmp_path):
-    picture = tmp_path / "motion.png"
-    assert main(["simulate", "--release", "30", "--duration", "0.1", "--picture", str(picture)]) == 0
-    assert picture.read_bytes().startswith(b"\x89PNG")
-
-
 def test_a_picture_has_a_panel_of_tensions_where_there_are_any(tmp_path):
     motion = Simulator(MODEL).run(np.zeros(5), np.linspace(0, 0.1, 3))
     for tension in (0.0, 2.0):
