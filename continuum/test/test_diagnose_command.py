@@ -13,6 +13,7 @@ from identification_laws import BENDS, FINE, N, recorded
 
 from continuum.cli import main
 from continuum.cli.diagnose import EXIT_CODES
+from continuum.cli.progress import told as progress
 from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.simulator import Simulator
 from continuum.recordings.motion_table import write_measured_motion
@@ -94,3 +95,12 @@ def test_what_cannot_be_written_is_refused_before_the_search(tmp_path: Path, cap
     told = capsys.readouterr().err
     assert "cannot be written" in told
     assert told.count("\n") == 1
+
+
+def test_each_stage_is_one_line_where_standard_error_is_no_terminal(capsys: Captured) -> None:
+    with progress() as tell:
+        for what, part in (("refitting", 0.0), ("effects", 0.1), ("effects", 0.5), ("done", 1.0)):
+            tell(what, part)
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.splitlines() == ["continuum: refitting", "continuum: effects", "continuum: done"]

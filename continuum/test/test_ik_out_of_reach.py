@@ -69,19 +69,9 @@ def test_reachable_by_bending_beyond_the_limits_alone(arm: Arm) -> None:
     targets = targets_at(arm, postures, POSITION)
     batch = answers_that_attain(arm, targets)
     missed = np.flatnonzero(~batch.solved)[:4]
-    assert len(missed) > 0 or arm.n_sections > 1
+    assert len(missed) > 0 or arm is ARMS["three"]
     assert set(batch.statuses[missed]) <= {IkStatus.LIMIT_REACHED}
     assert_true_distances(arm, targets.positions[missed], rows(batch, missed))
-
-
-@pytest.mark.parametrize("name", ["two_short_bends", "three_short_bends", "three_mixed"])
-def test_these_arms_do_miss_such_targets(name: str) -> None:
-    """So that the test above has something to look at."""
-    arm = ARMS[name]
-    postures = random_postures(arm, 20, seed=3, largest=0.5 + float(np.max(limits_of(arm))))
-    postures *= (limits_of(arm) + 0.4)[:, None] / bend(postures)[..., None]
-    batch = answers_that_attain(arm, targets_at(arm, postures, DIRECTION))
-    assert np.mean(batch.statuses == IkStatus.LIMIT_REACHED) > 0.5
 
 
 @each_arm
@@ -120,11 +110,3 @@ def test_no_random_posture_meets_position_and_rotation_better(name: str, kind: i
         distances, angles = misses(arm, tried, repeated)
         least = np.min(np.hypot(distances, weight * angles))
         assert np.hypot(batch.distances[k], weight * batch.angles[k]) <= least + 1e-9
-
-
-def test_the_straight_arm_is_nearest_to_what_is_straight_above_it() -> None:
-    arm = arm_of(3)
-    batch = answers_that_attain(arm, Targets(np.array([[0.0, 0.0, 2.0 * arm.length]])))
-    assert batch.statuses[0] == IkStatus.UNREACHABLE
-    assert batch.distances[0] == pytest.approx(arm.length, rel=1e-12)
-    np.testing.assert_allclose(batch.configurations[0], 0.0, atol=1e-6)

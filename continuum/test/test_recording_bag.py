@@ -125,7 +125,9 @@ def no_bending_joint(topics: Topics) -> None:
 
 
 def turned(topics: Topics) -> None:
-    topics["/joint_states"][50].position[0] = 0.2
+    for one in topics["/joint_states"]:
+        one.position[0] = 1.0
+    topics["/joint_states"][3].position[0] = np.nan
 
 
 def pushing(topics: Topics) -> None:
@@ -179,8 +181,7 @@ def test_no_recording(tmp_path: Path) -> None:
         read_recording_bag(tmp_path)
 
 
-@pytest.mark.parametrize(("first", "by"), [(45, 45), (45, 6), (30, 12)])
-@pytest.mark.parametrize("shift", [0, 3_000_000])
+@pytest.mark.parametrize(("first", "by", "shift"), [(45, 45, 0), (45, 6, 3_000_000), (30, 12, 0)])
 def test_a_clock_that_steps_back_is_refused(tmp_path: Path, first: int, by: int, shift: int) -> None:
     """Two runs in one bag, and a clock that was set back; its stamps may be the earlier ones or between these."""
     topics = swing()
@@ -192,7 +193,7 @@ def test_a_clock_that_steps_back_is_refused(tmp_path: Path, first: int, by: int,
         read_recording_bag(write(tmp_path / "swing", topics))
 
 
-@pytest.mark.parametrize("places", [[0], [30], list(range(0, 180, 2))])
+@pytest.mark.parametrize("places", [[0], list(range(0, 180, 2))])
 def test_others_on_the_topic_are_left_out_and_counted(tmp_path: Path, places: list[int]) -> None:
     topics = swing()
     for place in places:
@@ -248,12 +249,3 @@ def test_two_near_messages_may_arrive_swapped(tmp_path: Path) -> None:
     first.header.stamp.sec, first.header.stamp.nanosec = divmod(near, 10**9)
     topics["/joint_states"][50:52] = [second, first]
     np.testing.assert_array_equal(read_recording_bag(write(tmp_path / "swing", topics)).theta, ANGLES)
-
-
-def test_an_arm_whose_plane_turns_is_refused_whatever_is_no_number(tmp_path: Path) -> None:
-    topics = swing()
-    for one in topics["/joint_states"]:
-        one.position[0] = 1.0
-    topics["/joint_states"][3].position[0] = np.nan
-    with pytest.raises(FileError, match="turns its plane"):
-        read_recording_bag(write(tmp_path / "swing", topics))

@@ -134,8 +134,7 @@ def test_efforts_of_the_joints_are_torques(tmp_path: Path) -> None:
     np.testing.assert_array_equal(found.torques.values, efforts)
 
 
-@pytest.mark.parametrize("effort", [np.nan, np.inf, 0.0])
-@pytest.mark.parametrize("cables", [False, True])
+@pytest.mark.parametrize(("effort", "cables"), [(np.nan, False), (np.inf, True), (0.0, True)])
 def test_efforts_that_say_nothing_are_none(tmp_path: Path, effort: float, cables: bool) -> None:
     topics, _ = bag_with_efforts(cables=cables, effort=effort)
     found = read_recording_bag(write_bag(tmp_path / "run", topics))

@@ -106,16 +106,6 @@ def test_every_via_point_is_passed_at_the_distance_of_its_corner(corner_radius: 
         assert np.linalg.norm(position - via_points[i], axis=1).min() > expected - 1e-12
 
 
-def test_rounded_helix_stays_by_the_true_helix(helix: Trajectory) -> None:
-    position, _ = helix.path.pose(np.linspace(0, helix.path.length, 20_001))
-    radius = np.hypot(position[:, 0], position[:, 1])
-    azimuth = 2 * np.pi * (position[:, 2] - 0.01) / 0.08
-    # A chord of 2 pi 3.625 / 300 rad sags by r (1 - cos(half of it)): 0.11 mm.
-    assert np.abs(radius - 0.15).max() < 1.1e-4
-    assert position[:, 0] / radius == pytest.approx(np.cos(azimuth), abs=1e-3)
-    assert position[:, 1] / radius == pytest.approx(np.sin(azimuth), abs=1e-3)
-
-
 def test_via_points_in_line_are_passed_through() -> None:
     points = np.array([(0, 0, 0), (0.1, 0, 0), (0.3, 0, 0), (0.3, 0.2, 0)])
     path = rounded_path(points, np.tile(SAME, (4, 1, 1)), 0.05, 0.002)
@@ -131,14 +121,6 @@ def test_a_leg_that_just_fits_is_taken_and_one_that_just_does_not_is_refused() -
     assert length == pytest.approx(0.05 * (2 + math.pi), abs=1e-7)
     with pytest.raises(InvalidValueError, match=r"corner_radius is .*less than 0.05 m.*\[1\] to via_points\[2\]"):
         rounded_path(square, same, 0.05 + 1e-9, 0.002)
-
-
-def test_circle_keeps_its_radius_and_closes_after_a_round() -> None:
-    path = circle_path((0.3, 0, 0.1), (0.1, 0.1, 0), (0, 1, 1), 2 * math.pi, SAME, SAME, 0.002)
-    position, _ = path.pose(np.linspace(0, path.length, 1001))
-    assert np.linalg.norm(position - (0.1, 0.1, 0), axis=1) == pytest.approx(math.sqrt(0.06), abs=1e-14)
-    assert position[-1] == pytest.approx(position[0], abs=1e-14)
-    assert path.length == pytest.approx(2 * math.pi * math.sqrt(0.06))
 
 
 def test_helix_points_lie_on_the_helix_up_and_down() -> None:

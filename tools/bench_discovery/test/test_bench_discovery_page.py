@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 
 import pytest
 
@@ -76,20 +75,6 @@ def test_goals() -> None:
     assert [goal.status for goal in goals(ALL)] == sorted(
         (goal.status for goal in goals(ALL)), key=(MISSED, MET, NONE).index
     )
-
-
-def test_the_page() -> None:
-    text = page(ALL)
-    assert "from 8 cases" in text
-    assert "Development half only" in text
-    assert "| wrong cause | base_tilt 0.1 rad | rest_angle@1 (1.00) | 50 % | moreau, small, 8 mixed," in text
-    assert "ValueError: no / verdict" in text
-    assert re.search(r"\| sensor_delay \|.*\| 1\+1/2 \|.*\|  \| 1/1, 5.0 % \|", text)
-    assert re.search(r"\| nothing \|.*\| 1\+0/2 \|.*\| unknown 1 \|", text)
-    assert re.search(r"\| base_tilt \|  \| 0\+0/1! \|", text)
-    for table in re.findall(r"(?:^\|.*\|\n)+", text, re.MULTILINE):
-        assert len({line.count("|") for line in table.splitlines()}) == 1
-    assert max(map(len, (line for line in text.splitlines() if not line.startswith("|")))) <= 120
 
 
 def test_the_page_is_of_the_held_out_half_where_there_is_one() -> None:

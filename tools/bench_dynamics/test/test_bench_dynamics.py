@@ -10,7 +10,7 @@ from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.planar.eq18_state_space import numpy_state_space
 from tools.bench_dynamics.growth import Size, exponent
 from tools.bench_dynamics.lean_rates import lean_rates
-from tools.bench_dynamics.orders import convergence, slope_error
+from tools.bench_dynamics.orders import slope_error
 from tools.bench_dynamics.page import Result, Score
 from tools.bench_dynamics.rivals import BASELINE, Rival, rivals
 from tools.bench_dynamics.scene import Scene, longer_arm, prototype_release
@@ -44,17 +44,6 @@ def test_every_rival_finds_the_converged_solution() -> None:
     for rival in all_rivals():
         error = np.degrees(np.abs(rival.run() - exact).max())
         assert 1e-6 < error < 0.05, rival.name
-
-
-def test_rivals_with_sensitivities_find_the_same_with_them() -> None:
-    for rival in all_rivals():
-        if rival.with_slopes is not None:
-            np.testing.assert_allclose(rival.with_slopes(), rival.run(), rtol=0, atol=1e-4)
-
-
-def test_orders_of_convergence_are_three_and_four() -> None:
-    for method, order in zip(convergence(), (3, 4), strict=True):
-        np.testing.assert_allclose(method.orders, order, rtol=0, atol=0.3)
 
 
 def test_sensitivities_come_to_those_of_neighbouring_runs() -> None:

@@ -10,7 +10,6 @@ from continuum.kinematics.chain import arm_pose
 from continuum.recordings.arm_recording import ArmRecording
 from continuum.recordings.kinematic_report import report_on
 from tools.figures.__main__ import PICTURES, Draw
-from tools.figures.arm_on_helix import draw_arm
 from tools.figures.helix_run import helix_run
 from tools.figures.posture import backbone, discs
 from tools.small_png import shrink
@@ -60,15 +59,6 @@ def test_a_picture_is_small_and_always_the_same(run: ArmRecording, tmp_path: Pat
     one, two = (file.read_bytes() for file in files)
     assert one == two
     assert len(one) < 150_000
-
-
-def test_a_small_picture_still_shows_the_same(run: ArmRecording, tmp_path: Path) -> None:
-    file = tmp_path / "arm.png"
-    draw_arm(run, file)
-    before, size = colours(file), file.stat().st_size
-    shrink(file)
-    assert file.stat().st_size < 0.7 * size
-    assert np.abs(before - colours(file)).mean() < 1.5
 
 
 @pytest.mark.parametrize(("name", "draw"), PICTURES.items())

@@ -80,19 +80,6 @@ def test_the_guess_is_told_as_the_verdict_has_it() -> None:
     assert "Beside what" not in alone
 
 
-def test_figures_are_those_of_the_account() -> None:
-    text = PAGES["cause"]
-    assert "**`cause`.**" in text
-    assert "| angle_offset@3 | 50 % (50 to 50) |" in text
-    assert "| joint 1 | 30.0 -> 15.0 mN m |" in text
-    assert "| refitted | smoothed | 2.00 | 2.00 | 0.70 |" in text
-    assert "of 2 answers, that of the file as it is among them, 2 have its verdict, 2 its effects" in text
-    assert "1 have its verdict, 1 its effects and joints too, and they close -10 % to 50 %" in text
-    assert "| 0.03 degrees, draw 1 | Zen | `unknown` | none | -10 % |" in text
-    assert "probabilities among these: angle_offset@3 0.70, inertia@1,5 0.30" in PAGES["ambiguous"]
-    assert "| `inertia.mass` | 0.3 (0.2 to 0.4) |" in PAGES["unknown"]
-
-
 @pytest.mark.parametrize("name", RESULTS)
 def test_tables_and_lines_are_whole(name: str) -> None:
     text = page(account(RESULTS[name]))
