@@ -7,13 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from ament_index_python.packages import get_package_prefix
-from emulated_bench import CABLES, Bridge, Ears, bridge_at, emulated_bench
+from emulated_bench import Bridge, Ears, bridge_at, emulated_bench
 from harness import NodeProcess, Probe, ended_in_any_case
 from test_bench_bridge_node import WAITING, angles_beside_truth
 
 from continuum_hw_imu.bench_bridge import AUTOSTART_PERIOD
 from continuum_hw_imu.protocol.messages import ReceiverLimits
-from continuum_msgs.msg import CableStates
 
 pytestmark = pytest.mark.ros
 
@@ -145,10 +144,7 @@ def test_a_bench_that_begins_anew_is_greeted_anew(pulling):
 
 
 LINE_FAULTS = {
-    "lose share=0.1 for=1.5": "frames lost",
     "damage share=0.1 for=1.5": "frames damaged",
-    "repeat share=0.2 for=1.5": "frames repeated",
-    "noise share=0.3 for=1.5": "frames damaged",
     "damage share=0.2 for=1.5 way=down": "frames that the bench found damaged",
 }
 
@@ -176,28 +172,6 @@ def test_late_frames_have_the_stamps_of_their_measurement(pulling):
     go_on(pulling, 1.0)
     pulling.wait_for_level("clock", "WARN", "ms late")
     pulling.probe.wait_until(lambda: len(pulling.joints) > 60, "joint states")
-    assert_no_wrong_angle(pulling, pulling.joints)
-
-
-def test_joint_states_are_withheld_without_a_sensor(pulling):
-    pulling.bench.tell("drop sensor=3 for=6")
-    pulling.wait_for_level("angles", "ERROR", "sensor 3 is missing")
-    noticed = pulling.bench.status["monotonic"]
-    pulling.probe.wait_until(lambda: len(pulling.since(noticed, pulling.imus[0])) > 20, "the others' data")
-    assert not pulling.since(noticed, pulling.imus[2])
-    assert not pulling.since(noticed, pulling.joints)
-    pulling.wait_for_level("imu 3", "ERROR", "no data")
-    pulling.probe.wait_until(lambda: len(pulling.since(noticed, pulling.joints)) > 20, lambda: pulling.told("angles"))
-    assert_no_wrong_angle(pulling, pulling.since(noticed, pulling.joints))
-
-
-def test_clipped_rates_make_no_wrong_angles(pulling):
-    pulling.joints.clear()
-    pulling.bench.tell("clip sensor=5 range=40 for=4")
-    pulling.let_hand_move("hand bend=90 over=0.6 hold=0.2", 4.0)
-    pulling.wait_for_level("imu 5", "WARN", "samples clipped")
-    variances = [message.angular_velocity_covariance[0] for message in pulling.imus[4]]
-    assert max(variances) > 100 * min(variances)
     assert_no_wrong_angle(pulling, pulling.joints)
 
 
@@ -267,30 +241,6 @@ def test_orders_are_given_by_a_command(bench, capfd):
     assert subprocess.run([*command, *control, "explode"], timeout=60).returncode == 1
     assert subprocess.run([*command, "--control", "/nowhere", "status"], timeout=60).returncode == 2
     assert capfd.readouterr().err.endswith("/nowhere: No such file or directory; does the emulator run?\n")
-
-
-def test_two_commanders_of_a_renamed_topic_are_refused(domain, ears, probe, bench, calibration):
-    probe.wait_until(lambda: not bench.status["open"], "the port is free")
-    elsewhere = ["--ros-args", "-r", "cable_tension_cmd:=pull"]
-    with bridge_at(
-        ears, bench, domain, elsewhere, calibration=calibration, keep_bias=True, autostart="activate"
-    ) as bridge:
-        bridge.wait_for_state("active")
-        speakers = [probe.speaker(CableStates, "pull") for _ in range(2)]
-        try:
-            message = CableStates(name=CABLES, effort=[8.0, 0.0])
-
-            def refused() -> bool:
-                message.header.stamp = probe.node.get_clock().now().to_msg()
-                speakers[0].publish(message)
-                known = probe.count(bridge.name, "dropped: several commanders") > 3
-                return known and not any(bench.status["set_points"])
-
-            probe.wait_until(refused, lambda: f"refused, and slack; {bench.status}; {bridge.node.stderr}")
-        finally:
-            for speaker in speakers:
-                probe.node.destroy_publisher(speaker)
-        assert bridge.node.stop() == 0
 
 
 def test_an_empty_battery_is_told(pulling):

@@ -57,28 +57,10 @@ def test_it_commands_what_it_claimed(bench):
     assert client.results.unanswered == 0
 
 
-def test_a_claim_waits_for_slack_cables(bench):
-    bench.client.claim(SOON)
-    bench.client.set_tension([5.0, 0.0], None)
-    bench.pass_time(0.1)
-    assert bench.client.claim(SOON) is Result.NOT_SLACK
-    bench.pass_time(1.0)
-    assert bench.client.claim(SOON) is Result.DONE
-
-
 def test_it_learns_that_it_no_longer_commands(bench):
     bench.client.claim(SOON)
     bench.pass_time(1.0)  # without a heartbeat
     assert not bench.client.commands
-
-
-def test_another_commander_is_told(bench):
-    other = LoopedBench()
-    other.controller = bench.controller
-    assert bench.client.claim(SOON) is Result.DONE
-    other.now = bench.now
-    assert other.client.claim(SOON) is Result.BUSY
-    assert not other.client.commands
 
 
 def test_no_answer_is_none(bench):
@@ -95,28 +77,6 @@ def test_old_commands_are_told_as_old(bench):
     assert bench.client.results.counts[Result.STALE] == 0
     bench.client.set_tension([5.0, 0.0], bench.now - 1.0)
     assert bench.client.results.counts[Result.STALE] == 1
-
-
-def test_let_go_drops_tension_at_once_and_set_points_pull_again(bench):
-    bench.client.claim(SOON)
-    bench.client.set_tension([5.0, 0.0], None)
-    bench.pass_time(0.1)
-    bench.client.let_go(SOON)
-    assert bench.set_points == [0.0, 0.0]
-    bench.pass_time(0.01)
-    bench.client.set_tension([3.0, 0.0], None)
-    bench.pass_time(0.1)
-    assert bench.set_points == [3.0, 0.0]
-
-
-def test_a_stop_is_ended_by_its_commander(bench):
-    bench.client.stop()
-    assert bench.client.conversation.status.state is GuardState.STOPPED
-    assert bench.client.reset_stop(SOON) is Result.NOT_COMMANDER
-    bench.client.claim(SOON)
-    bench.pass_time(0.01)
-    assert bench.client.reset_stop(SOON) is Result.DONE
-    assert bench.client.conversation.status.state is GuardState.SLACK
 
 
 def test_repeated_and_overtaken_frames_are_counted_and_not_handed_on(bench):

@@ -6,7 +6,6 @@ from looped_bench import LoopedBench
 from continuum.dynamics.live.tension_follower import TensionLimits
 from continuum_hw_imu.bench_commander import BenchCommander
 from continuum_hw_imu.protocol.messages import GuardState
-from continuum_hw_imu.tension_gate import TensionGate
 
 LIMITS = TensionLimits(max_tension=12.0, max_rate=100.0, patience=0.4, slack_time=0.2)
 
@@ -55,16 +54,6 @@ def test_cables_are_let_go_when_commands_stop(bench, commander):
     assert commander.problem() == ""
     run(bench, commander, 0.5, [4.0, 0.0])
     assert bench.set_points == [4.0, 0.0]
-
-
-def test_what_was_commanded_before_counts_no_more(bench, commander):
-    commander.begin()
-    run(bench, commander, 0.3, [8.0, 0.0])
-    commander.end()
-    bench.pass_time(1.0)
-    assert commander.begin() == ""
-    run(bench, commander, 0.3)
-    assert bench.set_points == [0.0, 0.0]
 
 
 def test_a_bench_that_does_not_fit_is_not_pulled(bench, commander):
@@ -138,20 +127,3 @@ def test_every_trouble_of_the_line_keeps_tension_out(bench, commander):
     assert commander.problem() == "the port is open, but no bench says who it is"
     bench.link.close()
     assert commander.problem() == "closed"
-
-
-def test_a_gate_that_is_shut_asks_for_nothing():
-    gate = TensionGate(LIMITS, 2)
-    assert gate.move_on(0.0).tolist() == [0.0, 0.0]
-    gate.open()
-    gate.move_on(0.0)
-    assert gate.command([6.0, 0.0], 0.0)
-    assert gate.decided == 0.0
-    assert gate.move_on(0.03).tolist() == pytest.approx([3.0, 0.0])
-    gate.let_go()
-    assert (gate.set_point.tolist(), gate.decided, gate.is_open) == ([0.0, 0.0], None, True)
-    gate.stop()
-    assert not gate.open()
-    gate.reset()
-    assert not gate.is_open
-    assert gate.open()

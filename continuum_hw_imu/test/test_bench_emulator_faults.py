@@ -168,13 +168,6 @@ def test_clear_ends_what_lasts_and_what_is_to_come(lab):
     assert not lab.bench.deaf
 
 
-@pytest.mark.parametrize("text", ["drop sensor=6", "drop", "what"])
-def test_orders_that_are_none_are_answered_by_what_is_wrong(lab, text):
-    answer = lab.order(text)
-    assert answer["ok"] is False
-    assert "allowed" in answer["error"]
-
-
 def test_a_script_s_orders_come_at_their_time(lab):
     lab.open()
     lab.order("at 0.5 drop sensor=1 for=0.2")

@@ -93,15 +93,6 @@ def test_a_script_of_faults_is_carried_out(tmp_path):
         wait_until(link.is_symlink, "the port to come back")
 
 
-def test_help_tells_all(capsys, monkeypatch):
-    monkeypatch.setattr(sys, "argv", ["bench_emulator", "--help"])
-    with pytest.raises(SystemExit, match="0"):
-        command.main()
-    told = capsys.readouterr().out
-    for word in ("--link", "--truth", "--faults", "--control", "unplug", "drift", "status"):
-        assert word in told
-
-
 @pytest.mark.parametrize(
     ("arguments", "problem"),
     [

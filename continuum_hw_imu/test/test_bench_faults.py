@@ -13,7 +13,7 @@ from continuum_hw_imu.emulator.device_clock import DeviceClock
 from continuum_hw_imu.emulator.hand import Hand
 from continuum_hw_imu.emulator.line_faults import FaultyLine, LineFault, LineFaultKind, pieces_of
 from continuum_hw_imu.emulator.line_queue import LineQueue
-from continuum_hw_imu.emulator.orders import ACTIONS, Order, in_words, read_order, read_orders
+from continuum_hw_imu.emulator.orders import ACTIONS, Order, read_order, read_orders
 from continuum_hw_imu.protocol import messages as m
 from continuum_hw_imu.protocol.decoder import Decoder
 from continuum_hw_imu.protocol.frame import Frame
@@ -25,10 +25,6 @@ def line(kind: str, share: float = 1.0, until: float = 10.0, by: float = 0.0, si
     faulty = FaultyLine(np.random.default_rng(1))
     faulty.add(LineFault(LineFaultKind(kind), share, until, by, size))
     return faulty
-
-
-def test_a_sound_line_changes_nothing():
-    assert FaultyLine(np.random.default_rng(1)).passed(PIECE, 0.0) == [(0.0, PIECE)]
 
 
 @pytest.mark.parametrize(("kind", "expected"), [("lose", []), ("repeat", [(0.0, PIECE)] * 2), ("late", [(0.3, PIECE)])])
@@ -141,10 +137,6 @@ def test_any_text_is_an_order_or_refused(text):
 def test_a_script_is_sorted_and_may_have_remarks():
     orders = read_orders(["# what comes", "", "at 5 reboot  # late", "clear", "at 1 freeze"])
     assert [(order.at, order.action) for order in orders] == [(0.0, "clear"), (1.0, "freeze"), (5.0, "reboot")]
-
-
-def test_the_help_names_every_order():
-    assert [text.split()[0] for text in in_words().splitlines()] == list(ACTIONS)
 
 
 def test_a_hand_moves_smoothly_from_here_to_there():

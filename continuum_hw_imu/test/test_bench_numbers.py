@@ -46,7 +46,3 @@ def test_tensions_byte_by_byte():
 def test_measured_tensions_beyond_the_range_are_its_end():
     frame = m.TensionFrame((0.0, 0.0), (1e6, -1e6))
     assert m.TensionFrame.decode(frame.encode()).measured == (327.67, -327.67)
-
-
-def test_the_time_to_slack_is_the_longest():
-    assert m.ReceiverLimits(command_timeout=0.5, heartbeat_timeout=0.25, slack_time=0.5).slack_after == 1.0

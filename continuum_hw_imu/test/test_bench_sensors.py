@@ -70,8 +70,3 @@ def test_a_narrowed_sensor_clips_and_says_so(turn, clipped):
 def test_too_hard_a_knock_clips():
     frame = sensors(SensorQuality().perfect()).frame(0, STILL, np.tile([200.0, 0.0, 0.0], (5, 1)), T)
     assert [reading.flags for reading in frame.readings] == [PRESENT | 0x08] * 5
-
-
-def test_the_same_seed_gives_the_same_sensors():
-    frames = [sensors(SensorQuality(), seed).frame(0, STILL, DOWN, T) for seed in (4, 4, 5)]
-    assert frames[0] == frames[1] != frames[2]

@@ -221,14 +221,6 @@ def test_what_the_estimator_passes_over_is_withheld():
     assert not published.joints
 
 
-def test_stamps_are_those_of_the_samples():
-    published = Published()
-    published.measure(120)
-    stamps = np.array([nanoseconds(message.header.stamp) for message in published.imus[0]])
-    assert abs((stamps[-1] - stamps[0]) / NANOSECONDS - 119 / 60) < 0.01
-    assert abs(np.median(np.diff(stamps)) / NANOSECONDS - 1 / 60) < 1e-3
-
-
 class StumblingClock(Clock):
     """The processor is taken away before every third reading."""
 
