@@ -12,13 +12,6 @@ ARM = (ARM_FILE,)
 BAD_PARAMETERS = {
     "negative radius": ("section", ARM, {"section": 1, "arm.section_2.a": -0.03}, "arm.section_2.a is -0.03; allowed:"),
     "section beyond the arm": ("section", ARM, {"section": 4}, "section is 4; allowed: 1 to 3"),
-    "section beyond all numbers": (
-        "section",
-        ARM,
-        {"section": 99999999999999999999},
-        "section is 100000000000000000000; allowed: ",
-    ),
-    "no sections": ("cable_tangler", (), {"arm.sections": "[]"}, "arm is None; allowed: a block"),
     "quality of service of an unknown topic": (
         "robot",
         ARM,
@@ -33,33 +26,13 @@ BAD_PARAMETERS = {
     ),
     "section of the wrong type": ("section", ARM, {"section": "first"}, "section is 'first'; allowed: a whole number"),
     "unknown name": ("robot", ARM, {"targets": "position"}, "unknown parameter 'targets'; known: target,"),
-    "unknown choice": ("robot", ARM, {"target": "speed"}, "allowed: one of position, position_direction"),
-    "not finite": ("robot", ARM, {"tolerance": ".nan"}, "tolerance is nan; allowed: a finite number"),
-    "section name without a block": ("cable_tangler", ARM, {"arm.sections": "[section_1, elbow]"}, "section_"),
-    "section block without a name": ("cable_tangler", ARM, {"arm.elbow.a": 0.03}, "arm.elbow is {'a': 0.03}; allowed:"),
-    "too few sections listed": ("cable_tangler", ARM, {"arm.sections": "[section_1]"}, "arm.section_2 is"),
-    "a value where a block is due": ("markers", ARM, {"arm.section_1.a.b": 1}, "arm.section_1.a"),
     "no arm": ("markers", (), {}, "arm is None; allowed: a block"),
-    "no model": ("dynamics", (), {"model": "nowhere.yaml"}, "nowhere.yaml: "),
     "an arm in the place of a model": ("dynamics", (), {"model": ARM_FILE}, "three_sections.yaml: is an arm file"),
-    "a model without cables": (
-        "dynamics",
-        (),
-        {"model": "double_pendulum.yaml"},
-        "what drives the model is 'joint_torques'; allowed: cables",
-    ),
-    "unknown integrator": ("dynamics", (), {"integrator": "euler"}, "allowed: one of bdf, esdirk"),
     "two postures": (
         "dynamics",
         (),
         {"initial_bend": 1.0, "initial_angles": "[0.1, 0.1, 0.1, 0.1, 0.1]"},
         "initial_bend is 1.0; allowed: 0, or no initial_angles",
-    ),
-    "bend in degrees": (
-        "dynamics",
-        (),
-        {"initial_bend": 90.0},
-        "initial_bend is 90.0; allowed: up to 15.71 rad to either side, pi at each of 5 joints; 90 degrees are 1.571",
     ),
     "angles of another arm": (
         "dynamics",
@@ -67,8 +40,6 @@ BAD_PARAMETERS = {
         {"initial_angles": "[0.1, 0.2]"},
         "initial_angles is [0.1, 0.2]; allowed: 5",
     ),
-    "section name for no topic": ("dynamics", (), {"section": "1st"}, "name of section is '1st'; allowed: a letter"),
-    "tension that pushes": ("dynamics", (), {"max_tension": -1.0}, "max_tension is -1.0; allowed: "),
     "unknown storage": ("recorder", (), {"storage": "tape"}, "storage is 'tape'; allowed: one of mcap, sqlite3"),
 }
 
@@ -131,16 +102,16 @@ def probe(domain):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize(("delay", "twice"), [("at once", False), ("at once", True), ("when it runs", True)])
-def test_signal_ends_a_node_cleanly_from_its_first_moment(domain, probe, number, delay, twice):
-    name = f"section_{delay}_{number.name}_{twice}".replace(" ", "_")
+@pytest.mark.parametrize("delay", ["at once", "when it runs"])
+def test_signal_ends_a_node_cleanly_from_its_first_moment(domain, probe, number, delay):
+    """Also where it comes twice."""
+    name = f"section_{delay}_{number.name}".replace(" ", "_")
     node = NodeProcess("continuum_manipulator", "section", domain, name=name, files=ARM, parameters={"section": 1})
     with ended_in_any_case(node):
         node.wait_for_handler()
         if delay == "when it runs":
             probe.wait_for_nodes(name)
         node.send(number)
-        if twice:
-            node.send(number)
+        node.send(number)
         assert node.exit_code() == 0
         assert all(line.startswith("[INFO]") for line in node.stderr.splitlines())  # no more than that it began

@@ -4,13 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from arm_messages import ARM, cables, instant_of, joint_state, postures
+from arm_messages import ARM, cables, instant_of, postures
 from builtin_interfaces.msg import Time
 from harness import ARM_FILE, NodeProcess, Probe, running
-from sensor_msgs.msg import JointState
 
 from continuum.kinematics.routing import cables_through, section_lengths, tangle, tangle_rates
-from continuum_manipulator.section_joints import read_joints
 from continuum_msgs.msg import CableStates
 
 pytestmark = pytest.mark.ros
@@ -163,39 +161,3 @@ def test_commands_name_the_section_and_its_own_cables(bench):
     for i, message in enumerate(bench.commands):
         assert tuple(message.name) == ARM.sections[i].cable_names
         np.testing.assert_allclose(message.position, section_lengths(W[1, i], ARM, i)[:4], rtol=1e-9)
-
-
-def test_through_all_nodes_and_back(bench, domain):
-    """Joints to cables by the sections and the tangler; the cables commanded; the joints come back."""
-    probe = bench.probe
-    states = probe.hear(CableStates, "cable_states")
-    sections = [
-        NodeProcess(
-            "continuum_manipulator",
-            "section",
-            domain,
-            name=f"section_{i}",
-            files=(ARM_FILE,),
-            parameters={"section": i},
-        )
-        for i in (1, 2, 3)
-    ]
-    with running(*sections):
-        joints = probe.hear(JointState, "section_joint_states")
-        say_joints = probe.speaker(JointState, "joint_states", listeners=3).publish
-        probe.warm_up(lambda: say_joints(joint_state(5000, W[0], RATES[0])), states)
-        for i in range(N):
-            say_joints(joint_state(5001 + i, W[i], RATES[i]))
-        probe.wait_until(lambda: len(states) == N, lambda: f"{N} cable states, not {len(states)}")
-        totals = list(states)
-        probe.warm_up(lambda: bench.say_command(totals[0]), joints)
-        for message in totals:
-            bench.say_command(message)
-        probe.wait_until(lambda: len(joints) == 3 * N, lambda: f"{3 * N} joint states, not {len(joints)}")
-    for message in joints:
-        i = instant_of(message) - 5001
-        index = {name: k for k, name in enumerate(message.name)}
-        (k,) = (k for k, section in enumerate(ARM.sections) if section.phi_joint in index)
-        state = read_joints(index, message.position, message.velocity, ARM.sections[k])
-        np.testing.assert_allclose(state.w, W[i, k], atol=1e-9)
-        np.testing.assert_allclose(state.rate, RATES[i, k], atol=1e-7)

@@ -38,9 +38,7 @@ def contents(folder) -> dict[str, int]:
         return {connection.topic: connection.msgcount for connection in reader.connections}
 
 
-@pytest.mark.parametrize(
-    ("number", "storage"), [(signal.SIGINT, "mcap"), (signal.SIGTERM, "mcap"), (signal.SIGINT, "sqlite3")]
-)
+@pytest.mark.parametrize(("number", "storage"), [(signal.SIGINT, "mcap"), (signal.SIGTERM, "sqlite3")])
 def test_all_topics_also_later_ones_to_the_last_message(domain, probe, tmp_path, number, storage):
     joints = probe.node.create_publisher(JointState, "joint_states", qos_profile_sensor_data)
     node = recorder(domain, tmp_path / "bag", storage=storage)

@@ -6,12 +6,20 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sensor_msgs.msg import JointState
 
 from continuum.arm import Section
 from continuum.kinematics.configuration import allen_from_jones, allen_rates
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.faults import MessageFault
-from continuum_manipulator.section_joints import Configuration, joint_names, joint_values, read_bends, read_joints
+from continuum_manipulator.section_joints import (
+    Configuration,
+    joint_names,
+    joint_values,
+    read_bends,
+    read_joints,
+    read_names,
+)
 
 SECTION = Section("s", n_joints=4, b=0.02, a=0.03)
 NAMES = joint_names(SECTION)
@@ -100,3 +108,22 @@ def test_bend_beyond_the_contact_of_the_discs_is_refused():
     with pytest.raises(MessageFault) as caught:
         read(NAMES, [0.0, *[theta / 4] * 4, 0.0])
     assert caught.value.cause == messages.REFUSED
+
+
+@pytest.mark.parametrize(
+    ("fields", "cause"),
+    [
+        ({"position": [0.1]}, messages.WRONG_LENGTH),
+        ({"velocity": [0.1]}, messages.WRONG_LENGTH),
+        ({"effort": [0.1]}, messages.WRONG_LENGTH),
+        ({"velocity": [0.1, math.inf]}, messages.NOT_FINITE),
+        ({"effort": [math.nan, 0.1]}, messages.NOT_FINITE),
+        ({"name": ["a", "a"]}, messages.REPEATED_NAME),
+    ],
+)
+def test_arrays_fit_the_names_and_each_name_stands_once(fields, cause):
+    right = {"name": ["a", "b"], "position": [0.1, 0.2]}
+    assert read_names(JointState(**right)) == {"a": 0, "b": 1}
+    with pytest.raises(MessageFault) as caught:
+        read_names(JointState(**(right | fields)))
+    assert caught.value.cause == cause

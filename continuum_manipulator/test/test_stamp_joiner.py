@@ -2,7 +2,6 @@
 
 from types import SimpleNamespace
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -134,11 +133,6 @@ def test_every_loss_is_told_with_its_stamp_and_sources():
         (Loss.INCOMPLETE, 1, {"b", "c"}),
         (Loss.LATE, 2, {"b"}),
     ]
-
-
-def test_unknown_source_is_refused():
-    with pytest.raises(KeyError):
-        StampJoiner(KEYS).add("d", 1, None)
 
 
 def test_stamp_in_nanoseconds():

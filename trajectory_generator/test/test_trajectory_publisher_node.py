@@ -168,15 +168,10 @@ def test_being_late_is_told_but_not_of_the_start(domain, probe):
         assert node.stop() == 0
 
 
-def test_help_lists_the_parameters_of_every_path(domain):
+def test_help_lists_the_parameters_of_every_path():
     names = [line.strip() for line in usage(TrajectoryPublisherNode).splitlines() if " " not in line.strip()]
     for name in ("corner_radius", "helix.radius", "line.start", "circle.angle", "via_points.list", "loop", "rate"):
         assert names.count(name) == 1
-    with ended_in_any_case(
-        NodeProcess("trajectory_generator", "trajectory_publisher", domain, arguments=("--help",))
-    ) as (node,):
-        assert node.exit_code() == 0
-        assert node.stderr == ""
 
 
 @pytest.mark.parametrize(
@@ -184,9 +179,6 @@ def test_help_lists_the_parameters_of_every_path(domain):
     [
         ({"max_speed": -0.1}, "max_speed is -0.1; allowed:"),
         ({"helix.radius": 0.1}, "unknown parameter 'helix.radius'; known:"),
-        ({"path": "spiral"}, "path is 'spiral'; allowed: one of helix"),
-        ({"line.end": [0.1, 0.0]}, "line.end"),
-        ({"rate": 0.0}, "rate is 0.0; allowed:"),
     ],
 )
 def test_bad_parameters_end_the_node_with_one_line(domain, parameters, expected):
