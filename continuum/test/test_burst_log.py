@@ -69,3 +69,15 @@ def test_causes_are_bursts_of_their_own(clock):
     log.note("wrong length", "y")
     assert len(lines) == 2
     assert log.total == 2
+
+
+def test_several_events_at_once_count_as_many(clock):
+    lines = []
+    log = BurstLog(lines.append, clock)
+    for events in (2, 3):
+        log.note("lost", "frames", events)
+        clock.now += 0.5
+    clock.now += 1.0
+    log.tick()
+    assert lines[1:] == ["lost: 5 in 0.5 s, the last: frames"]
+    assert log.counts == {"lost": 5}

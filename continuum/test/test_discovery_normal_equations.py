@@ -10,7 +10,7 @@ from continuum_laws.strategies import LAW
 from hypothesis import given
 from hypothesis import strategies as st
 
-from continuum.discovery.normal_equations import NormalEquations, Scale, Values, WithoutEach
+from continuum.discovery.normal_equations import NormalEquations, Scale, Values, WithoutEach, independent
 from continuum.discovery.open_loop import Segment
 from continuum.discovery.unknowns import Unknown
 
@@ -133,6 +133,14 @@ def test_a_cost_falls_where_its_gradient_points(seed: int, stretch: float) -> No
     grown = Segment(0, one.rows, one.readings, small.slopes * (1 + 1e-6))
     slope = (drawn.scale.cost(grown) - drawn.scale.cost(small)) / (0.5 * (grown.square - small.square))
     np.testing.assert_allclose(slope, drawn.scale.weights([small.error])[0], rtol=1e-3)
+
+
+@pytest.mark.parametrize("rho", [-0.3, 0.0, 0.5, 0.9])
+def test_rows_that_are_alike_count_as_few_as_their_mean_tells(rho: float) -> None:
+    """The mean of a series that forgets by rho a row varies as that of as many independent rows; none count twice."""
+    rows = np.arange(3000)
+    variance = np.sum(rho ** np.abs(rows[:, None] - rows)) / rows.size if rho > 0 else 1.0
+    assert independent(2.0, 2.0 * rho) == pytest.approx(1 / variance, rel=0.01)
 
 
 def left_out(seed: int, shift: float, unequal: float = 0.0) -> WithoutEach:

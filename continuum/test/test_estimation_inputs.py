@@ -1,15 +1,17 @@
-"""Inputs amid the substeps: means of a signal over each, whenever it begins."""
+"""Inputs amid the substeps: means of a signal over each, whenever it begins; the noise of readings at rest."""
 
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+import pytest
 from continuum_laws.strategies import LAW
 from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum.dynamics.tensions import Tensions
 from continuum.estimation.run import Run
+from continuum.estimation.sensor_noise import white_noise
 
 SEEDS = st.integers(0, 10**6)
 DELAYS = st.floats(-0.05, 0.3)
@@ -67,3 +69,16 @@ def test_substeps_fill_the_intervals(seed: int, held: bool) -> None:
     for k, (a, b) in enumerate(pairwise(run.first)):
         np.testing.assert_allclose(run.length[a:b], run.intervals[k] / (b - a), rtol=1e-12)
     np.testing.assert_allclose(edges(run)[run.first], run.times, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("shared", [0.0, 0.5])
+def test_noise_at_rest_is_found(shared: float) -> None:
+    """That of angles and of rates, also where neighbouring joints share a sensor."""
+    random, rows, n, sizes = np.random.default_rng(3), 3000, 4, (2e-3, 8e-3)
+    covariance = np.eye(n) - shared * (np.eye(n, k=1) + np.eye(n, k=-1))
+    readings = np.hstack([random.multivariate_normal(np.zeros(n), size**2 * covariance, rows) for size in sizes])
+    run = Run("rest", np.arange(rows) / 120, readings, np.ones_like(readings), n, (np.zeros(1), np.zeros((1, 2))))
+    found = white_noise([run])
+    for size, part in zip(sizes, (slice(n), slice(n, 2 * n)), strict=True):
+        np.testing.assert_allclose(found[part, part] / size**2, covariance, rtol=0.1, atol=0.08)
+    assert not np.any(found[:n, n:])

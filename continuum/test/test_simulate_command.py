@@ -273,6 +273,7 @@ def test_angles_of_each_joint_are_taken_as_they_are(angles):
     (option,) = written_out(["--release", text]) if angles[0] < 0 or text.startswith("-") else [f"--release={text}"]
     assert option == f"--release={text}"
     np.testing.assert_allclose(release_posture(text, 5), np.radians(angles))
+    assert written_out(["--bend=9", "-1,2"]) == ["--bend=9", "-1,2"]  # an option that has its value takes no other
 
 
 def test_a_bend_is_shared_by_all_joints():

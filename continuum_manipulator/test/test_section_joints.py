@@ -103,8 +103,9 @@ def test_bad_numbers_are_refused_and_named(joint, bad):
         read(NAMES, [0.1] * len(NAMES), values)
 
 
-def test_bend_beyond_the_contact_of_the_discs_is_refused():
-    theta = 1.01 * SECTION.contact_bend
+@pytest.mark.parametrize("side", [1, -1])
+def test_bend_beyond_the_contact_of_the_discs_is_refused(side):
+    theta = side * 1.01 * SECTION.contact_bend
     with pytest.raises(MessageFault) as caught:
         read(NAMES, [0.0, *[theta / 4] * 4, 0.0])
     assert caught.value.cause == messages.REFUSED
