@@ -1,5 +1,7 @@
 """Masses and inertias: Table 1's figures, and bodies that can exist."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from description_model import Description, arms, shipped_arms
@@ -61,3 +63,6 @@ def test_axial_inertia_of_the_prototype_is_a_cylinder_of_the_holes_radius() -> N
     section = arm.sections[0]
     disc = moving_bodies(Description(arm))[section.tip_frame]
     assert disc[2][2, 2] == pytest.approx(disc[0] * section.a**2 / 2, rel=1e-12)
+    flat = replace(section, link_inertia=section.link_mass * section.a**2 / 40)
+    disc = moving_bodies(Description(Arm((flat,))))[section.tip_frame]
+    assert disc[2][2, 2] == pytest.approx(2 * disc[2][0, 0], rel=1e-12)  # no body has more

@@ -4,15 +4,17 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
+from continuum_hw_imu.emulator.device_clock import DeviceClock
 from continuum_hw_imu.protocol.clock_map import ClockMap
 from continuum_hw_imu.protocol.device_time import DeviceTime, signed_difference
 
 WRAP = 1 << 32
 
 
+@example(WRAP, [-(10**9), 2 * 10**9])
 @given(st.integers(0, 3 * WRAP), st.lists(st.integers(-(10**9), 2 * 10**9), max_size=50))
 def test_wraps_are_followed_forwards_and_back(start, steps):
     clock, real = DeviceTime(), start
@@ -108,3 +110,12 @@ def test_late_frames_out_of_order_are_no_new_points():
         if k > 100:
             clock.heard((k - 90) * 16667, k * 16667e-6)
     assert abs(clock.drift) < 1e-6
+
+
+def test_a_clock_that_drifts_otherwise_goes_on_from_what_it_shows():
+    clock = DeviceClock(10.0, 500, drift=20.0)
+    shows = clock.at(13.0)
+    assert shows == 500 + 3_000_060
+    clock.drift_from(13.0, -50.0)
+    assert (clock.at(13.0), clock.at(14.0)) == (shows, shows + 999_950)
+    assert clock.real(clock.at(15.0)) == pytest.approx(15.0, abs=1e-6)

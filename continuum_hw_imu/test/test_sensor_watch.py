@@ -79,3 +79,14 @@ def test_a_zero_from_a_file_does_not_tell_when_the_arm_was_straight(arm):
     later.go(0.0, 1.0)
     with pytest.raises(MeasurementError, match="~/zero"):
         later.watch.find_axes()
+
+
+def test_samples_without_a_sensor_are_counted_by_its_link():
+    watch, flags = SensorWatch(HELLO, CalibrationSteps()), np.full(N, PRESENT)
+    flags[1] = 0
+    frame = ImuFrame.of(1, np.zeros((N, 3)), np.zeros((N, 3)), flags)
+    for _ in range(2):
+        watch.take(Heard(frame, 0.0, 0.0, 0, 1), frame)
+    lost = np.arange(1, N + 1) == HELLO.sensors[1].link
+    np.testing.assert_array_equal(watch.missing, 2 * lost)
+    np.testing.assert_array_equal(watch.heard, ~lost)

@@ -51,13 +51,13 @@ def dynamics(domain: int, **parameters) -> NodeProcess:
     return NodeProcess("continuum_manipulator", "dynamics", domain, parameters={"integrator": "esdirk", **parameters})
 
 
-def stamps(joints) -> np.ndarray:
-    return np.array([nanoseconds(message.header.stamp) for message in joints])
+def stamps(messages) -> np.ndarray:
+    return np.array([nanoseconds(message.header.stamp) for message in messages])
 
 
 def test_simulated_time_sets_the_pace(domain, probe):
-    """It runs ten times as fast, stands still, leaps forward, which leaves no gap, and goes back, which is told."""
-    joints = probe.hear(JointState, "joint_states")
+    """It runs ten times as fast, stands still, leaps forward, which leaves no gap, and goes back, which lets go."""
+    joints, cables = probe.hear(JointState, "joint_states"), probe.hear(CableStates, "cable_states")
     with ended_in_any_case(dynamics(domain, use_sim_time=True, initial_bend=1.5)) as (node,):
         probe.wait_for_nodes("dynamics")
         clock = SimulatedTime(probe)
@@ -72,10 +72,20 @@ def test_simulated_time_sets_the_pace(domain, probe):
         clock.repeat_until(lambda: stamps(joints)[-1] >= clock.now - 2 * PERIOD)
         assert np.all(np.abs(np.diff(stamps(joints)) - PERIOD) <= 1)
         assert abs(sum(joints[-1].position)) < 0.1 < 1.0 < sum(joints[0].position)  # released at the first instant
+        say = probe.speaker(CableStates, "cable_tension_cmd").publish
+
+        def pulled() -> bool:
+            command = CableStates(name=["section_1_cable_1", "section_1_cable_2"], effort=[5.0, 0.0])
+            command.header.stamp.sec, command.header.stamp.nanosec = divmod(clock.now, NANOSECONDS)
+            say(command)
+            return cables[-1].effort[0] > 4.0
+
+        clock.step_until(0.02, pulled)
+        clock.repeat_until(lambda: stamps(joints)[-1] >= clock.now - 2 * PERIOD)
         back = clock.now - 400 * NANOSECONDS
         clock.step(-500.0)
         clock.repeat_until(lambda: "time went back: by 500.000 s; the arm goes on from its posture" in node.stderr)
-        clock.step_until(0.02, lambda: stamps(joints)[-1] < back)
+        clock.step_until(0.02, lambda: stamps(cables)[-1] < back and not any(cables[-1].effort))
         assert node.stop() == 0
 
 

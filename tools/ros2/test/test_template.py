@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ros2_standin.errors import UserError
+from ros2_standin.launch.substitution import truth
 from ros2_standin.launch.template import Call, parse_template, split_words
 
 
@@ -55,3 +56,10 @@ def test_words_are_those_of_a_shell(text: str) -> None:
 def test_a_substitution_stays_one_word() -> None:
     words = split_words(parse_template("-d $(find-pkg-share p)/x.rviz '$(var a) b'"))
     assert words == [("-d",), (Call("find-pkg-share", (("p",),)), "/x.rviz"), (Call("var", (("a",),)), " b")]
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("true", True), ("1", True), (" True\n", True), ("false", False), ("0", False)]
+)
+def test_conditions_are_words_or_figures(text: str, value: bool) -> None:
+    assert truth(text) is value
