@@ -42,7 +42,7 @@ class CopyOfCheckout:
             shutil.copy2(self._root / fault.path, file)
 
     def failures(self, tests: Sequence[str], *options: str) -> list[str]:
-        """Ids of the tests that fail; where they hang, the files."""
+        """Ids of the tests that fail; where they hang, or pytest itself fails, the files."""
         paths = os.environ.get("PYTHONPATH", "").split(os.pathsep)
         copied = [path.replace(f"{self._root}/build/", f"{self._place}/") for path in paths]
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join([*copied, *paths])}
@@ -70,4 +70,6 @@ class CopyOfCheckout:
                 if process.poll() is None:
                     os.killpg(process.pid, signal.SIGKILL)
         failed = cache / "v" / "cache" / "lastfailed"
-        return list(json.loads(failed.read_text(encoding="utf-8"))) if process.returncode and failed.exists() else []
+        if not process.returncode:
+            return []
+        return list(json.loads(failed.read_text(encoding="utf-8"))) if failed.exists() else list(tests)
