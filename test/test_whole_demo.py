@@ -235,17 +235,17 @@ def test_what_the_demo_before_left_is_kept_until_there_is_more(
 
 
 @pytest.mark.parametrize(
-    ("number", "options", "problem"),
+    ("options", "problem", "number"),
     [
-        ("0x1", {}, "ROS_DOMAIN_ID is '0x1'; allowed: a whole number from 0 to 232"),
-        ("1", {"arm": Path("nowhere.yaml")}, "nowhere.yaml: cannot be read"),
-        ("1", {"out": Path("/dev/null/out")}, "/dev/null/out cannot be made"),
+        ({}, "ROS_DOMAIN_ID is '0x1'; allowed: a whole number from 0 to 232", "0x1"),
+        ({"arm": Path("nowhere.yaml")}, "nowhere.yaml: cannot be read", None),
+        ({"out": Path("/dev/null/out")}, "/dev/null/out cannot be made", None),
     ],
 )
 def test_what_cannot_begin_is_told_in_one_line(
-    tmp_path: Path, trajectory: Path, number: str, options: dict[str, Path], problem: str
+    tmp_path: Path, trajectory: Path, domain: int, options: dict[str, Path], problem: str, number: str | None
 ) -> None:
-    with DemoProcess(tmp_path / "out", number, **{"trajectory": trajectory} | options) as demo:
+    with DemoProcess(tmp_path / "out", number or str(domain), **{"trajectory": trajectory} | options) as demo:
         code, _, err = demo.end()
     assert code == 1
     assert err.startswith(f"demo: {problem}")

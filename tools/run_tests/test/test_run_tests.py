@@ -43,4 +43,3 @@ def test_each_test_is_in_one_part():
     parts = [collected(f"--part={part}") for part in run_tests.PARTS]
     assert all(parts)
     assert sorted(test for part in parts for test in part) == sorted(collected())
-
