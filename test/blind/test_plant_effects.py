@@ -5,37 +5,12 @@ from functools import cache
 import numpy as np
 import pytest
 
-from blind.plant import EFFECTS, LIBRARY, OUTSIDE, Case, Machine, make_case, prototype
+from blind.plant import EFFECTS, Case, Machine, make_case, prototype
 from blind.plant.chain import BALL_INERTIA, BALL_MASS, without_ball
 from blind.plant.parameters import GRAVITY
 from blind.plant.sensors import ORDINARY
 
 SEED = 3
-REQUIRED = [
-    "rest_angle",
-    "joint_stiffness",
-    "hardening_spring",
-    "inertia",
-    "tip_payload",
-    "base_tilt",
-    "base_compliance",
-    "joint_friction",
-    "presliding",
-    "load_friction",
-    "quadratic_drag",
-    "sensor_cable",
-    "backlash",
-    "capstan",
-    "elastic_cable",
-    "slack_cable",
-    "actuator_lag",
-    "angle_offset",
-    "gyro_drift",
-    "sensor_delay",
-    "sensor_scale",
-]
-BEYOND = ["remounted_base", "tension_scale"]
-
 # as multiples of medium; a winch and a ring of fixed size go only with the effect as a whole, and a joint that hardly
 # gives before it slips is too stiff for the step
 FADED = dict.fromkeys(EFFECTS, 0.0005) | {"elastic_cable": 0.0, "backlash": 0.0, "presliding": 2e-3}
@@ -54,11 +29,6 @@ def change(case: Case, other: Case) -> float:
     """Difference in what is read without noise, root mean square over rows and joints, over the noise's deviation."""
     difference = case.without_noise["run_1.csv"] - other.without_noise["run_1.csv"]
     return float(np.sqrt(np.mean(difference**2)) / ORDINARY.joint_angle())
-
-
-def test_every_effect_of_the_list_is_there() -> None:
-    assert sorted(LIBRARY) == sorted((*REQUIRED, *BEYOND))
-    assert len(OUTSIDE) >= 4
 
 
 @pytest.mark.parametrize("name", EFFECTS)
