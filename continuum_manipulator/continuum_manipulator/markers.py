@@ -53,48 +53,36 @@ class MarkersNode(CheckedNode):
     def __init__(self) -> None:
         super().__init__()
         self._bends: dict[int, Array] = {}
-        self._next = -float("inf")
+        self._stamp = Time()
+        self._next = time.monotonic()
         self._publish_cables = self.offer(MarkerArray, "cable_markers", REPORT)
         self._publish_arrows = self.offer(MarkerArray, "section_config_markers", REPORT)
-        self._held: JointState | None = None
-        self._handle_held = self.checked("joint_states", self._draw)
-        self._held_timer = self.create_timer(
-            1.0 / self.values["rate"], self._draw_held, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        draw = self.checked("joint_states", self._draw)
+        self._due = self.create_timer(
+            1.0 / self.values["rate"], lambda: draw(self._stamp), clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
-        self._held_timer.cancel()
+        self._due.cancel()
         self.listen(JointState, "joint_states", self._on_joints)
 
     def _on_joints(self, message: JointState) -> None:
-        """Draw the message, or keep it until the rate allows: the last posture of a burst is drawn as well."""
-        now = time.monotonic()
-        if now >= self._next:
-            self._draw(message)
-            return
-        if self._held is None:
-            self._held_timer.timer_period_ns = max(1, round((self._next - now) * NANOSECONDS))
-            self._held_timer.reset()
-        self._held = message
-
-    def _draw_held(self) -> None:
-        self._held_timer.cancel()
-        held, self._held = self._held, None
-        if held is not None:
-            self._handle_held(held)
-
-    def _draw(self, message: JointState) -> None:
-        self._held = None
+        """Take the joints of every message at once, for sections may have a message each; draw when the rate allows."""
         index = read_names(message)
         read = {i: read_bends(index, message.position, section) for i, section in enumerate(self.arm.sections)}
         found = {i: bends for i, bends in read.items() if bends is not None}
         if not found:
             raise MessageFault(messages.MISSING_NAME, "no joint of this arm is in the message")
         self._bends |= found
-        if len(self._bends) < self.arm.n_sections:
-            return
+        self._stamp = message.header.stamp
+        if len(self._bends) == self.arm.n_sections and self._due.is_canceled():
+            self._due.timer_period_ns = max(1, round((self._next - time.monotonic()) * NANOSECONDS))
+            self._due.reset()
+
+    def _draw(self, stamp: Time) -> None:
+        self._due.cancel()
         self._next = time.monotonic() + 1.0 / self.values["rate"]
         bends = [self._bends[i] for i in range(self.arm.n_sections)]
-        self._publish_cables(MarkerArray(markers=self._cable_markers(bends, message.header.stamp)))
-        self._publish_arrows(MarkerArray(markers=self._arrow_markers(bends, message.header.stamp)))
+        self._publish_cables(MarkerArray(markers=self._cable_markers(bends, stamp)))
+        self._publish_arrows(MarkerArray(markers=self._arrow_markers(bends, stamp)))
 
     def _cable_markers(self, bends: list[Array], stamp: Time) -> list[Marker]:
         return [self._cable_marker(i, line, stamp) for i, line in enumerate(cable_lines(bends, self.arm))]

@@ -14,6 +14,7 @@ from continuum.kinematics.cable_lines import cable_lines
 from continuum.kinematics.configuration import allen_from_jones
 from continuum.kinematics.discs import even_bends
 from continuum_manipulator.nodekit.qos import REPORT
+from continuum_manipulator.section_joints import joint_names
 
 pytestmark = pytest.mark.ros
 
@@ -76,18 +77,45 @@ def points_of(markers: MarkerArray) -> list[list[tuple[float, float, float]]]:
     return [[(point.x, point.y, point.z) for point in marker.points] for marker in markers.markers]
 
 
-def test_last_posture_of_a_burst_is_drawn(domain):
+@pytest.fixture(scope="module")
+def slow(domain):
+    """Draws twice a second, in a namespace: the other node would draw everything."""
+    namespace = ("--ros-args", "-r", "__ns:=/slow", "--")
     node = NodeProcess(
-        "continuum_manipulator", "markers", domain, name="slow", files=(ARM_FILE,), parameters={"rate": 2.0}
+        "continuum_manipulator", "markers", domain, files=(ARM_FILE,), parameters={"rate": 2.0}, arguments=namespace
     )
     with running(node), Probe(domain, "burst") as probe:
-        markers = probe.hear(MarkerArray, "cable_markers", REPORT)
-        say = probe.speaker(JointState, "joint_states").publish
-        w = postures(1)[0][0]
-        probe.warm_up(lambda: say(joint_state(0, w)), markers)
-        for i in range(1, 20):
-            say(joint_state(i, w))
-        probe.wait_until(lambda: markers and instant_of(markers[-1].markers[0]) == 19, "markers of the last posture")
+        yield probe
+
+
+def test_last_posture_of_a_burst_is_drawn(slow):
+    markers = slow.hear(MarkerArray, "slow/cable_markers", REPORT)
+    say = slow.speaker(JointState, "slow/joint_states").publish
+    w = postures(1)[0][0]
+    slow.warm_up(lambda: say(joint_state(0, w)), markers)
+    for i in range(1, 20):
+        say(joint_state(i, w))
+    slow.wait_until(lambda: markers and instant_of(markers[-1].markers[0]) == 19, "markers of the last posture")
+
+
+def test_last_bend_of_every_section_is_drawn_where_each_has_a_message(slow):
+    markers = slow.hear(MarkerArray, "slow/cable_markers", REPORT)
+    say = slow.speaker(JointState, "slow/joint_states").publish
+    bends, _ = postures(10)
+    slow.warm_up(lambda: say(joint_state(0, bends[0])), markers)
+    for i, w in enumerate(bends):
+        whole = joint_state(i, w)
+        angles = dict(zip(whole.name, whole.position, strict=True))
+        for section in ARM.sections:
+            names = joint_names(section)
+            say(JointState(header=whole.header, name=names, position=[angles[name] for name in names]))
+    last = [even_bends(bent, section) for bent, section in zip(bends[-1], ARM.sections, strict=True)]
+    expected = [line.points for line in cable_lines(last, ARM)]
+
+    def drawn():
+        return markers and all(map(np.allclose, points_of(markers[-1]), expected))
+
+    slow.wait_until(drawn, "markers of the last bend of every section")
 
 
 def ask(probe, service_type, service, **fields):
