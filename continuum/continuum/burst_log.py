@@ -60,17 +60,17 @@ class BurstLog:
         """Events of all causes."""
         return self.counts.total()
 
-    def note(self, cause: str, detail: str, events: int = 1) -> None:
-        """Count an event, or several at once."""
+    def note(self, cause: str, detail: str, events: int = 1) -> bool:
+        """Count an event, or several at once; whether a burst begins with it."""
         with self._lock:
-            self._note(cause, detail, events)
+            return self._note(cause, detail, events)
 
     def tick(self) -> None:
         """Say what is due; to be called about once a second."""
         with self._lock:
             self._tick()
 
-    def _note(self, cause: str, detail: str, events: int) -> None:
+    def _note(self, cause: str, detail: str, events: int) -> bool:
         now = self._now()
         self._tick()
         self._counts[cause] += events
@@ -78,10 +78,11 @@ class BurstLog:
         if burst is None:
             self._bursts[cause] = _Burst(now, now, now, total=events, detail=detail)
             self._log(f"{self._prefix}{cause}: {detail}")
-            return
+            return True
         burst.last, burst.detail = now, detail
         burst.unsaid += events
         burst.total += events
+        return False
 
     def _tick(self) -> None:
         now = self._now()

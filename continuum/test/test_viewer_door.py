@@ -207,12 +207,41 @@ def test_what_is_too_long_ends_the_connection_alone(served: Served) -> None:
         served.hears(client, PLACES[0])
 
 
+def counts_of_errors(served: Served, error: Exception) -> list[int]:
+    """How many more events of browsers and of the server there are when its event loop met the error three times."""
+
+    def failing_step() -> None:
+        raise error
+
+    causes = ("message of a browser", "error of the page's server")
+    with served.client() as client:
+        served.hears(client, PLACES[0])
+        before, total = served.faults.counts, served.faults.total
+        for _ in range(3):
+            served.page._server.get_event_loop().call_soon_threadsafe(failing_step)
+        served.wait(lambda: served.faults.total == total + 3)
+        served.hears(client, PLACES[1])
+    return [served.faults.counts[cause] - before[cause] for cause in causes]
+
+
+def test_an_error_of_the_server_is_none_of_a_browser_and_its_traceback_is_logged_once_a_burst(
+    served: Served, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert counts_of_errors(served, ValueError("a bug")) == [0, 3]
+    assert caplog.text.count("in failing_step") == 1
+
+
+def test_a_broken_connection_is_none_of_the_server(served: Served, caplog: pytest.LogCaptureFixture) -> None:
+    assert counts_of_errors(served, ConnectionResetError("gone")) == [3, 0]
+    assert "failing_step" not in caplog.text
+
+
 def refused(served: Served, data: bytes | str) -> None:
     """The page counts the message and goes on as if there had been none."""
     with served.client() as client:
         client.send(msgspec.msgpack.encode(CAMERA))
         served.hears(client, PLACES[0])
-        before, count = served.state(), served.faults.total
+        before, count, errors = served.state(), served.faults.total, served.faults.counts["error of the page's server"]
         client.send(data)
         served.wait(lambda: served.faults.total > count)
         served.page._plots._due = 0.0
@@ -220,3 +249,4 @@ def refused(served: Served, data: bytes | str) -> None:
         assert served.state() == before
         served.hears(client, PLACES[1])
         assert served.faults.total == count + 1
+        assert served.faults.counts["error of the page's server"] == errors

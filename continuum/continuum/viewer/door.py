@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import ipaddress
 import socket
 import threading
@@ -14,6 +15,7 @@ from urllib.parse import urlsplit
 
 from websockets.asyncio import server as websocket_server
 from websockets.asyncio.server import ServerConnection
+from websockets.exceptions import WebSocketException
 from websockets.http11 import Request, Response
 
 from continuum.burst_log import BurstLog
@@ -25,12 +27,16 @@ PATIENCE = 10.0
 
 REFUSED_SITE = "page of another site"
 REFUSED_MESSAGE = "message of a browser"
+SERVER_ERROR = "error of the page's server"
 
 _ASKING = 2.0
 """Between two questions whether a browser lives [s]."""
 
 _LONGEST_DETAIL = 200
 """Characters of what a browser says that are repeated."""
+
+_NO_NUMBER = "could not convert string to float"
+"""What Python says of an input's value that is a word; for a number input, the server converts whatever it is sent."""
 
 _Handler = Callable[[ServerConnection], Awaitable[None]]
 _Answer = Callable[[ServerConnection, Request], Response | None]
@@ -88,9 +94,7 @@ def kept_door(host: str, words: Collection[str], faults: BurstLog) -> Iterator[N
             return process_request(connection, request)
 
         async def handle(connection: ServerConnection) -> None:
-            asyncio.get_running_loop().set_exception_handler(
-                lambda _, context: _note(faults, REFUSED_MESSAGE, str(context.get("exception", context["message"])))
-            )
+            asyncio.get_running_loop().set_exception_handler(functools.partial(_note_error, faults))
             watch = asyncio.create_task(_watch(connection))
             try:
                 await handler(connection)
@@ -140,9 +144,19 @@ def _is_numeric(name: str) -> bool:
     return True
 
 
-def _note(faults: BurstLog, cause: str, detail: str) -> None:
-    """What a browser says is repeated in one line without control characters."""
-    faults.note(cause, "".join(mark if mark.isprintable() else "?" for mark in detail[:_LONGEST_DETAIL]))
+def _note(faults: BurstLog, cause: str, detail: str) -> bool:
+    """What a browser says is repeated in one line without control characters. Whether a burst begins."""
+    return faults.note(cause, "".join(mark if mark.isprintable() else "?" for mark in detail[:_LONGEST_DETAIL]))
+
+
+def _note_error(faults: BurstLog, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+    """What ended a task or a callback of the server; what no browser did is logged with its traceback, once a burst."""
+    error = context.get("exception")
+    a_word_for_a_number = isinstance(error, ValueError) and str(error).startswith(_NO_NUMBER)
+    if a_word_for_a_number or isinstance(error, (ConnectionError, WebSocketException)):
+        _note(faults, REFUSED_MESSAGE, str(error))
+    elif _note(faults, SERVER_ERROR, repr(error) if error else context["message"]):
+        loop.default_exception_handler(context)
 
 
 async def _watch(connection: ServerConnection) -> None:
