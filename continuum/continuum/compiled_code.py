@@ -8,6 +8,8 @@ after something was compiled. Programs that start at the same time never see a f
 
 from __future__ import annotations
 
+import contextlib
+import fcntl
 import functools
 import hashlib
 import inspect
@@ -18,7 +20,7 @@ import threading
 import weakref
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, BinaryIO, Literal
 
 import numba
 
@@ -30,6 +32,7 @@ compiled = numba.njit(error_model="numpy")
 ErrorModel = Literal["numpy", "python"]
 
 _FOLDER = "continuum-compiled-"
+_LOCK = "held"
 _cache_dir_is_set = threading.Lock()
 
 
@@ -103,8 +106,8 @@ class EntryPoint:
         with self._lock:
             if self._dispatcher is None:
                 try:
-                    self._folder = _temporary_folder()
-                    weakref.finalize(self, shutil.rmtree, self._folder, ignore_errors=True)
+                    self._folder, held = _temporary_folder()
+                    weakref.finalize(self, _let_go, self._folder, held)
                     self._kept.unpack(self._folder)
                     self._dispatcher = _with_cache(self._function, self._error_model, self._folder)
                 except (OSError, RuntimeError) as error:  # RuntimeError: numba finds no place for its cache
@@ -128,23 +131,36 @@ class EntryPoint:
                     warn_not_kept(error)
 
 
-def _temporary_folder() -> Path:
-    """A folder that is named after this program; those of programs that were killed are removed."""
-    for folder in Path(tempfile.gettempdir()).glob(f"{_FOLDER}*-*"):
-        number = folder.name.removeprefix(_FOLDER).partition("-")[0]
-        if number.isdecimal() and not _is_running(int(number)):
-            shutil.rmtree(folder, ignore_errors=True)
-    return Path(tempfile.mkdtemp(prefix=f"{_FOLDER}{os.getpid()}-"))
+def _temporary_folder() -> tuple[Path, BinaryIO]:
+    """A folder, and the lock by which this program holds it; those of programs that were killed are removed.
+
+    A lock is seen where the number of a process is not: from another container that shares the folder for temporary
+    files. It is there by its name only once it is held.
+    """
+    for lock in Path(tempfile.gettempdir()).glob(f"{_FOLDER}*/{_LOCK}"):
+        _remove_unless_held(lock)
+    folder = Path(tempfile.mkdtemp(prefix=_FOLDER))
+    unnamed = folder / f"{_LOCK}.new"
+    held = unnamed.open("wb")
+    fcntl.flock(held, fcntl.LOCK_EX)
+    unnamed.rename(folder / _LOCK)
+    return folder, held
 
 
-def _is_running(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except (ProcessLookupError, OverflowError):
-        return False
-    except PermissionError:  # somebody else's
-        return True
-    return True
+def _remove_unless_held(lock: Path) -> None:
+    with contextlib.suppress(OSError), open(lock, "rb", opener=_without_waiting) as left:  # or it is somebody else's
+        fcntl.flock(left, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        shutil.rmtree(lock.parent, ignore_errors=True)
+
+
+def _without_waiting(path: str, flags: int) -> int:
+    """Open a file, also a pipe that nobody writes to."""
+    return os.open(path, flags | os.O_NONBLOCK)
+
+
+def _let_go(folder: Path, held: BinaryIO) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    held.close()
 
 
 def _with_cache(function: Callable[..., Any], error_model: ErrorModel, folder: Path) -> Any:

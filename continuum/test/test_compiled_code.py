@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -79,8 +80,10 @@ def kept(folder: Path) -> list[Path]:
     return sorted(folder.rglob("*.compiled"))
 
 
-def in_another_program(file: Path, *arguments: str, **variables: str) -> subprocess.Popen[str]:
-    command = [sys.executable, "-c", PROGRAM, str(file), *arguments]
+def in_another_program(
+    file: Path, *arguments: str, within: tuple[str, ...] = (), **variables: str
+) -> subprocess.Popen[str]:
+    command = [*within, sys.executable, "-c", PROGRAM, str(file), *arguments]
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env={**os.environ, **variables})
 
 
@@ -235,3 +238,21 @@ def test_a_program_that_is_killed_leaves_nothing_for_long(file: Path, tmp_path: 
     assert len(list(temporary.iterdir())) == 2
     assert said(in_another_program(file, TMPDIR=str(temporary))).startswith("True")
     assert list(temporary.iterdir()) == [foreign]
+
+
+def test_a_program_whose_process_another_cannot_see_keeps_its_folder(
+    make: Callable[[], Any], file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Containers may share the folder for temporary files, but do not see each other's processes."""
+    contained = ("unshare", "--user", "--map-root-user", "--pid", "--fork")
+    if shutil.which("unshare") is None or subprocess.run([*contained, "true"], check=False).returncode:
+        pytest.skip("this user may not make a namespace of processes")
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(temporary))
+    function = make()
+    compiled_by(function, 3.0)
+    held = list(temporary.iterdir())
+    assert said(in_another_program(file, within=contained, TMPDIR=str(temporary))).startswith("True")
+    assert list(temporary.iterdir()) == held != []
+    assert compiled_by(function, 3) == 2
