@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-import os
-import threading
 from pathlib import Path
+
+from continuum.whole_file import write_whole
 
 _DIGEST_SIZE = hashlib.sha256().digest_size  # bytes, at the end of the file: loaders of libraries do not mind them
 
@@ -27,12 +27,7 @@ def write_checked(path: Path, content: bytes, key: str = "") -> None:
         OSError: it cannot be written.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = path.with_name(f".{path.name}.{os.getpid()}.{threading.get_ident()}")
-    try:
-        unfinished.write_bytes(content + _digest(content, key))
-        unfinished.replace(path)
-    finally:
-        unfinished.unlink(missing_ok=True)
+    write_whole(path, content + _digest(content, key))
 
 
 def _digest(content: bytes, key: str) -> bytes:

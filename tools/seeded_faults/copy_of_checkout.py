@@ -15,6 +15,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from continuum.whole_file import write_whole
 from tools.seeded_faults.table import Fault
 
 _LINKED = (".venv", "build", "install")
@@ -35,7 +36,7 @@ class CopyOfCheckout:
     def failures_with(self, fault: Fault, tests: Sequence[str]) -> list[str]:
         """Ids of the tests that fail with the fault, the first of them alone; the file is as before afterwards."""
         file = self._place / fault.path
-        file.write_text(file.read_text(encoding="utf-8").replace(fault.text, fault.instead), encoding="utf-8")
+        write_whole(file, file.read_text(encoding="utf-8").replace(fault.text, fault.instead))
         try:
             return self.failures(tests, "--exitfirst")
         finally:
