@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from tools.setup.layout import LOCK, ROOT, tool_pins
+from tools.setup.layout import LOCK, OLD_LOCK, ROOT, tool_pins
 
-LOCKED = [LOCK, *sorted(ROOT.glob("tools/*/requirements.txt"))]
+OF_TOOLS = sorted(ROOT.glob("tools/*/requirements.txt"))
+LOCKED = [LOCK, OLD_LOCK, *OF_TOOLS]
 
 each_locked = pytest.mark.parametrize("locked", LOCKED, ids=lambda path: str(path.relative_to(ROOT)))
 
@@ -38,7 +39,7 @@ def test_no_index_is_named(locked: Path) -> None:
 
 
 def test_what_single_tools_add_is_what_they_ask_for() -> None:
-    assert {pins.with_suffix(".txt") for pins in tool_pins()} == {*LOCKED} - {LOCK}
+    assert {pins.with_suffix(".txt") for pins in tool_pins()} == {*OF_TOOLS}
     for pins in tool_pins():
         wanted = [line for line in pins.read_text(encoding="utf-8").splitlines() if line and line[0] != "#"]
         assert [pin for pin, *_ in entries(pins.with_suffix(".txt"))] == wanted
@@ -47,5 +48,5 @@ def test_what_single_tools_add_is_what_they_ask_for() -> None:
 def test_pip_is_asked_to_check_the_hashes() -> None:
     recipes = (ROOT / "Makefile").read_text(encoding="utf-8")
     asked = re.findall(r"(\S+) -r (tools/\w+/requirements\.txt)", recipes)
-    assert sorted(ROOT / file for _, file in asked) == [*LOCKED[1:]]
+    assert sorted(ROOT / file for _, file in asked) == OF_TOOLS
     assert {option for option, _ in asked} == {"--require-hashes"}
