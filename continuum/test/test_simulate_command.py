@@ -149,7 +149,7 @@ BAD_TENSIONS = {
     "NaN": ("t_s,u1_N,u2_N\n0,1,nan\n", "row 2: u2_N is 'nan'"),
     "infinite time": ("t_s,u1_N,u2_N\ninf,1,1\n", "row 2: t_s is 'inf'; allowed: a finite number"),
     "push": ("t_s,u1_N,u2_N\n0,1,2\n\n0.1,1,-3\n", "row 4: u2_N is '-3'"),
-    "short row": ("t_s,u1_N,u2_N\n0,1\n", "row 2: u2_N is ''"),
+    "short row": ("t_s,u1_N,u2_N\n0,1\n", "row 2 has 2 cells, the header 3"),
     "time goes back": ("t_s,u1_N,u2_N\n0,1,1\n\n0.2,1,1\n0.1,1,1\n", "row 5: t_s 0.1 is not after 0.2"),
     "no column": ("t_s,u1_N\n0,1\n", "has no column u2_N; needed: t_s, u1_N, u2_N"),
     "column twice": ("t_s,u1_N,u2_N,u1_N\n0,1,1,1\n", "has more than one column u1_N"),

@@ -162,7 +162,8 @@ def _times(options: argparse.Namespace, inputs: InputSignal) -> Array:
     duration = options.duration or (lasts if lasts > 0 else _RELEASE_DURATION)
     samples = duration * options.rate
     if not 1 <= samples + 1e-6 <= _MOST_SAMPLES:
-        raise InvalidValueError("--duration times --rate", samples, f"1 to {_MOST_SAMPLES} samples")
+        what = "--duration" if options.duration else f"the {duration:g} s to be simulated"
+        raise InvalidValueError(f"{what} times --rate", samples, f"1 to {_MOST_SAMPLES} samples")
     return begin + np.arange(int(samples + 1e-6) + 1) / float(options.rate)
 
 

@@ -26,6 +26,7 @@ from continuum.arrays import Array
 from continuum.errors import FileError
 from continuum.inertial.dot_clock import microseconds
 from continuum.inertial.imu_sample import Truths
+from continuum.recordings.csv_layout import hint_of_cell, number_of
 from continuum.recordings.table_file import Table, read_table
 
 COUNTER, TIME, STATUS = "PacketCounter", "SampleTimeFine", "Status"
@@ -76,9 +77,7 @@ def read_dot_export(path: str | Path) -> DotExport:
         FileError: it cannot be read, lacks a column, holds what is no number, or time runs backward in it.
     """
     path = Path(path)
-    table = read_table(path, TIME)
-    if TIME not in table.header:
-        raise FileError(path, f"has no line with the column {TIME}: is it a CSV export of an Xsens DOT?")
+    table = read_table(path, TIME, f"{', '.join(_NEEDED)}, as in CSV exports of an Xsens DOT")
     return _export(path, _head(table.before), _columns(table), table.numbers)
 
 
@@ -112,19 +111,17 @@ def _columns(table: Table) -> dict[str, Array]:
     places = [header.index(name) for name in wanted]
     values = np.empty((len(table.rows), len(wanted)))
     for found, number, row in zip(values, table.numbers, table.rows, strict=True):
-        if len(row) <= max(places):
-            raise FileError(path, f"row {number} has {len(row)} cells, its columns' names {len(header)}")
         found[:] = [_number(path, number, header[place], row[place]) for place in places]
     return dict(zip(wanted, values.T, strict=True))
 
 
 def _number(path: Path, row: int, column: str, cell: str) -> float:
     try:
-        value = float(cell)
+        value = number_of(cell)
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise FileError(path, f"row {row}, column {column}: {cell!r} is no number")
+        raise FileError(path, f"row {row}, column {column}: {cell!r} is no number{hint_of_cell(cell)}")
     return value
 
 

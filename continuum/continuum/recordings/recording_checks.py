@@ -14,6 +14,7 @@ from continuum.recordings.samples import Samples
 _SAME_TIME = 1e-7  # s: no sensor is that fast
 _FEWEST_ROWS = 30
 _LONGEST_GAP = 0.25  # s; the arm may do anything in a longer one
+_UNITS = (("milliseconds", 1e3), ("microseconds", 1e6), ("nanoseconds", np.inf))  # and how many make a second
 _CLIPPED_ROWS = 3  # of the same extreme value one after the other
 _CLIPPED_STEP = 3  # units of the last digit, by which a signal jumps to its limit
 _ZERO_TENSION = 0.2  # N, by which a load cell may be off where a cable hangs loose
@@ -95,9 +96,16 @@ def _refuse_gaps(samples: Samples) -> None:
     at = int(np.argmax(gaps))
     if gaps[at] <= _LONGEST_GAP:
         return
-    hint = "; or is the time in milliseconds?" if np.median(gaps) > _LONGEST_GAP else ""
+    hint = f"; or is the time in {_unit_of(np.median(gaps))}?" if np.median(gaps) > _LONGEST_GAP else ""
     where = f"{samples.row}s {samples.numbers[at]} to {samples.numbers[at + 1]}: a gap of {gaps[at]:.3g} s"
     raise FileError(samples.path, f"{where}; up to {_LONGEST_GAP} s is bridged: split the recording there{hint}")
+
+
+def _unit_of(step: float) -> str:
+    """What steps from row to row may be in that are too long for seconds."""
+    if step == 1:
+        return "milliseconds, or a count of rows"
+    return next(unit for unit, longest in _UNITS if step <= _LONGEST_GAP * longest)
 
 
 def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:

@@ -18,12 +18,14 @@ from continuum.dynamics.joint_torques import JointTorques
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
 from continuum.printable import printable
-from continuum.recordings.csv_layout import hint_of_cell, hint_of_row, problem_of_header
+from continuum.recordings.csv_layout import hint_of_cell, number_of
 from continuum.recordings.motion_columns import ANGLE, QUANTITIES, RATE, TENSION, TIME, TORQUE, Quantity
 from continuum.recordings.recording import Recording
 from continuum.recordings.recording_checks import repaired
 from continuum.recordings.samples import Samples
 from continuum.recordings.table_file import read_table
+
+_NAMES = f"{TIME} [s], q1_deg .. or q1_rad .., and where there are any dq1_deg_s .., u1_N, u2_N or tau1_Nm .."
 
 
 def read_recording_csv(path: str | Path) -> Recording:
@@ -35,8 +37,6 @@ def read_recording_csv(path: str | Path) -> Recording:
     path = Path(path)
     header, numbers, table = _numbers(path)
     columns = {name: table[:, i] for i, name in enumerate(header)}
-    if TIME not in columns:
-        raise FileError(path, f"has no column {TIME}, time in seconds; it has {', '.join(header)}")
     theta, others = _block(path, columns, ANGLE), _of_nothing(header)
     if theta is None:
         raise FileError(path, f"has no joint angles q1_deg .. or q1_rad ..; it has {', '.join(header)}")
@@ -56,7 +56,8 @@ def read_recording_csv(path: str | Path) -> Recording:
         if any(name and name[0] == 0 for name in map(quantity.names, header)):
             notes = (*notes, f"{quantity.letter}0 is that of number 1: numbers count from 0 in this file")
     if others:
-        notes = (*notes, f"columns that are not understood, and not used: {', '.join(others)}")
+        named = (name or "one without a name" for name in others)
+        notes = (*notes, f"columns that are not understood, and not used: {', '.join(named)}")
     return Recording(printable(path.stem), good.times, good.theta, good.rate, tensions, notes, torques)
 
 
@@ -68,30 +69,23 @@ def _of_nothing(header: Sequence[str]) -> list[str]:
 def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:
     """Header, numbers of the rows that are not blank, and what they hold, (rows, columns).
 
-    An empty cell is NaN, and so is what stands in a column that is not understood, a remark perhaps.
+    A cell without a value is NaN, and so is what stands in a column that is not understood, a remark perhaps.
     """
-    found = read_table(path, TIME)
+    found = read_table(path, TIME, _NAMES)
     header = found.header
-    if problem := problem_of_header(header):
-        raise FileError(path, f"row {found.header_row} {problem}")
     for name in header:
-        if header.count(name) > 1:
+        if name and header.count(name) > 1:
             raise FileError(path, f"has the column {name!r} twice")
     table, others = np.full((len(found.rows), len(header)), np.nan), _of_nothing(header)
     for row, number, values in zip(table, found.numbers, found.rows, strict=True):
-        if len(values) != len(header):
-            hint = hint_of_row(values, len(header))
-            raise FileError(path, f"row {number} has {len(values)} cells, the header {len(header)}{hint}")
         for i, (column, value) in enumerate(zip(header, values, strict=True)):
             row[i] = np.nan if column in others else _number(path, number, column, value)
     return header, found.numbers, table
 
 
 def _number(path: Path, row: int, column: str, cell: str) -> float:
-    if not cell:
-        return float("nan")
     try:
-        return float(cell)
+        return number_of(cell)
     except ValueError as error:
         raise FileError(path, f"row {row}, column {column}: {cell!r} is no number{hint_of_cell(cell)}") from error
 

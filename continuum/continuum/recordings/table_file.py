@@ -14,10 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from continuum.errors import FileError
-from continuum.recordings.csv_layout import hint_of_row, is_number
+from continuum.recordings.csv_layout import hint_of_row, is_number, problem_of_header
 
 SEPARATORS = ",;\t"
-_LONGEST_HEAD = 50  # lines before the columns' names
 _MOST_COLUMNS = 2000  # an arm of twenty joints has some hundred
 _BLANK = " " + SEPARATORS
 _REMARKS = ("#", "%", "//", "sep=")
@@ -30,10 +29,10 @@ class Table:
     Attributes:
         path: of the file.
         before: lines before the columns' names, as cells.
-        header: names of the columns.
+        header: names of the columns; the last ones that have neither a name nor a value are left out.
         header_row: its number in the file, from 1.
         numbers: of the rows that are not blank, (rows,).
-        rows: their cells, decimals with a point; as many as the line has, no more than there are names.
+        rows: their cells, decimals with a point; as many as there are names.
     """
 
     path: Path
@@ -44,21 +43,27 @@ class Table:
     rows: list[list[str]]
 
 
-def read_table(path: str | Path, key: str) -> Table:
-    """Read a file whose columns' names have ``key`` among them; without such a line, the first that is no remark.
+def read_table(path: str | Path, key: str, wanted: str) -> Table:
+    """Read a file whose columns' names have ``key`` among them.
+
+    Args:
+        path: of the file.
+        key: name of the column that every such table has.
+        wanted: names of all columns that may be there, in words, for messages.
 
     Raises:
-        FileError: it cannot be read, is no text, is empty, has more columns than any arm, or a row has more cells than
-            there are names.
+        FileError: it cannot be read, is no text, is empty, has no such line, more columns than any arm, or a row with
+            more or fewer cells than there are names.
     """
     path = Path(path)
-    lines = _text(path).replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    at = next((i for i, line in enumerate(lines[:_LONGEST_HEAD]) if key in _names(line)), None)
+    lines = read_text(path).replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    at = next((i for i, line in enumerate(lines) if key in line and key in _names(line)), None)
     if at is None:
-        at = next((i for i, line in enumerate(lines) if line.strip(_BLANK) and not line.startswith(_REMARKS)), None)
-    if at is None:
-        raise FileError(path, "is empty")
-    separator = _separator(lines[at])
+        first = next((k for k in enumerate(lines) if k[1].strip(_BLANK) and not k[1].startswith(_REMARKS)), None)
+        if first is None:
+            raise FileError(path, "is empty")
+        raise FileError(path, problem_of_header(first[0] + 1, _names(first[1]), key, wanted))
+    separator, header = _separator(lines[at]), _names(lines[at])
     if lines[at].count(separator) >= _MOST_COLUMNS:
         raise FileError(path, f"has {lines[at].count(separator) + 1} columns in row {at + 1}; allowed: {_MOST_COLUMNS}")
     try:
@@ -66,11 +71,13 @@ def read_table(path: str | Path, key: str) -> Table:
     except csv.Error as error:
         raise FileError(path, f"cannot be read as CSV ({error})") from error
     rows = [(number, row) for number, row in enumerate(cells, start=at + 2) if any(row)]
-    header = _names(lines[at]) if key in _names(lines[at]) else [cell.strip() for cell in lines[at].split(separator)]
+    while not header[-1] and not any(row[len(header) - 1 :] and row[len(header) - 1] for _, row in rows):
+        header.pop()
     for number, row in rows:
-        if key in header and any(row[len(header) :]):
-            hint = hint_of_row(row, len(header)) if separator == "," else ""
+        if len(row) < len(header) or any(row[len(header) :]):
+            hint = hint_of_row(row, len(header), separator)
             raise FileError(path, f"row {number} has {len(row)} cells, the header {len(header)}{hint}")
+        del row[len(header) :]
     if separator != "," and not any("." in cell and is_number(cell) for _, row in rows for cell in row):
         rows = [(number, [cell.replace(",", ".") for cell in row]) for number, row in rows]
     before = [[cell.strip() for cell in line.split(separator)] for line in lines[:at]]
@@ -78,20 +85,23 @@ def read_table(path: str | Path, key: str) -> Table:
     return Table(path, before, header, at + 1, numbers, [row for _, row in rows])
 
 
-def _text(path: Path) -> str:
-    """What a file holds: UTF-8, UTF-16 with its mark, or an old code of one byte a letter."""
+def read_text(path: Path) -> str:
+    """What a file holds: UTF-8, UTF-16 with its mark, or an old code of one byte a letter.
+
+    Raises:
+        FileError: it cannot be read, or is no text.
+    """
     try:
         data = path.read_bytes()
     except OSError as error:
         raise FileError(path, f"cannot be read: {error.strerror or error}") from error
     try:
-        if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-            return data.decode("utf-16")
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        if b"\0" in data or data.startswith((b"\xff\xfe", b"\xfe\xff")):
-            raise FileError(path, "is no text file: a CSV file is needed") from error
-        return data.decode("cp1252", errors="replace")
+        text = data.decode("utf-16" if data.startswith((b"\xff\xfe", b"\xfe\xff")) else "utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("cp1252", errors="replace")
+    if "\0" in text:
+        raise FileError(path, "is no text file: a CSV file is needed, in UTF-8 or in UTF-16 with its mark")
+    return text
 
 
 def _separator(line: str) -> str:
