@@ -121,6 +121,19 @@ def test_rates_at_the_end_of_their_range_are_left_out_and_told(tmp_path: Path) -
     np.testing.assert_array_equal(found.times, np.delete(T, clipped))
 
 
+@pytest.mark.parametrize("value", ["0.0", "0.25"])
+def test_rates_that_never_change_were_not_measured(tmp_path: Path, value: str) -> None:
+    table = sway()
+    table["dq2_rad_s"] = [value] * ROWS
+    with pytest.raises(FileError, match="joint 2: its rate is .* throughout while its angle changes"):
+        read_recording_csv(write(tmp_path, table))
+    table["dq1_rad_s"] = [value] * ROWS
+    found = read_recording_csv(write(tmp_path, table))
+    assert found.theta_rate is None
+    assert len(found.notes) == 1
+    np.testing.assert_array_equal(found.theta, ANGLES)
+
+
 def test_a_rate_in_coarse_steps_is_not_taken_for_a_clipped_one(tmp_path: Path) -> None:
     table = sway()
     table["dq1_rad_s"] = [f"{value:.1f}" for value in RATES[:, 0]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -76,7 +77,7 @@ def refuse_units(samples: Samples) -> None:
             samples.path,
             f"has no joint angle above {np.degrees(largest):.2g} degrees: radians taken for degrees, or arm at rest?",
         )
-    motion = _largest_motion(samples.theta)
+    motion = float(np.max(_motion(samples.theta)))
     if motion < _LEAST_MOTION:
         told = f"{np.degrees(motion):.2g} degrees, hardly more than sensors err: at least {np.degrees(_LEAST_MOTION):g}"
         raise FileError(samples.path, f"is of an arm whose joints move by at most {told} are needed")
@@ -86,10 +87,29 @@ def refuse_units(samples: Samples) -> None:
             _refuse_mixed(samples.path, joint, slope, rate)
 
 
-def _largest_motion(theta: Array) -> float:
-    """From the least to the most of the joint that moves most [rad]."""
+def without_still_rates(samples: Samples) -> tuple[Samples, list[str]]:
+    """Rates that were not measured left out, and a note on it: they never change, though angles do.
+
+    Raises:
+        FileError: those of some joints change.
+    """
+    if samples.rate is None:
+        return samples, []
+    still = np.ptp(samples.rate, axis=0) == 0
+    wrong = still & (_motion(samples.theta) >= _LEAST_MOTION)
+    if not np.any(wrong):
+        return samples, []
+    joint = int(np.argmax(wrong))
+    told = f"{samples.rate[0, joint]:g} rad/s throughout while its angle changes"
+    if not np.all(still):
+        raise FileError(samples.path, f"joint {joint + 1}: its rate is {told}: was it measured?")
+    return replace(samples, rate=None), [f"no rate ever changes (joint {joint + 1}: {told}): rates left out"]
+
+
+def _motion(theta: Array) -> Array:
+    """From the least to the most of each joint, (n_joints,) [rad]."""
     means = [np.mean(piece, axis=0) for piece in np.array_split(theta, max(1, len(theta) // _QUIETED))]
-    return float(np.max(np.ptp(means, axis=0)))
+    return np.asarray(np.ptp(means, axis=0))
 
 
 def _refuse_mixed(path: Path, joint: int, slope: Array, rate: Array) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from continuum.errors import FileError
-from continuum.recordings.plausible_values import MOST_BAD, outliers, refuse_units
+from continuum.recordings.plausible_values import MOST_BAD, outliers, refuse_units, without_still_rates
 from continuum.recordings.samples import Samples
 
 _SAME_TIME = 1e-7  # s: no sensor is that fast
@@ -52,7 +52,8 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     _refuse_gaps(good)
     good, pushing = _without_pushing(good)
     refuse_units(good)
-    return good, (*(f"{note}, left out" for note in notes), *pushing)
+    good, unmeasured = without_still_rates(good)
+    return good, (*(f"{note}, left out" for note in notes), *pushing, *unmeasured)
 
 
 def _complete(samples: Samples) -> NDArray[np.bool_]:
