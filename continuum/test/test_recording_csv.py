@@ -125,7 +125,7 @@ def test_rates_at_the_end_of_their_range_are_left_out_and_told(tmp_path: Path) -
 def test_rates_that_never_change_were_not_measured(tmp_path: Path, value: str) -> None:
     table = sway()
     table["dq2_rad_s"] = [value] * ROWS
-    with pytest.raises(FileError, match="joint 2: its rate is .* throughout while its angle changes"):
+    with pytest.raises(FileError, match=r"joint 2: its rate is .* throughout while its angle changes"):
         read_recording_csv(write(tmp_path, table))
     table["dq1_rad_s"] = [value] * ROWS
     found = read_recording_csv(write(tmp_path, table))

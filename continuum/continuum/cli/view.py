@@ -71,6 +71,8 @@ def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
     if sys.stdout.isatty():  # a refusal is one line, elsewhere
         print(f"reading {what} ...", flush=True)
     tracks = read_tracks(what)
+    for note in tracks.notes:
+        print(f"continuum: {what}: {note}", file=sys.stderr)
     if options.arm is None:
         arm = arm_of_joints(tracks.joints.names)
     else:

@@ -9,40 +9,89 @@ from typing import Any
 import numpy as np
 
 from continuum.errors import FileError
-from continuum.joint_names import theta_joints
+from continuum.joint_names import cable_names, theta_joints
 from continuum.printable import printable
 from continuum.recordings.bag import stamp_ns
 
 _SHOWN = 5  # names of others
 _DENSE = 1.5  # times as many messages as one run has in such a time: two runs, or a clock that was set back, have twice
+_DAY = 86400 * 10**9  # ns: where stamps are later, as since 1970, one of 0 is none
+_TO_AND_FRO, _JUMP, _OFTEN = 4.0, np.deg2rad(1.0), 0.05  # times the way that is left, rad, share of messages
+_MOST = 1e3  # rad; what is beyond is damaged
+_MARKS = (theta_joints("", 1)[0].removesuffix("1"), cable_names("", 1)[0].removesuffix("1"))
 
 
-def of_an_arm(messages: Sequence[Any], topic: str) -> tuple[Sequence[Any], tuple[str, ...]]:
-    """Messages of who publishes bending joints, all where nobody does, and a note on those of others."""
-    mark = theta_joints("", 1)[0].removesuffix("1")
-    mine = [one for one in messages if any(mark in name for name in one.name)]
-    others = [one for one in messages if not any(mark in name for name in one.name)]
-    if not mine or not others or set(mine[0].name) & {name for one in others for name in one.name}:
+def of_an_arm(path: Path, topic: str, messages: Iterable[Any]) -> tuple[list[Any], tuple[str, ...]]:
+    """Messages of who publishes bending joints or cables in the order of their stamps, and a note on each left out.
+
+    Where nobody does, all are there; so are all where others have some of the arm's names.
+
+    Raises:
+        FileError: no message has a stamp, stamps are of two runs or of a clock that was set back, or two publish one
+            arm.
+    """
+    stamped, unstamped = _with_stamp(path, topic, list(messages))
+    mine = [one for one in stamped if any(mark in name for name in one.name for mark in _MARKS)]
+    others = [one for one in stamped if not any(mark in name for name in one.name for mark in _MARKS)]
+    strangers = {name for one in others for name in one.name}
+    if not mine or set(mine[0].name) & strangers:
+        mine, others = stamped, []
+    ordered = _in_order(path, topic, mine)
+    _refuse_two_arms(path, topic, ordered)
+    if not others:
+        return ordered, unstamped
+    names = printable(", ".join(sorted(strangers)[:_SHOWN])) or "without names"
+    return ordered, (*unstamped, f"{_counted(len(others))} of others on {topic} ({names}), left out")
+
+
+def _with_stamp(path: Path, topic: str, messages: list[Any]) -> tuple[list[Any], tuple[str, ...]]:
+    """Messages whose stamp is one, and a note on the others; a simulated clock may begin at 0."""
+    found = [one for one in messages if stamp_ns(one) != 0]
+    if not found and len(messages) > 1:
+        raise FileError(path, f"has no message on {topic} with a stamp; when they were measured is not known")
+    if len(found) == len(messages) or min(map(stamp_ns, found), default=0) < _DAY:
         return messages, ()
-    names = printable(", ".join(sorted({name for one in others for name in one.name})[:_SHOWN]))
-    count = "1 message" if len(others) == 1 else f"{len(others)} messages"
-    return mine, (f"{count} of others on {topic} ({names}), left out",)
+    return found, (f"{_counted(len(messages) - len(found))} without a stamp on {topic}, left out",)
 
 
-def in_order(path: Path, topic: str, messages: Iterable[Any]) -> list[Any]:
+def _counted(count: int) -> str:
+    return "1 message" if count == 1 else f"{count} messages"
+
+
+def _refuse_two_arms(path: Path, topic: str, joints: Sequence[Any]) -> None:
+    """Refuse joints that jump to and fro from message to message: two publish them, an arm and a simulation say."""
+    if len({tuple(one.name) for one in joints}) != 1 or len({len(one.position) for one in joints}) != 1:
+        return
+    angles = np.array([one.position for one in joints], dtype=float)
+    if _MARKS[0] not in "".join(joints[0].name) or len(angles) < 3 or not angles.size:
+        return
+    angles = np.clip(np.nan_to_num(angles), -_MOST, _MOST)
+    sizes = np.max(np.abs(np.diff(angles, axis=0)), axis=1)
+    left = np.max(np.abs(angles[2:] - angles[:-2]), axis=1)
+    jumps = np.minimum(sizes[:-1], sizes[1:]) > np.maximum(_TO_AND_FRO * left, _JUMP)
+    if np.count_nonzero(jumps) > max(2, _OFTEN * len(angles)):
+        at = int(np.argmax(jumps)) + 2
+        raise FileError(
+            path,
+            f"message {at} on {topic}: joint angles jump there and back, as in {np.count_nonzero(jumps)} of "
+            f"{len(angles)} messages: do two nodes publish them?",
+        )
+
+
+def _in_order(path: Path, topic: str, arrived: list[Any]) -> list[Any]:
     """Messages by their stamps; a network may deliver a few in another order.
 
     Raises:
         FileError: stamps run backward over a time that is there already: two runs, or a clock that was set back.
     """
-    arrived = list(messages)
     stamps = np.array([stamp_ns(one) for one in arrived], dtype=np.int64)
     steps, ordered = np.diff(stamps), np.sort(stamps)
-    late, newest = np.flatnonzero(steps < 0) + 1, np.maximum.accumulate(stamps)
     usual = float(np.median(steps[steps > 0])) if np.any(steps > 0) else np.inf
-    there = np.searchsorted(ordered, newest[late - 1], "right") - np.searchsorted(ordered, stamps[late])
-    dense = (there > _DENSE * (1 + (newest[late - 1] - stamps[late]) / usual)) & (there > 2)
-    for at in late[dense | (usual == np.inf)][:1]:
+    begin = np.maximum(np.minimum.accumulate(stamps)[:-1], np.minimum.accumulate(stamps[::-1])[::-1][1:])
+    end = np.minimum(np.maximum.accumulate(stamps)[:-1], np.maximum.accumulate(stamps[::-1])[::-1][1:])
+    there = np.searchsorted(ordered, end, "right") - np.searchsorted(ordered, begin)
+    twice = (there > _DENSE * (1 + (end - begin) / usual)) & (there > 2)
+    for at in np.flatnonzero((steps < 0) & (twice | (usual == np.inf)))[:1] + 1:
         back = -steps[at - 1] * 1e-9
         raise FileError(
             path,

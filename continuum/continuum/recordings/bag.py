@@ -30,22 +30,22 @@ _DAMAGE = (
 
 
 _NEXT_IDL = "=" * 80 + "\n"
-_STORAGES = (".mcap", ".db3")  # of rosbag2
+_STORAGES, _COMPRESSED, _METADATA = (".mcap", ".db3"), ".zstd", "metadata.yaml"  # names of files of rosbag2
 
 
 class Bag:
     """An open recording. Use as a context manager.
 
     Args:
-        path: folder of the recording (with ``metadata.yaml``).
+        path: folder of the recording (with ``metadata.yaml``), this file in it, or its storage file.
 
     Raises:
         FileError: no recording there, or a damaged one, here or in the methods.
     """
 
     def __init__(self, path: str | Path) -> None:
-        self.path = Path(path)
-        if self.path.is_dir() and not (self.path / "metadata.yaml").exists():
+        self.path = _whole(Path(path))
+        if self.path.is_dir() and not (self.path / _METADATA).exists():
             raise self._unreadable("it has no metadata.yaml")
         with self._readable():
             self._reader = Reader(self.path)
@@ -101,8 +101,23 @@ class Bag:
 
 
 def is_bag(path: str | Path) -> bool:
-    """Whether a path is that of a recording, its folder or its storage file, by its name."""
-    return Path(path).is_dir() or Path(path).suffix in _STORAGES
+    """Whether a path is that of a recording, its folder or a file in it, by its name."""
+    return Path(path).is_dir() or Path(path).name == _METADATA or _is_storage(Path(path))
+
+
+def _is_storage(path: Path) -> bool:
+    return path.name.lower().removesuffix(_COMPRESSED).endswith(_STORAGES)
+
+
+def _whole(path: Path) -> Path:
+    """The folder where a file in it was given that cannot be read without: metadata, or its one compressed file."""
+    if path.name == _METADATA:
+        return path.parent
+    metadata = path.parent / _METADATA
+    if not (_is_storage(path) and path.is_file() and metadata.is_file()):
+        return path
+    compressed = b"compression_mode: message" in metadata.read_bytes().lower() or path.suffix.lower() == _COMPRESSED
+    return path.parent if compressed and sum(map(_is_storage, path.parent.iterdir())) == 1 else path
 
 
 def recovery_command(path: Path) -> str:

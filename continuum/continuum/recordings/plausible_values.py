@@ -16,7 +16,10 @@ from continuum.recordings.samples import Samples
 MOST_BAD = 0.1
 """Part of all rows that may be bad."""
 
-_LARGEST_ANGLE, _LARGEST_TURN = np.pi, 4 * np.pi  # rad, of joints between discs, and of joints with drives
+LARGEST_TURN = 4 * np.pi
+"""Of a joint with a drive [rad]."""
+
+_LARGEST_ANGLE = np.pi  # rad, of a joint between discs
 _LEAST_ANGLE = np.deg2rad(1.0)  # that a run must reach; sensors err by tenths of a degree
 _LEAST_MOTION = np.deg2rad(1.5)  # of the joint that moves most
 _QUIETED = 8  # rows of which the mean is taken then, against noise
@@ -26,7 +29,7 @@ _ALIKE = 0.5  # correlation of a joint's rate with the slope of its angle from w
 
 def _limited(samples: Samples) -> list[tuple[Array, float, str]]:
     """What was measured, the most that an arm of this kind has of it, and the letter of its columns."""
-    turn = _LARGEST_ANGLE if samples.torque is None else _LARGEST_TURN
+    turn = _LARGEST_ANGLE if samples.torque is None else LARGEST_TURN
     blocks = (
         (samples.theta, turn, ANGLE.letter),
         (samples.rate, _LARGEST_RATE, RATE.letter),

@@ -21,7 +21,7 @@ from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
 from continuum.joint_names import cable_names, phi_joint, theta_joints
 from continuum.printable import printable
-from continuum.recordings.arm_messages import in_order, of_an_arm
+from continuum.recordings.arm_messages import of_an_arm
 from continuum.recordings.arm_recording import TOPICS
 from continuum.recordings.bag import Bag, stamp_ns
 from continuum.recordings.named_values import named_values
@@ -45,8 +45,7 @@ def read_recording_bag(path: str | Path) -> Recording:
         every = list(bag.messages(_JOINTS, TOPICS[_JOINTS]))
         if not every:
             raise FileError(bag.path, f"has no message on {_JOINTS}")
-        mine, others = of_an_arm(every, _JOINTS)
-        joints = in_order(bag.path, _JOINTS, mine)
+        joints, others = of_an_arm(bag.path, _JOINTS, every)
         start = stamp_ns(joints[0])
         section, names = _bending_joints(bag, joints)
         times = _seconds(joints, start)
@@ -55,7 +54,7 @@ def read_recording_bag(path: str | Path) -> Recording:
         if rate is not None and not np.any(np.isfinite(rate)):
             rate, others = None, (*others, f"no velocity on {_JOINTS} is a finite number: rates left out")
         torque = _torque(joints, names)
-        pull = _pull(bag, section, start, times)
+        pull, other_cables = _pull(bag, section, start, times)
         if pull is not None and torque is not None:
             raise FileError(
                 bag.path, f"has efforts on {_JOINTS} and on {_CABLES}: an arm is driven by one or the other"
@@ -64,7 +63,7 @@ def read_recording_bag(path: str | Path) -> Recording:
     good, notes = repaired(Samples(bag.path, numbers, times, theta, rate, pull, "message", torque))
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
     torques = None if good.torque is None else JointTorques(good.times, good.torque)
-    notes = (*others, *notes)
+    notes = (*others, *other_cables, *notes)
     if tensions is None and torques is None:
         notes = (*notes, f"no efforts on {_CABLES}: cables taken as slack")
     return Recording(
@@ -80,7 +79,7 @@ def read_recording_bag(path: str | Path) -> Recording:
 
 def _bending_joints(bag: Bag, joints: Sequence[Any]) -> tuple[str, list[str]]:
     """Name of the section, and of its bending joints from base to tip; its plane must not turn."""
-    known = list(joints[0].name)
+    known = list(dict.fromkeys(name for one in joints for name in one.name))
     first = theta_joints("", 1)[0]
     sections = [name.removesuffix(first) for name in known if name.endswith(first)]
     if len(sections) != 1:
@@ -104,23 +103,32 @@ def _torque(joints: Sequence[Any], names: Sequence[str]) -> Array | None:
     return torque if np.any(torque[known]) else None
 
 
-def _pull(bag: Bag, section: str, start: int, times: Array) -> Array | None:
-    """Tensions at the times of the joint states, (n_times, n_cables) [N]; NaN far from any that is known."""
-    there = in_order(bag.path, _CABLES, bag.messages(_CABLES, TOPICS[_CABLES])) if _CABLES in bag.topics else []
+def _pull(bag: Bag, section: str, start: int, times: Array) -> tuple[Array | None, tuple[str, ...]]:
+    """Tensions at the times of the joint states, (n_times, n_cables) [N], NaN far from any that is known; notes."""
+    messages = bag.messages(_CABLES, TOPICS[_CABLES]) if _CABLES in bag.topics else []
+    there, others = of_an_arm(bag.path, _CABLES, messages)
     if not any(len(one.effort) for one in there):
-        return None
+        return None, others
     known = _seconds(there, start)
     tensions = _table(bag, there, "effort", cable_names(section, len(SIDES)))
     pull = np.stack([np.interp(times, known, column) for column in tensions.T], axis=1)
     after = np.searchsorted(known, times)
     near = np.minimum(np.abs(known[np.maximum(after - 1, 0)] - times), np.abs(known.take(after, mode="clip") - times))
     pull[near > _FARTHEST] = np.nan
-    return pull
+    if np.all(near > _FARTHEST):
+        raise FileError(
+            bag.path, f"has no message on {_CABLES} within {_FARTHEST} s of one on {_JOINTS}: stamps of two clocks?"
+        )
+    return pull, others
 
 
 def _table(bag: Bag, messages: Sequence[Any], field: str, names: Sequence[str]) -> Array:
-    """One row for each message, one column for each name; what is not finite is left to be repaired."""
-    return np.array([named_values(bag, one, getattr(one, field), names, finite=False) for one in messages])
+    """One row for each message, one column for each name; what is not there or not finite is left to be repaired."""
+    table = np.full((len(messages), len(names)), np.nan)
+    for row, one in zip(table, messages, strict=True):
+        if len(given := getattr(one, field)):
+            row[:] = named_values(bag, one, given, names, finite=False)
+    return table
 
 
 def _seconds(messages: Sequence[Any], start: int) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +11,12 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.errors import FileError
-from continuum.joint_names import cable_names, theta_joints
-from continuum.recordings.arm_messages import in_order, of_an_arm
+from continuum.joint_names import bending_joints, cable_names, theta_joints
+from continuum.recordings.arm_messages import of_an_arm
 from continuum.recordings.arm_recording import TOPICS
 from continuum.recordings.bag import Bag, is_bag, stamp_ns
 from continuum.recordings.named_values import named_values
+from continuum.recordings.plausible_values import LARGEST_TURN
 from continuum.recordings.recording_csv import read_recording_csv
 
 SIMULATED = "/simulated"
@@ -57,6 +58,7 @@ class Tracks:
         lengths: of cables [m].
         tensions: of cables [N].
         target: of the tip: x, y, z [m].
+        notes: what was left out or repaired while reading, one sentence each.
     """
 
     joints: Track
@@ -64,6 +66,7 @@ class Tracks:
     lengths: Track = NOTHING
     tensions: Track = NOTHING
     target: Track = NOTHING
+    notes: tuple[str, ...] = ()
 
     @property
     def duration(self) -> float:
@@ -85,36 +88,51 @@ def _from_table(path: str | Path) -> Tracks:
     times = run.times - run.times[0]
     joints = Track(times, theta_joints(_SECTION, run.n_joints), run.theta)
     if run.tensions is None:
-        return Tracks(joints)
+        return Tracks(joints, notes=run.notes)
     pull = run.tensions
     tensions = Track(pull.times - run.times[0], cable_names(_SECTION, pull.values.shape[1]), pull.values)
-    return Tracks(joints, tensions=tensions)
+    return Tracks(joints, tensions=tensions, notes=run.notes)
 
 
 def _from_bag(path: str | Path) -> Tracks:
+    notes: list[str] = []
     with Bag(path) as bag:
-        (joints,) = _read(bag, "/joint_states", ("position",))
+        if "/joint_states" not in bag.topics:
+            raise FileError(bag.path, f"has no topic /joint_states; it has {', '.join(sorted(bag.topics)) or 'none'}")
+        (joints,) = _read(bag, "/joint_states", ("position",), notes)
         if not joints.times.size:
             raise FileError(bag.path, "has no message on /joint_states")
+        _refuse_degrees(bag, joints)
         start = joints.times[0]
         tracks = [
             joints,
-            *_read(bag, "/joint_states", ("position",), SIMULATED),
-            *_read(bag, "/cable_states", ("position", "effort")),
+            *_read(bag, "/joint_states", ("position",), notes, SIMULATED),
+            *_read(bag, "/cable_states", ("position", "effort"), notes),
             _read_targets(bag),
         ]
-    return Tracks(*(Track(track.times - start, track.names, track.values) for track in tracks))
+    tracks = [Track(track.times - start, track.names, track.values) for track in tracks]
+    return replace(Tracks(*tracks), notes=tuple(notes))
 
 
-def _read(bag: Bag, topic: str, fields: Sequence[str], namespace: str = "") -> list[Track]:
-    """A track of each field, of the messages that have values in it; all must have the names of the first of these."""
+def _refuse_degrees(bag: Bag, joints: Track) -> None:
+    for name, angle in zip(joints.names, np.abs(joints.values).max(axis=0), strict=True):
+        if bending_joints([name]) and angle > LARGEST_TURN:
+            raise FileError(bag.path, f"has a joint angle of {angle:.3g} rad for {name}: degrees taken for radians?")
+
+
+def _read(bag: Bag, topic: str, fields: Sequence[str], notes: list[str], namespace: str = "") -> list[Track]:
+    """A track of each field, of the messages that have values in it; all must have the names of the first of these.
+
+    What is left out is added to ``notes``.
+    """
     if namespace + topic not in bag.topics:
         return [NOTHING] * len(fields)
     names: dict[str, tuple[str, ...]] = {}
     times: dict[str, list[float]] = {field: [] for field in fields}
     rows: dict[str, list[Array]] = {field: [] for field in fields}
-    mine, _ = of_an_arm(list(bag.messages(namespace + topic, TOPICS[topic])), topic)
-    for one in in_order(bag.path, namespace + topic, mine):
+    mine, others = of_an_arm(bag.path, namespace + topic, bag.messages(namespace + topic, TOPICS[topic]))
+    notes += others
+    for one in mine:
         for field in fields:
             values = np.asarray(getattr(one, field))
             if len(values):
