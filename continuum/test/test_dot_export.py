@@ -209,3 +209,26 @@ def test_stamps_rounded_by_a_float_format_are_refused(tmp_path: Path, digits: in
     stamps = np.array([float(f"{3.343e9 + k * 1e6 / 60:.{digits}g}") for k in range(120)])
     with pytest.raises(FileError, match="SampleTimeFine"):
         parsed(tmp_path, table(stamps, "OutputRate:,60Hz\n"))
+
+
+@pytest.mark.parametrize("rate", [50, 100, 6000])
+@pytest.mark.parametrize("unit", [1, 100])
+def test_rates_that_no_such_sensor_has_are_refused_though_header_and_stamps_agree(
+    tmp_path: Path, rate: int, unit: int
+) -> None:
+    with pytest.raises(FileError, match=f"OutputRate is {rate}; a DOT stores"):
+        parsed(tmp_path, table(np.rint(np.arange(60) * 1e6 / rate / unit), f"OutputRate:,{rate}Hz\n"))
+
+
+@pytest.mark.parametrize(
+    ("status", "notes"), [("Synced", 0), ("synced", 0), ("Un-synced", 1), ("Not Synchronized", 1), ("Unknown", 1)]
+)
+def test_whatever_is_not_synced_is_told(tmp_path: Path, status: str, notes: int) -> None:
+    found = parsed(tmp_path, table(np.rint(np.arange(60) * 1e6 / 60), f"SyncStatus:,{status}\n"))
+    assert len([note for note in found.notes if status in note]) == notes
+
+
+def test_accelerations_in_multiples_of_gravity_are_refused(tmp_path: Path, short: ImuRecording) -> None:
+    (path, *_) = write_exports(tmp_path, replace(short, forces=short.forces / 9.81))
+    with pytest.raises(FileError, match=r"Acc_X\.\.Z are 1.* long"):
+        read_dot_export(path)

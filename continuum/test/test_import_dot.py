@@ -123,7 +123,7 @@ def test_sensors_that_were_not_synchronised_are_refused(
 
 
 def test_files_that_do_not_fit_are_refused(files: list[Path], tmp_path: Path, capsys: Captured) -> None:
-    assert "is it a CSV export" in refused(capsys, "import-dot", __file__)
+    assert "as in CSV exports of an Xsens DOT" in refused(capsys, "import-dot", __file__)
     assert "cannot be read" in refused(capsys, "import-dot", tmp_path / "no.csv")
     assert "cannot be written" in refused(capsys, "import-dot", *files, "--out", tmp_path / "no" / "run.csv")
     assert "is read, and would be overwritten" in refused(capsys, "import-dot", *files, "--out", files[2])

@@ -32,12 +32,14 @@ def microseconds(path: Path, ticks: NDArray[np.int64], rate: float | None) -> tu
         rate: readings a second by the file's header; None where it names none.
 
     Raises:
-        FileError: no unit makes the stamps those of a rate that a DOT has, or of the header's.
+        FileError: no unit makes the stamps those of a rate that a DOT has, or of the header's, or a DOT has not that.
     """
     steps = np.diff(ticks)
     steps = steps[steps > 0]
     if steps.size < _FEW:
         return ticks, ""
+    if rate is not None and rate not in RATES:
+        raise FileError(path, f"OutputRate is {rate:g}; a DOT stores {', '.join(map(str, RATES))} readings a second")
     wanted = RATES if rate is None else (rate,)
     fits = [(unit, one) for unit in _UNITS for one in wanted if _fits(steps * unit, one)]
     if not fits:

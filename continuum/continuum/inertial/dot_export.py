@@ -38,7 +38,8 @@ WRAP = 2**32
 
 _CLIPPED = 0x003F  # bits of Status: accelerometer x, y, z, gyroscope x, y, z beyond their range
 _NEEDED = (TIME, *FORCE, *RATE)
-_UNSYNCED = ("un-synced", "unsynced", "not synced")
+_SYNCED = "synced"
+_GRAVITY, _ENOUGH = (5.0, 20.0), 20  # m/s2, between which most specific forces are; readings that tell it
 _SUDDEN = 60_000_000  # microseconds: a step of time that no pause in a recording makes
 
 
@@ -139,10 +140,16 @@ def _export(path: Path, head: dict[str, str], columns: dict[str, Array], numbers
     clipped = (columns.get(STATUS, np.zeros(ticks.size)).astype(np.int64) & _CLIPPED) != 0
     for name in CLIP_COUNTS:
         clipped |= columns.get(name, np.zeros(ticks.size)) > 0
+    usual = float(np.median(np.linalg.norm(readings[:, :3], axis=1)))
+    if ticks.size >= _ENOUGH and not _GRAVITY[0] < usual < _GRAVITY[1]:
+        raise FileError(path, f"Acc_X..Z are {usual:.3g} long; m/s2 with gravity, some 9.81, are needed: another unit?")
     empty, again = ~readings.any(axis=1), np.diff(ticks, prepend=-1) == 0
     notes = [unit] if unit else []
-    if head.get("SyncStatus", "").lower() in _UNSYNCED:
-        notes.append("its header says that it was not synchronised: with other sensors, times may not belong together")
+    synced = head.get("SyncStatus", _SYNCED)
+    if synced.lower() != _SYNCED:
+        notes.append(
+            f"SyncStatus in its header is {synced!r}, not 'Synced': with other sensors, times may not belong together"
+        )
     notes += [
         f"{_rows(int(rows.sum()))} {why}, left out (first: row {numbers[rows][0]})"
         for rows, why in ((empty, "of nothing but zeros"), (again & ~empty, "with the time of the row before"))
