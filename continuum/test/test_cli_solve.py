@@ -120,6 +120,17 @@ def test_a_file_of_targets_may_have_a_heading(capsys: Captured, tmp_path: Path, 
     assert set(answer["target"]) == {"position", *{6: ["direction"], 7: ["rotation"]}.get(columns, [])}
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+@pytest.mark.parametrize("text", ['"x","y","z"\n"0.1","0","0.4"\n', "x;y;z;\n0,100;0,000;0,400;\n", "0.1,0,0.4,\n"])
+def test_targets_say_the_same_however_they_were_written(
+    capsys: Captured, tmp_path: Path, text: str, encoding: str
+) -> None:
+    file = tmp_path / "targets.csv"
+    file.write_text("# at the h\u00f6he of the tip\n" + text, encoding=encoding)
+    code("solve", THREE, "--targets", file, "--json")
+    assert json.loads(capsys.readouterr().out)["target"]["position"] == [0.1, 0.0, 0.4]
+
+
 @pytest.mark.parametrize("separator", [" ", ",", ";", "\t"])
 def test_columns_of_targets_may_stand_in_any_order(capsys: Captured, tmp_path: Path, separator: str) -> None:
     names, values = ["x", "y", "z", "qx", "qy", "qz", "qw"], ["0.1", "0", "0.4", "0.1", "0.2", "0.3", "0.9"]
@@ -147,6 +158,11 @@ def test_columns_of_targets_may_stand_in_any_order(capsys: Captured, tmp_path: P
         ("x y z\n1 2 3\n# four\n1 nan 3\n", "line 4: 'nan'; allowed: a finite number"),
         ("1 2 3 0 0 1\n1 2 3 0 0 0\n", "line 2: a direction of nothing but zeros"),
         ("1 2 3 0 0 0 0\n", "line 1: a quaternion of nothing but zeros"),
+        ("0.1,,0.2,0.3\n", "line 1 has 4 columns"),
+        ("0.1;;0.2\n", "line 1: ''; allowed: a finite number"),
+        ("x,y,z\n0.1,,0.2\n", "line 2: ''; allowed: a finite number"),
+        ("0,15,0,05,0,25\n", "line 1: decimal commas between commas?"),
+        ("0.1 1_0 0.2\n", "line 1: '1_0' is no number"),
     ],
 )
 def test_a_file_without_targets_is_refused_by_its_line(

@@ -14,10 +14,12 @@ from continuum.arrays import Array
 from continuum.errors import FileError, InvalidValueError
 from continuum.kinematics.ik_target import Target, Targets
 from continuum.number_checks import finite_of_shape
-from continuum.recordings.csv_layout import is_number
+from continuum.recordings.csv_layout import is_number, number_of
+from continuum.recordings.table_file import read_text
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,?\d+([eE][+-]?\d+)?")
 _BROKEN = re.compile(r"[+-]?\d+,\d+")
+_CUT = re.compile(r"0\d+")  # of a decimal, behind its comma
 _POSITION, _DIRECTION, _QUATERNION = ("x", "y", "z"), ("dx", "dy", "dz"), ("qx", "qy", "qz", "qw")
 _COLUMNS = "lines of 3 (x y z), 6 (and a direction) or 7 numbers (and a quaternion x y z w), all alike"
 
@@ -42,12 +44,11 @@ def read_targets(path: str) -> Targets:
     Raises:
         FileError: it cannot be read, has no targets, or a line, which is named, holds none.
     """
-    try:
-        lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise FileError(path, f"cannot be read ({error})") from error
+    lines = read_text(Path(path)).splitlines()
     for k, line in enumerate(lines, start=1):
         cells = line.partition("#")[0].split()
+        if "," in line and not set(";\t") & set(line) and any(map(_CUT.fullmatch, line.split(","))):
+            raise FileError(path, f"line {k}: decimal commas between commas? Put semicolons between numbers")
         if len(cells) > 1 and all(_BROKEN.fullmatch(cell) for cell in cells):
             raise FileError(
                 path, f"line {k}: decimal commas between blanks? Write 0.1, or put semicolons between numbers"
@@ -74,12 +75,16 @@ def read_targets(path: str) -> Targets:
 
 
 def _words(line: str) -> list[str]:
-    """Cells of a line; commas are decimal ones where semicolons, or tabs without blanks or commas, separate cells."""
+    """Cells of a line; commas are decimal ones where semicolons, or tabs without blanks or commas, separate cells.
+
+    An empty cell is one, unless it is the last of its line.
+    """
+    line = line.replace('"', "").rstrip(" \t,;")
     for separator in ";\t":
         cells = [cell.strip() for cell in line.strip().split(separator)]
         if len(cells) > 1 and all(_DECIMAL_COMMA.fullmatch(cell) for cell in cells):
             return [cell.replace(",", ".") for cell in cells]
-    return line.replace(";", " ").replace(",", " ").split()
+    return [word for part in re.split("[,;]", line) for word in part.split() or [""]] if line.strip() else []
 
 
 def _order(path: str, k: int, heading: list[str]) -> list[int]:
@@ -101,7 +106,7 @@ def _numbers(path: str, k: int, words: list[str], width: int) -> list[float]:
     numbers = []
     for word in words:
         try:
-            numbers.append(float(word))
+            numbers.append(number_of(word))
         except ValueError:
             raise FileError(path, f"line {k}: {word!r} is no number") from None
         if not math.isfinite(numbers[-1]):
