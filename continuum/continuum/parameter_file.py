@@ -13,10 +13,11 @@ from continuum.errors import FileError, InvalidValueError
 
 
 class _Loader(yaml.SafeLoader):
-    """PyYAML's safe loader, which also takes ``1e-2`` for a number as ROS does, and refuses aliases as ROS does.
+    """PyYAML's safe loader, which takes for numbers what every YAML does, and ``1e-2`` as ROS; aliases are refused.
 
-    A few lines of aliases can stand for more values than memory holds. A key that stands twice is refused too: one of
-    its values would be lost.
+    ``010``, ``1:30`` and ``1_0`` are 8, 90 and 10 in YAML 1.1, another number or text elsewhere: they stay text. A few
+    lines of aliases can stand for more values than memory holds. A key that stands twice is refused too: one of its
+    values would be lost.
     """
 
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
@@ -37,9 +38,18 @@ class _Loader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-_Loader.add_implicit_resolver(
-    "tag:yaml.org,2002:float", re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$"), list("-+.0123456789")
-)
+_NUMBERS = {
+    "tag:yaml.org,2002:int": re.compile(r"([-+]?(0|[1-9]\d*)|0x[0-9a-fA-F]+)$", re.ASCII),
+    "tag:yaml.org,2002:float": re.compile(
+        r"([-+]?(\d+\.\d*|\.\d+|\d+(?=[eE]))([eE][-+]?\d+)?|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN))$", re.ASCII
+    ),
+}
+_Loader.yaml_implicit_resolvers = {
+    first: [(tag, pattern) for tag, pattern in resolvers if tag not in _NUMBERS]
+    for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
+}
+for _tag, _pattern in _NUMBERS.items():
+    _Loader.add_implicit_resolver(_tag, _pattern, list("-+.0123456789"))
 
 
 def read_parameter_file(path: str | Path) -> Mapping[str, object]:
@@ -49,8 +59,8 @@ def read_parameter_file(path: str | Path) -> Mapping[str, object]:
         FileError: the file cannot be read, or holds no mapping.
     """
     try:
-        block = yaml.load(Path(path).read_text(encoding="utf-8"), Loader=_Loader)  # noqa: S506  (a safe loader)
-    except (OSError, UnicodeDecodeError) as error:
+        block = yaml.load(Path(path).read_bytes(), Loader=_Loader)  # noqa: S506  (a safe loader)
+    except OSError as error:
         raise FileError(path, f"cannot be read ({error})") from error
     except (yaml.YAMLError, ValueError, RecursionError) as error:  # ValueError: an impossible date
         raise FileError(path, f"is not valid YAML ({' '.join(str(error).split())})") from error

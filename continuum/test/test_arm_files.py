@@ -116,3 +116,23 @@ def test_whole_numbers_among_decimals_are_refused_as_ros_does(scratch: Path) -> 
 def test_decimals_may_be_written_with_an_exponent(scratch: Path) -> None:
     scratch.write_text(ONE_SECTION.replace("0.02", "2e-2"), encoding="utf-8")
     assert load_arm(scratch).sections[0].b == 0.02
+
+
+@pytest.mark.parametrize("number", ["05", "010", "1:05", "1_0", "0o5", "5,0", "5 m"])
+def test_numbers_that_languages_read_differently_are_none(scratch: Path, number: str) -> None:
+    scratch.write_text(ONE_SECTION.replace("n_joints: 5, b", f'n_joints: "{number}", b'))
+    with pytest.raises(InvalidValueError) as quoted:
+        load_arm(scratch)
+    scratch.write_text(f"sections: [s]\ns:\n  n_joints: {number}\n  b: 0.02\n  a: 0.03\n")
+    with pytest.raises(InvalidValueError) as bare:
+        load_arm(scratch)
+    assert str(bare.value) == str(quoted.value)
+    assert repr(number) in str(bare.value)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+def test_every_unicode_file_is_the_same(scratch: Path, encoding: str) -> None:
+    scratch.write_text(ONE_SECTION, encoding="utf-8")
+    arm = load_arm(scratch)
+    scratch.write_text("# é\n" + ONE_SECTION, encoding=encoding)
+    assert load_arm(scratch) == arm

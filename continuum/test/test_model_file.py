@@ -254,3 +254,17 @@ def test_the_prototype_is_that_of_the_theses_tables() -> None:
         np.testing.assert_array_equal(found.values()[name][-1], last.get(name, expected))
     assert found.n_joints == 5
     assert all(found.sources[name] for name in PROTOTYPE)
+
+
+@pytest.mark.parametrize(
+    ("changes", "allowed"),
+    [
+        ({"effects": ["wind"]}, "effects by name"),
+        ({"effects": {"tip_payload": 0.05}}, "parameters by name"),
+        ({"parameters": [1, 2]}, "parameters by name"),
+        ({"parameters": {"mass": 0.05}}, "value, unit and source"),
+    ],
+)
+def test_what_belongs_into_a_block_is_told_of_that_block(changes: Mapping[str, object], allowed: str) -> None:
+    with pytest.raises(InvalidValueError, match=allowed):
+        model_from_mapping(content() | changes)

@@ -34,6 +34,7 @@ from continuum.parameter_file import read_parameter_file
 from continuum.whole_file import write_whole
 
 _ENTRY = "a mapping of value, unit and source"
+_PARAMETERS, _EFFECTS = "a block of parameters by name", "a block of effects by name"
 
 
 def load_model(path: str | Path) -> Model:
@@ -67,9 +68,10 @@ def model_from_mapping(block: Mapping[str, object]) -> Model:
         raise InvalidValueError("n_joints", n, "a whole number from 1 to 1000")
     values, sources = _values(_mapping(block, "parameters"), PARAMETERS, n, "parameters.")
     effects = []
-    for name in _mapping(block, "effects"):
+    named = _mapping(block, "effects", allowed=_EFFECTS)
+    for name in named:
         effect: Effect = effect_named(name)
-        given = _mapping(_mapping(block, "effects"), name, "effects.")
+        given = _mapping(named, name, "effects.")
         own, own_sources = _values(given, effect.parameters, n, f"effects.{name}.")
         effects.append(ActiveEffect(effect, own))
         sources |= {f"{name}.{key}": source for key, source in own_sources.items()}
@@ -123,7 +125,7 @@ def _values(
                 raise InvalidValueError(prefix + name, None, parameter.allowed)
             values[name] = parameter.array(parameter.default, n, prefix + name)
             continue
-        entry = _mapping(block, name, prefix)
+        entry = _mapping(block, name, prefix, _ENTRY)
         _only(entry, ("value", "unit", "source"), f"{prefix}{name}.")
         if entry.get("unit") != parameter.unit:
             raise InvalidValueError(f"{prefix}{name}.unit", entry.get("unit"), repr(parameter.unit))
@@ -132,12 +134,14 @@ def _values(
     return values, sources
 
 
-def _mapping(block: Mapping[str, object], name: str, prefix: str = "") -> Mapping[str, object]:
+def _mapping(
+    block: Mapping[str, object], name: str, prefix: str = "", allowed: str = _PARAMETERS
+) -> Mapping[str, object]:
     found = block.get(name)
     if found is None:
         return {}
     if not isinstance(found, Mapping):
-        raise InvalidValueError(prefix + name, found, _ENTRY)
+        raise InvalidValueError(prefix + name, found, allowed)
     return found
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -110,8 +110,8 @@ def _from_bag(path: str | Path) -> Tracks:
             *_read(bag, "/cable_states", ("position", "effort"), notes),
             _read_targets(bag),
         ]
-    tracks = [Track(track.times - start, track.names, track.values) for track in tracks]
-    return replace(Tracks(*tracks), notes=tuple(notes))
+    joints, simulated, lengths, tensions, target = (Track(t.times - start, t.names, t.values) for t in tracks)
+    return Tracks(joints, simulated, lengths, tensions, target, tuple(notes))
 
 
 def _refuse_degrees(bag: Bag, joints: Track) -> None:
