@@ -68,7 +68,7 @@ def read_parameter_file(path: str | Path) -> Mapping[str, object]:
         if isinstance(block, Mapping) and key in block:
             block = block[key]
     if not isinstance(block, Mapping):
-        raise FileError(path, f"holds no parameters, but {block!r:.60}")
+        raise FileError(path, f"holds no parameters, but {block!r:.60}; names and their values in YAML are needed")
     try:
         flat = flattened(block)
     except RecursionError as error:

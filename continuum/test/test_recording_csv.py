@@ -134,6 +134,25 @@ def test_rates_that_never_change_were_not_measured(tmp_path: Path, value: str) -
     np.testing.assert_array_equal(found.theta, ANGLES)
 
 
+@pytest.mark.parametrize("every", [2, 4])
+def test_rows_between_readings_of_a_slower_sensor_are_left_out_and_counted(tmp_path: Path, every: int) -> None:
+    read = np.arange(ROWS) // every * every
+    table = sway()
+    for name in ("q1_rad", "q2_rad", "dq1_rad_s", "dq2_rad_s"):
+        table[name] = [table[name][row] for row in read]
+    found = read_recording_csv(write(tmp_path, table))
+    np.testing.assert_array_equal(found.theta, ANGLES[::every])
+    np.testing.assert_array_equal(found.times, T[::every])
+    assert [note for note in found.notes if note.startswith(f"{ROWS - ROWS // every} rows repeat")]
+
+
+def test_an_arm_at_rest_is_kept(tmp_path: Path) -> None:
+    table = sway()
+    for name in ("q1_rad", "q2_rad"):
+        table[name] = [table[name][0]] * 60 + table[name][60:]
+    assert read_recording_csv(write(tmp_path, table)).times.size == ROWS
+
+
 def test_a_rate_in_coarse_steps_is_not_taken_for_a_clipped_one(tmp_path: Path) -> None:
     table = sway()
     table["dq1_rad_s"] = [f"{value:.1f}" for value in RATES[:, 0]]

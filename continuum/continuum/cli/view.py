@@ -55,6 +55,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
+    from continuum.recordings.bag import is_bag
     from continuum.recordings.recorded_arm import check_joints
     from continuum.viewer.hands import Hands
     from continuum.viewer.playback import Playback
@@ -62,7 +63,7 @@ def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
     from continuum.viewer.usual_arm import arm_of_joints, usual_arm
 
     what = options.what
-    if what is None or Path(what).suffix in (".yaml", ".yml"):
+    if what is None or (Path(what).suffix in (".yaml", ".yml") and not is_bag(what)):
         if what is not None and options.arm is not None:
             raise InvalidValueError("--arm", options.arm, f"only beside a recording; {what} is an arm itself")
         file = options.arm if what is None else what

@@ -15,6 +15,7 @@ _SAME_TIME = 1e-7  # s: no sensor is that fast
 _FEWEST_ROWS = 30
 _LONGEST_GAP = 0.25  # s; the arm may do anything in a longer one
 _UNITS = (("milliseconds", 1e3), ("microseconds", 1e6), ("nanoseconds", np.inf))  # and how many make a second
+_LONGEST_HOLD, _HELD = 12, 1 / 3  # rows that a reading stands for at most, and part of all rows that do from where on
 _CLIPPED_ROWS = 3  # of the same extreme value one after the other
 _CLIPPED_STEP = 3  # units of the last digit, by which a signal jumps to its limit
 _ZERO_TENSION = 0.2  # N, by which a load cell may be off where a cable hangs loose
@@ -28,7 +29,7 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
             stated ones.
     """
     notes: list[str] = []
-    good = samples
+    good, held = _without_held(samples)
 
     def leave_out(bad: NDArray[np.bool_], why: str) -> Samples:
         if np.any(bad):
@@ -45,15 +46,33 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
         raise FileError(
             good.path, f"has {good.times.size} usable {good.row}s; at least {_FEWEST_ROWS} are needed{told}"
         )
-    bad = samples.times.size - good.times.size
-    if bad > MOST_BAD * samples.times.size:
+    rows = samples.times.size - held
+    bad = rows - good.times.size
+    if bad > MOST_BAD * rows:
         allowed = f"a tenth may be: {'; '.join(notes)}"
-        raise FileError(good.path, f"has {bad} bad {good.row}s of {samples.times.size}; at most {allowed}")
+        raise FileError(good.path, f"has {bad} bad {good.row}s of {rows}; at most {allowed}")
     _refuse_gaps(good)
     good, pushing = _without_pushing(good)
     refuse_units(good)
     good, unmeasured = without_still_rates(good)
+    if held:
+        pushing.append(
+            f"{held} {good.row}s repeat the angles of the {good.row} before, as of a slower sensor; left out"
+        )
     return good, (*(f"{note}, left out" for note in notes), *pushing, *unmeasured)
+
+
+def _without_held(samples: Samples) -> tuple[Samples, int]:
+    """Rows between two readings of a sensor that is slower than the table left out, and how many these are.
+
+    All angles are those of the row before, again and again for a few rows; an arm at rest is so for longer.
+    """
+    same = np.all(np.diff(samples.theta, axis=0, prepend=np.nan) == 0, axis=1)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(int)))
+    for start, end in zip(edges[::2], edges[1::2], strict=True):
+        same[start:end] &= end - start <= _LONGEST_HOLD
+    count = int(np.count_nonzero(same))
+    return (samples.chosen(~same), count) if count > _HELD * same.size else (samples, 0)
 
 
 def _complete(samples: Samples) -> NDArray[np.bool_]:
