@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from continuum.arm import load_arm
 from continuum.errors import InvalidValueError
+from continuum.joint_names import theta_joints
 from continuum.kinematics.cable_lines import cable_lines
 from continuum.kinematics.chain import arm_pose, section_tip_poses
 from continuum.kinematics.configuration import allen_from_jones
@@ -110,3 +111,10 @@ def test_an_arm_is_known_by_its_joints():
     assert [(s.name, s.n_joints) for s in found.sections] == [(s.name, s.n_joints) for s in arm.sections]
     with pytest.raises(InvalidValueError, match="bending joints"):
         arm_of_joints(["elbow"])
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 8])
+def test_an_arm_of_any_number_of_joints_is_shown(n: int) -> None:
+    (section,) = arm_of_joints(theta_joints("s", n)).sections
+    assert section.n_joints == n
+    assert 0 < section.bend_limit < section.contact_bend

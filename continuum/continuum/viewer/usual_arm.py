@@ -11,6 +11,7 @@ from continuum.joint_names import theta_joints
 
 _B, _A = 0.01925, 0.032
 _MODULES = 5
+_WITHIN = 0.99  # of the bend at which discs touch
 
 
 def usual_arm(n_sections: int = 3) -> Arm:
@@ -20,7 +21,7 @@ def usual_arm(n_sections: int = 3) -> Arm:
 
 
 def arm_of_joints(joints: Iterable[str]) -> Arm:
-    """Sections of such modules, without twist, that have the joints of these names.
+    """Sections of such modules, without twist, that have the joints of these names; few bend less far than usual.
 
     Raises:
         InvalidValueError: no joint is a section's first.
@@ -30,4 +31,10 @@ def arm_of_joints(joints: Iterable[str]) -> Arm:
     if not sections:
         raise InvalidValueError("joints", names, f"bending joints, with names that end with {ending} ..")
     counts = [sum(name in names for name in theta_joints(section, len(names))) for section in sections]
-    return Arm(tuple(Section(section, n, _B, _A) for section, n in zip(sections, counts, strict=True)))
+    limits = [min(math.pi, _WITHIN * 2 * n * math.atan2(_B, _A)) for n in counts]
+    return Arm(
+        tuple(
+            Section(section, n, _B, _A, bend_limit=limit)
+            for section, n, limit in zip(sections, counts, limits, strict=True)
+        )
+    )
