@@ -63,8 +63,9 @@ def test_a_table_of_a_million_columns_is_refused(tmp_path: Path) -> None:
         lambda text: 'tube of 5" \u2026\n' + text,
         lambda text: '"two\nlines"\n' + text,
         lambda text: "page 1\x0c\n" + text,
+        lambda text: "# t_s, and angles, rates and tensions\n" + text,
     ],
-    ids=["old Mac", "Windows", "savetxt", "quote and dots", "two lines", "form feed"],
+    ids=["old Mac", "Windows", "savetxt", "quote and dots", "two lines", "form feed", "names twice"],
 )
 def test_line_ends_and_remarks_do_not_move_the_heading(tmp_path: Path, written: Callable[[str], str]) -> None:
     wanted = read_recording_csv(write(tmp_path, sway()))
@@ -121,6 +122,8 @@ READERS = (read_recording_csv, read_tension_table, read_dot_export)
         ("KEY,u1_N\n0;1\n", "row 2 has 1 cells, the header 2: '0;1'"),
         ("KEY,u1_N\n0,1\n# released\n", "row 3 has 1 cells, the header 2: '# released'"),
         ("K\0E\0Y\0,\0", "is no text file"),
+        ("KEY,u1_N\n0,1\nKEY,u1_N\n0,1\n", "row 3 is a header again; are these two recordings"),
+        ("sep=,\n\nKEY,u1_N\n0,1\nsep=,\n\nKEY,u1_N\n", "row 7 is a header again; are these two recordings"),
     ],
 )
 def test_what_is_no_table_is_refused_alike_by_all_readers(

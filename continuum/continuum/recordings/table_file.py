@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -52,17 +53,23 @@ def read_table(path: str | Path, key: str, wanted: str) -> Table:
         wanted: names of all columns that may be there, in words, for messages.
 
     Raises:
-        FileError: it cannot be read, is no text, is empty, has no such line, more columns than any arm, or a row with
-            more or fewer cells than there are names.
+        FileError: it cannot be read, is no text, is empty, has no such line or two, more columns than any arm, or a row
+            with more or fewer cells than there are names.
     """
     path = Path(path)
     lines = read_text(path).replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    at = next((i for i, line in enumerate(lines) if key in line and key in _names(line)), None)
-    if at is None:
+    headers = [i for i, line in enumerate(lines) if key in line and key in _names(line)]
+    headers = [
+        i for i, after in pairwise([*headers, -1]) if after != i + 1
+    ]  # a remark may list the names too, just before they come
+    if not headers:
         first = next((k for k in enumerate(lines) if k[1].strip(_BLANK) and not k[1].startswith(_REMARKS)), None)
         if first is None:
             raise FileError(path, "is empty")
         raise FileError(path, problem_of_header(first[0] + 1, _names(first[1]), key, wanted))
+    if len(headers) > 1:
+        raise FileError(path, f"row {headers[1] + 1} is a header again; are these two recordings in one file?")
+    (at,) = headers
     separator, header = _separator(lines[at]), _names(lines[at])
     if lines[at].count(separator) >= _MOST_COLUMNS:
         raise FileError(path, f"has {lines[at].count(separator) + 1} columns in row {at + 1}; allowed: {_MOST_COLUMNS}")
