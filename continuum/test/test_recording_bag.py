@@ -3,48 +3,18 @@
 import sqlite3
 from collections.abc import Callable
 from contextlib import closing
-from copy import deepcopy
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from recorded_runs import START, TYPES, Topics, message, typestore, write
+from recorded_runs import START, TYPES, Topics, message, write
 from recorded_runs import run as kinematic_run
-from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+from rosbags.rosbag2 import StoragePlugin
+from swing_bag import ANGLES, JOINTS, PULL, RATES, ROWS, STAMPS, T, stamped, swing
 
 from continuum.cli.diagnose import read_recording
 from continuum.errors import FileError
 from continuum.recordings.recording_bag import read_recording_bag
-from continuum.viewer.tracks import read_tracks
-
-ROWS, JOINTS = 90, 3
-T = np.arange(ROWS) / 120
-STAMPS = START + np.round(T * 1e9).astype(np.int64)
-PHASES = np.arange(JOINTS)
-ANGLES, RATES = 0.3 * np.cos(6 * T[:, None] + PHASES), -1.8 * np.sin(6 * T[:, None] + PHASES)
-PULL = np.stack([4 - 3 * np.sin(5 * T), 4 + 3 * np.sin(5 * T)], axis=1)
-JOINT_NAMES = ["section_1_phi", *(f"section_1_theta_{j + 1}" for j in range(JOINTS)), "section_1_phi_back"]
-CABLE_NAMES = ["section_1_cable_1", "section_1_cable_2"]
-
-
-def swing() -> Topics:
-    """Three joints that sway and two cables, as the node publishes them."""
-    topics: Topics = {"/joint_states": [], "/cable_states": []}
-    for stamp, angles, rates, pull in zip(STAMPS, ANGLES, RATES, PULL, strict=True):
-        topics["/joint_states"].append(
-            message(
-                TYPES["/joint_states"],
-                stamp,
-                name=list(JOINT_NAMES),
-                position=np.concatenate([[0.0], angles, [0.0]]),
-                velocity=np.concatenate([[0.0], rates, [0.0]]),
-            )
-        )
-        topics["/cable_states"].append(
-            message(TYPES["/cable_states"], stamp, name=list(CABLE_NAMES), position=np.ones(2), effort=pull)
-        )
-    return topics
 
 
 def backwards(topics: Topics) -> None:
@@ -141,10 +111,6 @@ def tensions_end_early(topics: Topics) -> None:
     del topics["/cable_states"][45:]
 
 
-def stamped(one: Any, stamp: int) -> None:
-    one.header.stamp.sec, one.header.stamp.nanosec = divmod(int(stamp), 10**9)
-
-
 def two_clocks(topics: Topics) -> None:
     for one in topics["/cable_states"]:
         stamped(one, START - 10**12)
@@ -238,95 +204,6 @@ def test_topics_of_types_that_nobody_knows_may_be_there(tmp_path: Path, definiti
         )
         database.execute("INSERT INTO messages (topic_id, timestamp, data) VALUES (99, ?, x'0001')", (START,))
     np.testing.assert_array_equal(read_recording(str(storage)).theta, ANGLES)
-
-
-@pytest.mark.parametrize("mode", [CompressionMode.FILE, CompressionMode.MESSAGE])
-@pytest.mark.parametrize("storage", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
-def test_every_file_of_a_compressed_recording_is_the_recording(
-    tmp_path: Path, storage: StoragePlugin, mode: CompressionMode
-) -> None:
-    store, topics = typestore(), swing()
-    writer = Writer(tmp_path / "swing", version=9, storage_plugin=storage)
-    writer.set_compression(mode, CompressionFormat.ZSTD)
-    with writer:
-        for topic, messages in topics.items():
-            place = writer.add_connection(topic, TYPES[topic], typestore=store)
-            for k, one in enumerate(messages):
-                writer.write(place, START + k, store.serialize_cdr(one, TYPES[topic]))
-    files = list((tmp_path / "swing").iterdir())
-    assert len(files) == 2
-    for path in files:
-        np.testing.assert_array_equal(read_recording(str(path)).theta, ANGLES)
-        np.testing.assert_array_equal(read_tracks(path).joints.values[:, 1:-1], ANGLES)
-
-
-@pytest.mark.parametrize("topic", ["/joint_states", "/cable_states"])
-def test_messages_without_a_stamp_are_left_out_and_counted(tmp_path: Path, topic: str) -> None:
-    topics = swing()
-    for place in (0, 40):
-        stamped(topics[topic][place], 0)
-    folder = write(tmp_path / "swing", topics)
-    left = {"/joint_states": (0, 40), "/cable_states": ()}[topic]
-    found, shown = read_recording_bag(folder), read_tracks(folder)
-    np.testing.assert_array_equal(found.theta, np.delete(ANGLES, left, axis=0))
-    for notes in (found.notes, shown.notes):
-        assert f"2 messages without a stamp on {topic}, left out" in notes
-    assert shown.duration < 1
-
-
-@pytest.mark.parametrize("every", [1, 3, 10])
-@pytest.mark.parametrize("late", [0, 1_000_000])
-def test_two_that_publish_one_arm_are_refused(tmp_path: Path, every: int, late: int) -> None:
-    """An arm and its simulation, say, or a publisher of zeros."""
-    topics = swing()
-    for one, stamp in list(zip(topics["/joint_states"], STAMPS, strict=True))[1::every]:
-        other = deepcopy(one)
-        other.position = 0.0 * one.position
-        stamped(other, stamp + late)
-        topics["/joint_states"].insert(topics["/joint_states"].index(one) + 1, other)
-    folder = write(tmp_path / "swing", topics)
-    for reader in (read_recording_bag, read_tracks):
-        with pytest.raises(FileError, match="jump there and back"):
-            reader(folder)
-
-
-def test_others_among_the_cables_are_left_out_and_counted(tmp_path: Path) -> None:
-    topics = swing()
-    winch = message(TYPES["/cable_states"], STAMPS[0], name=["winch"], position=np.ones(1), effort=np.ones(1))
-    topics["/cable_states"].insert(0, winch)
-    folder = write(tmp_path / "swing", topics)
-    found = read_recording_bag(folder)
-    np.testing.assert_allclose(found.pull.values, PULL, rtol=0, atol=1e-12)
-    assert found.notes == read_tracks(folder).notes == ("1 message of others on /cable_states (winch), left out",)
-
-
-def test_two_runs_that_begin_at_other_times_are_refused(tmp_path: Path) -> None:
-    topics = swing()
-    for messages in topics.values():
-        again = deepcopy(messages)
-        for one, stamp in zip(again, STAMPS, strict=True):
-            stamped(one, stamp - 300_000_000)
-        messages.extend(again)
-    folder = write(tmp_path / "swing", topics)
-    for reader in (read_recording_bag, read_tracks):
-        with pytest.raises(FileError, match=f"message {ROWS + 1} .*backward"):
-            reader(folder)
-
-
-def test_degrees_are_not_shown_as_radians(tmp_path: Path) -> None:
-    topics = swing()
-    for one in topics["/joint_states"]:
-        one.position = np.degrees(one.position)
-    with pytest.raises(FileError, match="degrees taken for radians"):
-        read_tracks(write(tmp_path / "swing", topics))
-
-
-def test_a_message_without_rates_is_left_out_where_others_have_some(tmp_path: Path) -> None:
-    topics = swing()
-    topics["/joint_states"][7].velocity = np.zeros(0)
-    found = read_recording_bag(write(tmp_path / "swing", topics))
-    np.testing.assert_array_equal(found.theta_rate, np.delete(RATES, 7, axis=0))
-    assert len(found.notes) == 1
 
 
 def test_what_is_no_finite_number_is_left_out_row_by_row_and_velocities_where_none_is(tmp_path: Path) -> None:

@@ -9,9 +9,9 @@ import pytest
 from dynamics_laws import random_model
 from recorded_runs import Topics
 from recorded_runs import write as write_bag
+from swing_bag import JOINTS as BAG_JOINTS
+from swing_bag import swing
 from test_chain_motion import chain, start, torques
-from test_recording_bag import JOINTS as BAG_JOINTS
-from test_recording_bag import swing
 from test_recording_csv import T, cells, sway, without, write
 
 from continuum.dynamics.input_kind import InputKind
