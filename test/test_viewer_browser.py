@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from browser import ViewedPage, headless_browser, view
 
+pytestmark = pytest.mark.slow
+
 
 def swinging(file: Path) -> Path:
     """A recording of five joints that swing for 1.6 s, and rest."""

@@ -14,6 +14,8 @@ from continuum.errors import ContinuumError, FileError, InvalidValueError
 from continuum.recordings.bag import Bag
 from continuum.recordings.kinematic_report import report_on
 
+pytestmark = pytest.mark.slow
+
 N = len(STAMPS)
 
 

@@ -17,6 +17,8 @@ import pytest
 from continuum import compile_cache
 from continuum.compiled_code import sources_digest
 
+pytestmark = pytest.mark.slow
+
 SOURCE = """
 from pathlib import Path
 from continuum.compiled_code import entry_point

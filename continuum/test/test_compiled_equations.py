@@ -23,6 +23,8 @@ from continuum.kinematics.differential import DIRECTION, POSE, POSITION, Differe
 from continuum.kinematics.fabrikc import _fabrikc, solve_fabrikc
 from continuum.kinematics.inverse_kinematics import InverseKinematics
 
+pytestmark = pytest.mark.slow
+
 ARMS = {f"{kind}_{n}": make(n) for n in (1, 2, 3, 5, 7) for kind, make in (("same", arm_of), ("mixed", mixed_arm))}
 
 

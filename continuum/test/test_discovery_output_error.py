@@ -24,6 +24,8 @@ from continuum.dynamics.simulator import Simulator
 from continuum.estimation.structure import Structure
 from continuum.recordings.recording import Recording
 
+pytestmark = pytest.mark.slow
+
 FINE = Tolerances(1e-7, 1e-8, 0.01)  # near rest, friction makes a simulation jump within coarser ones
 NOISE, TIMES = 1e-3, np.arange(0, 1.0, 1 / 120)
 BENDS = np.radians([[14.0, 10, 12, 9, 8], [-12.0, -9, -14, -10, -6], [16.0, -8, 10, -9, 8]])

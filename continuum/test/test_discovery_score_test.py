@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
+import pytest
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
 from continuum.discovery.decision import is_worth
@@ -22,6 +23,8 @@ from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.estimation.structure import Structure, absent_values
 from continuum.recordings.recording import Recording
+
+pytestmark = pytest.mark.slow
 
 NOISE, TIMES = 1e-3, np.arange(0, 1.0, 1 / 120)
 BENDS = np.radians([[14.0, 10, 12, 9, 8], [-12.0, -9, -14, -10, -6], [16.0, -8, 10, -9, 8], [5.0, 12, -9, 14, -10]])

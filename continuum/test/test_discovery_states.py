@@ -23,6 +23,8 @@ from continuum.estimation.run import Trajectory
 from continuum.estimation.structure import Structure, absent_values
 from continuum.recordings.recording import Recording
 
+pytestmark = pytest.mark.slow
+
 FINE, TIMES = Tolerances(1e-8, 1e-9, 0.01), np.arange(0, 0.9, 1 / 120)
 ROWS = slice(54, 70)
 SPRING = "joint_stiffness"

@@ -23,6 +23,8 @@ from continuum.dynamics.trajectory import SimulationStatus
 from continuum.dynamics.values import parameter_slots, parameter_vector, shared_directions
 from continuum.errors import InvalidValueError
 
+pytestmark = pytest.mark.slow
+
 TIGHT = Tolerances(1e-9, 1e-10, 0.05)
 PULLS = Tensions(np.array([0.0, 0.03, 0.11]), np.array([[2.0, 12.0], [15.0, 2.0], [5.0, 5.0]]))
 

@@ -16,6 +16,8 @@ from continuum.dynamics.expressions import positive_part, smooth_sign, suffix_su
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.values import parameter_slots, parameter_vector
 
+pytestmark = pytest.mark.slow
+
 EFFECTS = (
     active(TipLoad(), mass=0.1),
     active(LaggingDrive(), lag=0.05),

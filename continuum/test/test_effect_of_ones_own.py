@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "effects.md"
 BLOCK = re.compile(r"```\w+\n# (foam_sleeve/\S+)\n(.*?)```", re.DOTALL)
 LAWS = Path(__file__).with_name("test_effects_laws.py")

@@ -39,6 +39,8 @@ from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.dynamics.values import parameter_slots, parameter_vector, with_vector
 
+pytestmark = pytest.mark.slow
+
 each_effect = pytest.mark.parametrize("name", EFFECTS)
 U = np.array([3.0, 1.5])
 TIMES = np.linspace(0.0, 0.3, 13)

@@ -15,6 +15,8 @@ from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, dry
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.joint_force import joint_force
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize(
     ("name", "values"),

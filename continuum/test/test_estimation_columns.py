@@ -21,6 +21,8 @@ from continuum.estimation.columns import (
 )
 from continuum.estimation.run import Run, Trajectory
 
+pytestmark = pytest.mark.slow
+
 SEEDS = st.integers(0, 10**6)
 NAMES = list(structure().slots)
 SENSORS = [(effect, name) for effect in structure().sensors for name in effect.parameters]

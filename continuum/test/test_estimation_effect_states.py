@@ -19,6 +19,8 @@ from continuum.dynamics.values import parameter_vector, with_vector
 from continuum.estimation.columns import Difference, StatefulTorque
 from continuum.estimation.effect_states import SubstepMotion
 
+pytestmark = pytest.mark.slow
+
 STATEFUL = list(structure().stateful)
 INTEGRATED = [name for name in STATEFUL if name != "backlash"]
 RELEASED = np.radians([18.0, 15.0, -12.0])

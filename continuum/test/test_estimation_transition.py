@@ -22,6 +22,8 @@ from continuum.estimation.friction_modes import FrictionModes
 from continuum.estimation.run import Trajectory
 from continuum.estimation.transition import transition
 
+pytestmark = pytest.mark.slow
+
 SEEDS = st.integers(0, 10**6)
 
 

@@ -16,6 +16,8 @@ from continuum.kinematics.ik_result import IkStatus
 from continuum.kinematics.ik_target import DIRECTION, POSITION
 from continuum.kinematics.section import section_pose
 
+pytestmark = pytest.mark.slow
+
 RIGHT_ANGLE = np.pi / 2
 
 

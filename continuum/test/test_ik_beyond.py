@@ -15,6 +15,8 @@ from continuum.kinematics.ik_result import IkStatus
 from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION, Target, Targets
 from continuum.kinematics.inverse_kinematics import InverseKinematics
 
+pytestmark = pytest.mark.slow
+
 KINDS = {
     "one": (1, POSITION),
     "two": (2, DIRECTION),

@@ -12,6 +12,8 @@ from continuum.kinematics.ik_result import IkBatch, IkStatus
 from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION, Targets
 from continuum.kinematics.inverse_kinematics import InverseKinematics
 
+pytestmark = pytest.mark.slow
+
 ARMS = {
     "one": arm_of(1),
     "one_short_bend": arm_of(1, 0.7),

@@ -22,6 +22,8 @@ from continuum.inertial.calibration import load_calibration
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.recordings.recording_csv import read_recording_csv
 
+pytestmark = pytest.mark.slow
+
 HOW = ("--first-turn", "1", "--zero", "0:5")
 
 

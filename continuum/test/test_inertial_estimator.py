@@ -31,6 +31,8 @@ from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.imu_sample import ImuSample
 from continuum.inertial.integrated_rate import Liveliness, turn_since
 
+pytestmark = pytest.mark.slow
+
 LIVE = 60.0
 ANY = np.random.default_rng
 SOON = 1.0  # s in which a link at rest is found again

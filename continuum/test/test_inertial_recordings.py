@@ -26,6 +26,8 @@ from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.recorded_angles import recorded_angles
 from continuum.inertial.time_grid import Stream, on_one_grid
 
+pytestmark = pytest.mark.slow
+
 STORED = 120.0
 AT_120 = EstimatorSettings(period=1 / STORED)
 

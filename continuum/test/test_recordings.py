@@ -14,6 +14,8 @@ from continuum.recordings.cable_figure import write_cable_figure
 from continuum.recordings.cable_table import write_cable_table
 from continuum.recordings.kinematic_report import KinematicReport, central_differences, report_on
 
+pytestmark = pytest.mark.slow
+
 N = len(STAMPS)
 
 STREAMS = {

@@ -20,6 +20,8 @@ from continuum.viewer.seen import Seen, Status
 from continuum.viewer.slider_value import end_in_degrees
 from continuum.viewer.usual_arm import usual_arm
 
+pytestmark = pytest.mark.slow
+
 ARM = usual_arm(2)
 
 

@@ -20,6 +20,8 @@ from continuum.viewer.link_shapes import link_shapes
 from continuum.viewer.section_angles import configuration_of_joints, joints_of
 from continuum.viewer.usual_arm import arm_of_joints, usual_arm
 
+pytestmark = pytest.mark.slow
+
 EXACT = 1e-12
 
 

@@ -9,6 +9,8 @@ from hypothesis import given, settings
 
 from continuum.arm import Arm
 
+pytestmark = pytest.mark.slow
+
 
 def moving_bodies(description: Description) -> dict[str, tuple[float, np.ndarray, np.ndarray]]:
     """Mass [kg], centre of mass (3,) [m] and inertia (3, 3) [kg m2] in base_link, by link, in the straight posture."""

@@ -11,6 +11,8 @@ from hypothesis import given, settings
 from continuum.arm import Arm, Section
 from continuum_description.robot import robot_urdf
 
+pytestmark = pytest.mark.slow
+
 
 def check_bending_joints(description: Description, section: Section) -> None:
     limit = section.bend_limit / section.n_joints

@@ -13,6 +13,8 @@ from continuum.kinematics.chain import section_tip_poses
 from continuum.kinematics.configuration import allen_from_jones
 from continuum.kinematics.section import section_pose
 
+pytestmark = pytest.mark.slow
+
 TOLERANCE = 1e-9
 
 

@@ -10,6 +10,8 @@ from bench_lab import STEP, Lab, of
 from continuum_hw_imu.protocol import messages as m
 from continuum_hw_imu.protocol.decoder import Garbage
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def lab(tmp_path: Path) -> Iterator[Lab]:

@@ -9,6 +9,8 @@ import pytest
 from blind import moreau, plant
 from blind.plant import Case
 
+pytestmark = pytest.mark.slow
+
 SHORT = {"dataset": ["release", "chirp"], "seconds": 0.5, "seed": 11}
 COLUMNS = "t_s,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,u1_N,u2_N"
 

@@ -13,6 +13,8 @@ from blind.moreau.mechanism import Mechanism, without_effects
 from blind.moreau.outside import add_drag, strap
 from blind.plant import Parameters, prototype
 
+pytestmark = pytest.mark.slow
+
 NOTHING = np.zeros(2)
 BENT = [20, 10, 25, -5, 30]  # [deg]
 H = 1e-6  # of differences [rad]

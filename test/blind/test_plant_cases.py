@@ -11,6 +11,8 @@ from blind.plant import COMMANDS, DATASETS, EFFECTS, LIBRARY, OUTSIDE, Case, dra
 from blind.plant.effect import SIZES
 from blind.plant.table import table
 
+pytestmark = pytest.mark.slow
+
 SHORT = {"dataset": ["release", "chirp"], "seconds": 0.5, "seed": 11}
 SEEDS = range(1500)
 DIGITS = (

@@ -10,6 +10,8 @@ from blind.plant.chain import BALL_INERTIA, BALL_MASS, without_ball
 from blind.plant.parameters import GRAVITY
 from blind.plant.sensors import ORDINARY
 
+pytestmark = pytest.mark.slow
+
 SEED = 3
 # as multiples of medium; a winch and a ring of fixed size go only with the effect as a whole, and a joint that hardly
 # gives before it slips is too stiff for the step

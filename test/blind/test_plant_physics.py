@@ -11,6 +11,8 @@ from blind.plant.cable_friction import belt_like_ratio
 from blind.plant.effects import EFFECTS
 from blind.plant.parameters import GRAVITY
 
+pytestmark = pytest.mark.slow
+
 NOTHING = np.zeros(2)
 
 

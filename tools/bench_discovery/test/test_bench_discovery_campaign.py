@@ -6,10 +6,14 @@ import itertools
 import os
 from pathlib import Path
 
+import pytest
+
 from tools.bench_discovery.cases import run_campaign
 from tools.bench_discovery.plans import Plan, campaign
 from tools.bench_discovery.result import Result, append, digest_of_sources, kept, load
 from tools.bench_discovery.test.results_by_hand import effect, named, result, verdict
+
+pytestmark = pytest.mark.slow
 
 PLANS = list(campaign("development", 1))[:4]
 

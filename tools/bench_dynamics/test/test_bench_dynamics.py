@@ -15,6 +15,8 @@ from tools.bench_dynamics.page import Result, Score
 from tools.bench_dynamics.rivals import BASELINE, Rival, rivals
 from tools.bench_dynamics.scene import Scene, longer_arm, prototype_release
 
+pytestmark = pytest.mark.slow
+
 
 @lru_cache
 def scene() -> Scene:

@@ -8,6 +8,8 @@ from tools.fuzz_bench.campaign import LIMITS, Tally, run
 from tools.fuzz_bench.line import WAYS, Block
 from tools.fuzz_bench.page import page
 
+pytestmark = pytest.mark.slow
+
 SIZE = 60_000
 
 

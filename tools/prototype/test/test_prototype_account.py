@@ -16,6 +16,8 @@ from continuum.recordings.recording_csv import read_recording_csv
 from tools.prototype.account import THE_GUESS, end_predicted, every_effect_alone, guess_beside, simulated_from
 from tools.prototype.stability import repeated, said
 
+pytestmark = pytest.mark.slow
+
 MODEL = load_model("lamecc_prototype.yaml")
 TIMES = np.arange(97) / 120
 

@@ -13,6 +13,8 @@ from continuum.dynamics.statics.equilibrium import EquilibriumStatus
 from tools.reproduction.bend import Bend, bend_by_one_cable, joint_positions
 from tools.reproduction.release import Release, over_all, prototype, reproduce_release
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).resolve().parents[3]
 
 

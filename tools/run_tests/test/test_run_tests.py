@@ -9,8 +9,15 @@ import pytest
 
 from tools.run_tests import __main__ as run_tests
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[3]
-FILES = ("continuum/test/test_arm.py", "test/blind/test_hidden_effects.py", "tools/ros2/test/test_graph.py")
+FILES = (
+    "continuum/test/test_arm.py",
+    "continuum/test/test_fabrikc.py",
+    "test/blind/test_hidden_effects.py",
+    "tools/ros2/test/test_graph.py",
+)
 
 
 @pytest.mark.parametrize(
@@ -40,6 +47,7 @@ def collected(*options: str) -> list[str]:
 
 
 def test_each_test_is_in_one_part():
-    parts = [collected(f"--part={part}") for part in run_tests.PARTS]
-    assert all(parts)
-    assert sorted(test for part in parts for test in part) == sorted(collected())
+    parts = {part: collected(f"--part={part}") for part in run_tests.PARTS}
+    assert all(parts.values())
+    assert sorted(test for part in parts.values() for test in part) == sorted(collected())
+    assert set() < set(collected("--part=quick")) < set(parts["units"])

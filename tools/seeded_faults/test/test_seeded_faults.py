@@ -6,6 +6,8 @@ import pytest
 
 from tools.seeded_faults.__main__ import main
 
+pytestmark = pytest.mark.slow
+
 FILES = {
     "halved.py": "def halved(x):\n    return x / 2\n\n\ndef unused(x):\n    return x + 1\n",
     "test_halved.py": "from halved import halved\n\n\ndef test_two():\n    assert halved(4) == 2\n",
