@@ -17,6 +17,8 @@ from continuum.arm import Arm, arm_to_mapping, load_arm
 from continuum.cli import main
 from continuum.dynamics.model_path import model_path
 
+pytestmark = pytest.mark.slow
+
 MODEL = model_path("lamecc_prototype.yaml")
 ARM_FILES = sorted(CONFIG.glob("*.yaml"))
 

@@ -18,6 +18,8 @@ from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.simulator import Simulator
 from continuum.recordings.motion_table import write_measured_motion
 
+pytestmark = pytest.mark.slow
+
 type Captured = pytest.CaptureFixture[str]
 
 

@@ -14,6 +14,8 @@ from continuum.discovery.normal_equations import NormalEquations, Scale, Values,
 from continuum.discovery.open_loop import Segment
 from continuum.discovery.unknowns import Unknown
 
+pytestmark = pytest.mark.slow
+
 COMMON, LOCAL, N, ROWS, FLOOR = 4, 6, 2, 15, 0.01
 RUNS, SEGMENTS, OWN = 3, (1, 2, 1), (1, 0, 2)
 

@@ -33,6 +33,8 @@ from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
 
+pytestmark = pytest.mark.slow
+
 N = 3
 PULL = np.array([8.0, 3.0])
 

@@ -17,6 +17,8 @@ from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.values import parameter_vector, with_vector
 from continuum.estimation.motion_equations import MotionEquations, evaluate, packed, torques
 
+pytestmark = pytest.mark.slow
+
 SEEDS = st.integers(0, 10**6)
 STATEFUL = list(structure().stateful)
 

@@ -18,6 +18,8 @@ from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
 from continuum.kinematics.cables import cable_lengths
 
+pytestmark = pytest.mark.slow
+
 MODEL = load_model("lamecc_prototype.yaml")
 TICK = 1 / 120
 SLACK = np.zeros(len(SIDES))

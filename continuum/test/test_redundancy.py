@@ -12,6 +12,8 @@ from continuum.kinematics.configuration import bend
 from continuum.kinematics.ik_target import DIRECTION, POSITION
 from continuum.kinematics.inverse_kinematics import InverseKinematics
 
+pytestmark = pytest.mark.slow
+
 N = 60
 ARMS = {
     "two": (arm_of(2), POSITION),

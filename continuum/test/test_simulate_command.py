@@ -27,6 +27,8 @@ from continuum.output_files import check_picture, check_writable
 from continuum.recordings.motion_figure import backbone, write_motion_figure
 from continuum.recordings.tension_table import read_tension_table
 
+pytestmark = pytest.mark.slow
+
 MODEL = load_model("lamecc_prototype.yaml")
 HEADING = [
     "t_s", *(f"q{i}_deg" for i in range(1, 6)), *(f"dq{i}_deg_s" for i in range(1, 6)), "u1_N", "u2_N"

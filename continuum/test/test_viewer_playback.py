@@ -13,6 +13,8 @@ from continuum.viewer.page import Page
 from continuum.viewer.section_angles import configuration_of_joints
 from continuum.viewer.tracks import Track, read_tracks
 
+pytestmark = pytest.mark.slow
+
 SIMULATED = "/simulated/joint_states"
 BENT = np.array([[0.2, 0.1], [0.3, -0.1]])
 

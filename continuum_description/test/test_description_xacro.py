@@ -15,6 +15,8 @@ from continuum_description import create_continuum_robot
 from continuum_description.robot import robot_urdf, to_text
 from continuum_description.share import share_directory
 
+pytestmark = pytest.mark.slow
+
 MINIMAL = "sections: [one, two]\none: {n_joints: 2, b: 0.1, a: 0.05}\ntwo: {n_joints: 3, b: 1, a: 0.5, twist: -1}\n"
 
 

@@ -18,6 +18,8 @@ from continuum_hw_imu.emulator import command
 from continuum_hw_imu.protocol import messages as m
 from continuum_hw_imu.protocol.decoder import Decoder
 
+pytestmark = pytest.mark.slow
+
 PROGRAM = Path(get_package_prefix("continuum_hw_imu")) / "lib" / "continuum_hw_imu" / "bench_emulator"
 
 

@@ -12,6 +12,8 @@ from blind.plant import Case, Effect, prototype
 from blind.plant.parameters import GRAVITY
 from blind.plant.sensors import ORDINARY
 
+pytestmark = pytest.mark.slow
+
 SEED = 3
 NOTHING = np.zeros(2)
 # as multiples of medium; a winch goes only with the effect as a whole, and a joint that hardly gives before it slips is

@@ -14,6 +14,8 @@ from blind.moreau.state import CABLES, STOPS
 from blind.plant import EFFECTS, Effect, prototype
 from blind.plant.parameters import GRAVITY
 
+pytestmark = pytest.mark.slow
+
 NOTHING = np.zeros(2)
 
 

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from harness.waiting import wait_until
 
+pytestmark = pytest.mark.slow
+
 DEAF = "import signal\nfor s in (signal.SIGINT, signal.SIGTERM): signal.signal(s, signal.SIG_IGN)\n"
 STAYS = "\nprint('up', flush=True)\ntime.sleep(600)"
 SLEEPS = "import pathlib, os, time\npathlib.Path('{0}.pid').write_text(str(os.getpid()))" + STAYS
