@@ -1,4 +1,4 @@
-"""Import the workspace's packages before any test module; a ROS domain of its own for every module.
+"""Import the workspace's packages before any test module; give every module a separate ROS domain.
 
 pytest's importlib mode names a test by its path from here, ``continuum.test.test_arm``, and would else take the folder
 ``continuum/`` for the package ``continuum``, which is ``continuum/continuum/``. It does so already for the conftest.py
@@ -35,7 +35,7 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Let ``make test`` run the tests in parts, and ``make exam`` one of them with more seeds."""
     parser.addoption("--part", choices=("nodes", "units", "hidden-effects", "quick"), help="run this part alone")
-    parser.addoption("--rounds", type=int, default=1, help="of hidden effects, each with seeds of its own")
+    parser.addoption("--rounds", type=int, default=1, help="of hidden effects, each with other seeds")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

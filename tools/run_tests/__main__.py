@@ -1,6 +1,6 @@
 """`make test` in three parts, and `make quick`.
 
-Tests that start nodes wait more than they compute: three files at a time, each module in a ROS domain of its own. Unit
+Tests that start nodes wait more than they compute: three files at a time, each module in a separate ROS domain. Unit
 tests compute: one file for each core. The hidden effects share out their cases themselves.
 """
 

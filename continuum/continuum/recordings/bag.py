@@ -1,6 +1,6 @@
 """A rosbag2 recording read by `rosbags`, without ROS: message definitions come from the recording itself.
 
-Only those that are asked for are read: topics of types that nobody knows may stand beside them.
+Only those that are asked for are read: other topics may have types that nobody knows.
 """
 
 from __future__ import annotations
