@@ -94,6 +94,15 @@ def test_any_text_is_an_arm_or_refused(scratch: Path, pieces: list[str]) -> None
 
 
 @LAW
+@given(content=st.binary() | st.text().map(lambda text: text.encode("utf-8", "replace")))
+def test_any_file_is_an_arm_or_refused(scratch: Path, content: bytes) -> None:
+    scratch.write_bytes(content)
+    with pytest.raises((FileError, InvalidValueError)) as caught:
+        load_arm(scratch)
+    assert "\n" not in str(caught.value)
+
+
+@LAW
 @given(at=st.integers(0, len(ONE_SECTION)), width=st.integers(0, 4), piece=st.sampled_from(PIECES))
 def test_a_damaged_arm_is_an_arm_or_refused(scratch: Path, at: int, width: int, piece: str) -> None:
     scratch.write_text(ONE_SECTION[:at] + piece + ONE_SECTION[at + width :], encoding="utf-8")

@@ -12,14 +12,17 @@ from inertial_arm import (
     Motion,
     N,
     SensorModel,
+    calibrated,
     pull_and_release,
     rms,
     sensed,
+    with_losses,
     write_exports,
 )
 
-from continuum.inertial.calibration import load_calibration
+from continuum.inertial.calibration import load_calibration, save_calibration
 from continuum.inertial.imu_recording import ImuRecording
+from continuum.inertial.inclination import inclination
 from continuum.recordings.recording_csv import read_recording_csv
 
 pytestmark = pytest.mark.slow
@@ -77,6 +80,39 @@ def test_a_calibration_serves_the_next_recording(
     table = np.loadtxt(out, delimiter=",", skiprows=1)
     off = table[:, 1 : N + 1] - np.degrees(motion.at(table[:, 0] + later.times[0])[0])
     assert rms(off).max() < 0.5
+
+
+def test_losses_clips_and_starts_one_after_the_other(
+    motion: Motion, recording: ImuRecording, tmp_path: Path, capsys: Captured
+) -> None:
+    """Rows have good angles of all joints or are left out, and times are from the first sensor's start on."""
+    part = recording.part(RELEASE - 2.0, RELEASE + 5.0)
+    lost = np.random.default_rng(0).random((part.times.size, N)) < 0.003
+    for sensor in range(N):
+        lost[: 30 * (N - 1 - sensor), sensor] = True  # the last one starts first
+    limit = np.radians(300)
+    clipped = np.any(np.abs(part.rates) > limit, axis=2)
+    assert clipped.any()
+    troubled = replace(with_losses(part, lost), rates=np.clip(part.rates, -limit, limit), clipped=clipped)
+    sensors, out = tmp_path / "sensors.yaml", tmp_path / "run.csv"
+    save_calibration(calibrated(recording), sensors)
+    exports = write_exports(tmp_path, troubled)
+    assert code("import-dot", *exports, "--calibration", sensors, "--out", out) in (0, 1)
+    assert "without good angles left out" in capsys.readouterr().out
+    table = np.loadtxt(out, delimiter=",", skiprows=1)
+    assert len(table) > part.times.size / 2
+    off = table[:, 1 : N + 1] - np.degrees(motion.at(table[:, 0] + part.times[0])[0])
+    assert np.abs(off).max() < 1.0
+    assert rms(off).max() < 0.5
+
+
+def test_a_zero_in_a_known_posture(files: list[Path], recording: ImuRecording, tmp_path: Path) -> None:
+    """Links are inclined by the sums of the joint angles, in degrees, where the arm has that posture."""
+    posture, sensors = [10, -20, 30, 5, 15], tmp_path / "sensors.yaml"
+    words = ("--first-turn", "1", "--zero", "0:5", "--posture", ",".join(map(str, posture)))
+    assert code("import-dot", *files, *words, "--save-calibration", sensors) == 0
+    known, seen = load_calibration(sensors), recording.part(recording.times[0], 5.0).forces.mean(axis=0)
+    np.testing.assert_allclose(np.degrees(inclination(seen, known.axis, known.zero)), np.cumsum(posture), atol=0.1)
 
 
 def test_only_looking_tells_when_the_arm_rests(files: list[Path], capsys: Captured) -> None:

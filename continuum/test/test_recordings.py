@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from recorded_runs import ARM, RATE, STAMPS, Topics, postures, read, run, write
 from rosbags.rosbag2 import StoragePlugin
 
@@ -176,6 +177,25 @@ def test_the_table_keeps_columns_and_values(tmp_path: Path) -> None:
     np.testing.assert_allclose(values[:, 0], np.arange(N) / RATE, atol=1e-9)
     np.testing.assert_allclose(values[:, 1:9], tangle(w, ARM), rtol=1e-8)
     np.testing.assert_allclose(values[:, 9:], tangle_rates(w, w_rate, ARM), rtol=1e-8)
+
+
+def test_the_picture_shows_lengths_and_rates(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lengths [mm] on the left; on the right rates [mm/s] as lines, and slopes of the lengths as dots."""
+    figures: list[Figure] = []
+    monkeypatch.setattr(
+        "continuum.recordings.cable_figure.write_figure", lambda _path, figure, **_options: figures.append(figure)
+    )
+    recording = read(write(tmp_path / "recording", run()))
+    write_cable_figure(recording, tmp_path / "cables.png")
+    left, right = figures[0].axes
+    lines, dots = ([line for line in right.lines if (line.get_marker() == ".") == dotted] for dotted in (False, True))
+    lengths, rates = 1e3 * recording.lengths.values.T, 1e3 * recording.rates.values.T
+    times = left.lines[0].get_xdata()
+    np.testing.assert_allclose(times, (STAMPS - STAMPS[0]) * 1e-9)
+    np.testing.assert_array_equal([line.get_ydata() for line in left.lines], lengths)
+    np.testing.assert_array_equal([line.get_ydata() for line in lines], rates)
+    at = np.array([np.interp(dot.get_xdata(), times, rate) for dot, rate in zip(dots, rates, strict=True)])
+    np.testing.assert_allclose([dot.get_ydata() for dot in dots], at, atol=0.01 * np.abs(rates).max())
 
 
 def test_topics_that_need_not_be_there(tmp_path: Path) -> None:
