@@ -61,14 +61,14 @@ class EmulatedBench:
 
 
 class Ears:
-    """A probe on the topics of bridges that come one after the other, and the one that commands them."""
+    """A probe on the topics of bridges that come one after the other, and the one that commands them by a topic."""
 
-    def __init__(self, probe: Probe) -> None:
+    def __init__(self, probe: Probe, commands: str = "cable_tension_cmd") -> None:
         self.probe = probe
         self.joints = probe.hear(JointState, "joint_states")
         self.cables = probe.hear(CableStates, "cable_states")
         self.imus = [probe.hear(Imu, f"imu_{k}/data_raw") for k in range(1, N_SENSORS + 1)]
-        self.say = probe.node.create_publisher(CableStates, "cable_tension_cmd", STREAM).publish
+        self.say = probe.node.create_publisher(CableStates, commands, STREAM).publish
         self.bridges = 0
 
     def clear(self) -> None:

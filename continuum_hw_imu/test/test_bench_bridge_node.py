@@ -18,6 +18,10 @@ MOST, FASTEST, TIMEOUT, SLACK_TIME = 12.0, 60.0, 0.6, 0.3
 WAITING = 0.05
 """By which a busy machine may let a process wait: it hears all frames late, and catches up with what it says [s]."""
 
+COMMANDS = "pull"
+RENAMED = ("--ros-args", "-r", f"cable_tension_cmd:={COMMANDS}")
+"""Commands come by a topic of another name, so that every rule about them is seen to hold there too."""
+
 LIMITS = {"max_tension": MOST, "max_tension_rate": FASTEST, "command_timeout": TIMEOUT, "slack_time": SLACK_TIME}
 
 
@@ -29,7 +33,7 @@ def probe(domain):
 
 @pytest.fixture(scope="module")
 def ears(probe):
-    return Ears(probe)
+    return Ears(probe, COMMANDS)
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +46,7 @@ def bench(domain, tmp_path_factory):
 def bridge(domain, ears, probe, bench):
     """Configured by itself, and calibrated."""
     file = bench.port.with_name("calibration.yaml")
-    with bridge_at(ears, bench, domain, calibration=file, **LIMITS) as bridge:
+    with bridge_at(ears, bench, domain, RENAMED, calibration=file, **LIMITS) as bridge:
         bridge.wait_for_state("inactive")
         probe.wait_until(lambda: all(len(imu) > 5 for imu in bridge.imus), "data of all sensors")
         bridge.wait_for_level("angles", "ERROR", "not calibrated: no bias, no axis, no zero")
@@ -179,7 +183,7 @@ def test_two_commanders_are_refused(active):
         return active.bench.status["set_points"][0]
 
     active.pull([5.0, 0.0], lambda: pulled() > 4.9)
-    other = active.probe.speaker(CableStates, "cable_tension_cmd")
+    other = active.probe.speaker(CableStates, COMMANDS)
     try:
         active.pull([5.0, 0.0], lambda: refused() > 3 and not pulled())
         before = refused()
@@ -191,7 +195,7 @@ def test_two_commanders_are_refused(active):
 
 
 def test_a_viewer_that_nobody_uses_is_no_commander(active, domain):
-    viewer = NodeProcess("continuum_manipulator", "viewer", domain, parameters={"port": 0})
+    viewer = NodeProcess("continuum_manipulator", "viewer", domain, parameters={"port": 0}, arguments=RENAMED)
     with running(viewer):
         active.probe.wait_until(lambda: active.probe.count("viewer", "received cable_states") > 0, "the viewer")
         before = active.probe.count(active.name, "dropped: several commanders")

@@ -5,12 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from diagnostic_msgs.msg import DiagnosticStatus
 from looped_bench import HELLO, LoopedBench
 from rclpy.clock import Clock
 
+from continuum.dynamics.live.tension_follower import TensionLimits
 from continuum.dynamics.model_file import load_model
 from continuum.inertial.calibration import Calibration
 from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum_hw_imu.bench_commander import BenchCommander
+from continuum_hw_imu.bench_diagnostics import BenchDiagnostics
 from continuum_hw_imu.bench_streams import BenchStreams
 from continuum_hw_imu.imu_messages import ImuMessages
 from continuum_hw_imu.protocol.messages import ImuFrame, SensorPlace, TensionFrame
@@ -42,9 +46,15 @@ class Published:
         self.bench.client._hand_on = self.streams.take
         self.bench.connect()
         self._sample = 0
+        commander = BenchCommander(TensionLimits(12.0, 100.0, 0.4, 0.2), 2, lambda: self.bench.now)
+        commander.client = self.bench.client
+        self._diagnostics = BenchDiagnostics("bridge", self.streams, commander, "nowhere", N)
 
-    def measure(self, frames: int = 1, rates=None, flags=None, link_rates=None) -> None:
-        """Samples at 60 Hz; rates (n, 3) [rad/s] in the order of the frame, or about y of each link (n,)."""
+    def measure(self, frames: int = 1, rates=None, flags=None, link_rates=None, forces=UP) -> None:
+        """Samples at 60 Hz; rates (n, 3) [rad/s] in the order of the frame, or about y of each link (n,).
+
+        Specific forces (n, 3) [m/s2] are in the order of the frame, too.
+        """
         rates = np.zeros((N, 3)) if rates is None else rates
         if link_rates is not None:
             links = [sensor.link - 1 for sensor in HELLO.sensors]
@@ -53,7 +63,12 @@ class Published:
         for _ in range(frames):
             self.bench.now += 1 / 60
             self._sample += 1
-            self.bench.say(ImuFrame.of(self._sample, rates, UP, flags))
+            self.bench.say(ImuFrame.of(self._sample, rates, forces, flags))
+
+    def status(self, subject: str) -> DiagnosticStatus:
+        """What is told on `/diagnostics` of a subject now."""
+        statuses = (tell() for tell in self._diagnostics.subjects())
+        return next(status for status in statuses if status.name == f"bridge: {subject}")
 
 
 def test_nothing_is_known_before_a_rest_and_then_everything_is():
@@ -121,6 +136,30 @@ def test_a_missing_sensor_withholds_joint_states_and_its_own_data_alone():
     published.measure(1, flags=flags)
     assert len(published.joints) == before[0]
     assert [len(imu) - n for imu, n in zip(published.imus, before[1], strict=True)] == [1, 1, 1, 1, 0]
+
+
+@pytest.mark.parametrize("trouble", ["missing", "clipped"])
+def test_no_joint_state_is_wrong_while_a_sensor_turns_unmeasured(trouble):
+    """Link 5 turns by 1 rad unseen, or faster than its sensor's range: only rest tells by how much."""
+    published, at = Published(), 2  # the third in the frame is on link 5
+    published.measure(60)
+    before = len(published.joints)
+    flags, forces, turn = np.full(N, PRESENT), UP.copy(), 1.0
+    flags[at] = 0 if trouble == "missing" else PRESENT | CLIPPED_RATE[1]
+    published.measure(30, flags=flags, link_rates=[0.0, 0.0, 0.0, 0.0, 0.7])
+    assert len(published.joints) == before
+    complaint, told = published.status("angles"), published.status("imu 5")
+    assert complaint.level == DiagnosticStatus.ERROR
+    assert f"sensor 5 is {trouble}" in complaint.message
+    assert f"30 samples {trouble}" in told.message
+    assert (told.level == DiagnosticStatus.ERROR) == ("no data" in told.message) == (trouble == "missing")
+    assert published.status("imu 4").level != DiagnosticStatus.ERROR
+    forces[at] = 9.81 * np.array([-np.sin(turn), 0.0, np.cos(turn)])
+    published.measure(120, forces=forces)
+    assert len(published.joints) > before
+    for joints in published.joints[before:]:
+        np.testing.assert_allclose(joints.position[1:-1], [0.0, 0.0, 0.0, 0.0, turn], atol=0.01)
+    assert published.status("angles").level != DiagnosticStatus.ERROR
 
 
 def test_what_is_clipped_has_the_covariance_of_anything_in_range():
