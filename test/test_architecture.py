@@ -32,7 +32,12 @@ PLAIN_PYTHON = {  # what a module is called in package.xml (rosdep's keys)
     "yaml": "python3-yaml",
     "yourdfpy": "python3-yourdfpy-pip",
 }
-WITHOUT_KEY = {"viser", "msgspec", "websockets"}  # viser, unknown to rosdep, brings the others: docs/dependencies.md
+WITHOUT_KEY = {
+    "apsw",
+    "msgspec",
+    "viser",
+    "websockets",
+}  # rosbags brings the first, viser its two: docs/dependencies.md
 ONLY_IN_TESTS = {"hypothesis", "mujoco", "pytest", "vqf"}
 
 each_package = pytest.mark.parametrize("package", PACKAGES)

@@ -8,7 +8,8 @@ from continuum_laws.outcomes import outcome
 from hypothesis import given
 from hypothesis import strategies as st
 from recorded_runs import STAMPS, TYPES, Topics, point, read, run, write
-from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from continuum.errors import ContinuumError, FileError, InvalidValueError
 from continuum.recordings.bag import Bag
@@ -34,6 +35,35 @@ def test_a_topic_of_another_type(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     topics: Topics = {"/traj_pose": [point(np.zeros(3))]}
     with pytest.raises(FileError, match=r"geometry_msgs/msg/Pose on /traj_pose, not geometry_msgs/msg/PoseStamped"):
         read(write(tmp_path / "recording", topics))
+
+
+@pytest.mark.parametrize(
+    ("storage", "opened"),
+    [(StoragePlugin.SQLITE3, ""), (StoragePlugin.MCAP, ""), (StoragePlugin.MCAP, "recording.mcap")],
+)
+@pytest.mark.parametrize(
+    ("second", "is_read"), [("float64 x", True), ("float64 x # [m]", True), ("float32[2] x", False)]
+)
+def test_publishers_of_a_topic_define_its_type_alike_or_are_refused(
+    tmp_path: Path, storage: StoragePlugin, opened: str, second: str, is_read: bool
+) -> None:
+    """Unlike definitions have unlike hashes in a folder, and unlike texts in its MCAP file without hashes."""
+    folder, kind = tmp_path / "recording", "demo_msgs/msg/Place"
+    with Writer(folder, version=9, storage_plugin=storage) as writer:
+        for arrival, (written_as, definition) in enumerate([(kind, "float64 x"), ("demo_msgs/msg/Plane", second)]):
+            store = get_typestore(Stores.EMPTY)
+            store.register(get_types_from_msg(definition, kind))
+            type_hash = "unknown" if opened else store.hash_rihs01(kind)
+            publisher = writer.add_connection("/place", written_as, msgdef=definition, rihs01=type_hash)
+            writer.write(publisher, arrival, b"\0\1\0\0" + np.float64(2.5).tobytes())
+    for file in folder.iterdir():  # rosbags itself writes one definition for each type
+        file.write_bytes(file.read_bytes().replace(b"Plane", b"Place"))
+    with Bag(folder / opened) as bag:
+        if is_read:
+            assert [one.x for one in bag.messages("/place", kind)] == [2.5, 2.5]
+        else:
+            with pytest.raises(FileError, match=f"publishers on /place with unlike definitions of {kind}"):
+                [*bag.messages("/place", kind)]
 
 
 def test_cables_of_another_arm(tmp_path: Path) -> None:

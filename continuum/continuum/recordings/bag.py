@@ -12,10 +12,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import apsw
 from rosbags.interfaces import Connection, MessageDefinitionFormat
 from rosbags.interfaces.typing import Typesdict
 from rosbags.rosbag2 import Reader, ReaderError
-from rosbags.rosbag2.storage_sqlite3 import apsw  # type: ignore[attr-defined]
 from rosbags.serde import SerdeError
 from rosbags.typesys import Stores, TypesysError, get_types_from_idl, get_types_from_msg, get_typestore
 
@@ -67,21 +67,31 @@ class Bag:
         """The messages of one topic, e.g. of type ``sensor_msgs/msg/JointState``, in the order of their arrival.
 
         Raises:
-            FileError: the recording has no such topic, or messages of another type on it.
+            FileError: the recording has no such topic, messages of another type on it, or publishers whose definitions
+                of the type differ.
         """
-        if not self._connections(topic):
+        connections = self._connections(topic)
+        if not connections:
             raise FileError(self.path, f"has no topic {topic}; it has {', '.join(sorted(self.topics)) or 'none'}")
-        for connection in self._connections(topic):
+        for connection in connections:
             if connection.msgtype != message_type:
                 raise FileError(self.path, f"has {connection.msgtype} on {topic}, not {message_type}")
         with self._readable():
             types = get_typestore(Stores.EMPTY)
-            types.register(_definition(self._connections(topic)[0]))
-            for connection, _, raw in self._reader.messages(self._connections(topic)):
+            types.register(self._common_definition(topic, connections))
+            for connection, _, raw in self._reader.messages(connections):
                 yield types.deserialize_cdr(raw, connection.msgtype)
 
     def _connections(self, topic: str) -> list[Connection]:
         return [one for one in self._reader.connections if _absolute(one.topic) == topic]
+
+    def _common_definition(self, topic: str, connections: list[Connection]) -> Typesdict:
+        """The definition of a topic's type, also by its hash: `rosbags` gives all publishers in a folder one text."""
+        hashes = {one.digest for one in connections} - {""}
+        definition, *others = [_definition(one) for one in connections]
+        if len(hashes) > 1 or any(other != definition for other in others):
+            raise FileError(self.path, f"has publishers on {topic} with unlike definitions of {connections[0].msgtype}")
+        return definition
 
     @contextmanager
     def _readable(self) -> Iterator[None]:
