@@ -2,25 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ros2_standin.errors import UserError
 from ros2_standin.launch.argument import Argument
+from ros2_standin.launch.parameter_values import ParameterFiles
+from ros2_standin.launch.processes import LogLine, ProcessSpec
 from ros2_standin.launch.python_api import (
     DeclareLaunchArgument,
     IncludeLaunchDescription,
     LaunchContext,
     Node,
     OpaqueFunction,
+    ProcessExited,
     RegisterEventHandler,
 )
 from ros2_standin.launch.python_file import errors_in_one_line, load, python_node
 from ros2_standin.launch.scope import Scope
 
-if TYPE_CHECKING:
-    from ros2_standin.launch.interpreter import Interpreter
+
+class Interpreter(Protocol):
+    """What the entities of a file are handed to; attributes and methods as in `interpreter.Interpreter`."""
+
+    files: ParameterFiles
+    only_arguments: bool
+    steps: list[ProcessSpec | LogLine]
+    exit_handlers: list[Callable[[ProcessExited, LaunchContext], object]]
+
+    def declare(self, argument: Argument, scope: Scope) -> None: ...
+
+    def file(self, file: Path, scope: Scope) -> None: ...
 
 
 def evaluate(interpreter: Interpreter, file: Path, scope: Scope) -> None:
