@@ -6,8 +6,10 @@ along a given motion friction's sign is known. So nothing stiff is differentiate
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import casadi
@@ -15,7 +17,8 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.balance import balance
-from continuum.dynamics.compiled.machine_code import address_of, compile_function
+from continuum.dynamics.compiled.machine_code import address_of, found_or_compiled
+from continuum.dynamics.compiled.structure_key import structure_key
 from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance, TracedMotion, column, symbols
 from continuum.dynamics.integration.call_at import call_at
 from continuum.dynamics.model import Model
@@ -35,15 +38,8 @@ class _SlidingMotion(TracedMotion):
         return np.array([casadi.substitute(casadi.SX(rate), given, named) for rate in self.theta_rate], dtype=object)
 
 
-class MotionEquations(SymbolicBalance):
-    """Compiled functions of one packed vector (x, v, u, slip, p), for a model's structure; p are arguments.
-
-    x: angles, rates, effects' states, (2 n + n_states,); v: accelerations and rates of the states, (n + n_states,);
-    u: inputs, (n_inputs,); slip: rates that friction sees, (n,); p: parameter values, (n_p,).
-
-    Args:
-        model: its effects and its number of joints are compiled in.
-    """
+class _TracedEquations(SymbolicBalance):
+    """Functions of one packed vector (x, v, u, slip, p)."""
 
     def __init__(self, model: Model) -> None:
         n, extra, still = model.n_joints, model.n_states, np.zeros(1)
@@ -54,37 +50,23 @@ class MotionEquations(SymbolicBalance):
         self._r = column(balance(model.built_from(values), x, v, u, motion))
         self._sums = list(motion.sums.values())
         self._x, self._v, self._p = column(x), column(v), column(np.concatenate(list(values.values())))
-        self._n, self.n_states, self.n_inputs, self.n_p = n, extra, model.n_inputs, self._p.numel()
+        self._n = n
         self._packed = casadi.vertcat(self._x, self._v, column(u), column(slip), self._p)
         self._step = casadi.SX.sym("step")
 
-    @cached_property
-    def torque(self) -> Any:
-        """r, (n + n_states,)."""
-        return compile_function(self._function("torque", []))
+    def torque(self) -> casadi.Function:
+        return self._function("torque", [])
 
-    @cached_property
-    def linear(self) -> Any:
-        """r, dr/dv, dr/dx; of a model whose effects have no states."""
-        return compile_function(self._function("linear", [self._derivative(s) for s in (self._v, self._x)]))
+    def linear(self) -> casadi.Function:
+        return self._function("linear", [self._derivative(s) for s in (self._v, self._x)])
 
-    @cached_property
-    def inertia(self) -> Any:
-        """r, dr/dv."""
-        return compile_function(self._function("inertia", [self._derivative(self._v)]))
+    def inertia(self) -> casadi.Function:
+        return self._function("inertia", [self._derivative(self._v)])
 
-    @cached_property
-    def by_parameters(self) -> Any:
-        """r, dr/dp."""
-        return compile_function(self._function("by_parameters", [self._derivative(self._p)]))
+    def by_parameters(self) -> casadi.Function:
+        return self._function("by_parameters", [self._derivative(self._p)])
 
-    @cached_property
-    def state_step(self) -> Any:
-        """r_s and Newton's step of the states z alone, of an implicit Euler step: z' = (z - z_before) / step.
-
-        Of the packed vector and 1 / step [1/s]. The linear system is solved while the code is made, so that its
-        sparsity, most often one small block for each joint, costs nothing at run time.
-        """
+    def state_step(self) -> casadi.Function:
         n = self._n
         of_states = self._r[n:]
         z, z_rate = self._x[2 * n :], self._v[n:]
@@ -93,7 +75,63 @@ class MotionEquations(SymbolicBalance):
         for joints, sums in self._sums:
             wanted = casadi.substitute(wanted, column(sums), casadi.cumsum(column(joints)))
         packed = casadi.vertcat(self._packed, self._step)
-        return compile_function(casadi.Function("state_step", [packed], [casadi.densify(wanted)]))
+        return casadi.Function("state_step", [packed], [casadi.densify(wanted)])
+
+
+class MotionEquations:
+    """Compiled functions of one packed vector (x, v, u, slip, p), for a model's structure; p are arguments.
+
+    x: angles, rates, effects' states, (2 n + n_states,); v: accelerations and rates of the states, (n + n_states,);
+    u: inputs, (n_inputs,); slip: rates that friction sees, (n,); p: parameter values, (n_p,).
+
+    Args:
+        model: its effects and its number of joints are compiled in.
+
+    Attributes:
+        n_states, n_inputs, n_p: numbers of effects' states, of inputs, and of parameter values.
+    """
+
+    def __init__(self, model: Model) -> None:
+        self._model, self._key = model, structure_key(model, Path(__file__))
+        self.n_states, self.n_inputs = model.n_states, model.n_inputs
+        self.n_p = sum(len(value) for value in model.values().values())
+
+    @cached_property
+    def torque(self) -> Any:
+        """r, (n + n_states,)."""
+        return self._machine_code(_TracedEquations.torque)
+
+    @cached_property
+    def linear(self) -> Any:
+        """r, dr/dv, dr/dx; of a model whose effects have no states."""
+        return self._machine_code(_TracedEquations.linear)
+
+    @cached_property
+    def inertia(self) -> Any:
+        """r, dr/dv."""
+        return self._machine_code(_TracedEquations.inertia)
+
+    @cached_property
+    def by_parameters(self) -> Any:
+        """r, dr/dp."""
+        return self._machine_code(_TracedEquations.by_parameters)
+
+    @cached_property
+    def state_step(self) -> Any:
+        """r_s and Newton's step of the states z alone, of an implicit Euler step: z' = (z - z_before) / step.
+
+        Of the packed vector and 1 / step [1/s]. The linear system is solved while the code is made, so that its
+        sparsity, most often one small block for each joint, costs nothing at run time.
+        """
+        return self._machine_code(_TracedEquations.state_step)
+
+    @cached_property
+    def _traced(self) -> _TracedEquations:
+        return _TracedEquations(self._model)
+
+    def _machine_code(self, function: Callable[[_TracedEquations], casadi.Function]) -> Any:
+        key = None if self._key is None else f"{self._key}\n{function.__qualname__}"
+        return found_or_compiled(key, lambda: function(self._traced))
 
 
 def packed(

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.compiled.machine_code import compile_function
+from continuum.dynamics.compiled.machine_code import found_or_compiled
+from continuum.dynamics.compiled.structure_key import structure_key
 from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance
 from continuum.dynamics.model import Model
 from continuum.dynamics.values import parameter_vector
@@ -29,27 +30,35 @@ class CompiledEquations:
         self.n_x = self.n_rates + model.n_joints
         self.n_inputs = model.n_inputs
         self.values = parameter_vector(model)
-        self._symbols = SymbolicBalance(model)
+        self._model, self._key = model, structure_key(model)
+
+    @cached_property
+    def _symbols(self) -> SymbolicBalance:
+        return SymbolicBalance(self._model)
 
     @cached_property
     def residual(self) -> Any:
         """Machine code of `SymbolicBalance.residual`."""
-        return compile_function(self._symbols.residual)
+        return self._machine_code("residual")
 
     @cached_property
     def stage(self) -> Any:
         """Machine code of `SymbolicBalance.stage`."""
-        return compile_function(self._symbols.stage)
+        return self._machine_code("stage")
 
     @cached_property
     def newton(self) -> Any:
         """Machine code of `SymbolicBalance.newton`."""
-        return compile_function(self._symbols.newton)
+        return self._machine_code("newton")
 
     @cached_property
     def slopes(self) -> Any:
         """Machine code of `SymbolicBalance.slopes`, made when first asked for."""
-        return compile_function(self._symbols.slopes)
+        return self._machine_code("slopes")
+
+    def _machine_code(self, name: str) -> Any:
+        key = None if self._key is None else f"{self._key}\n{name}"
+        return found_or_compiled(key, lambda: getattr(self._symbols, name))
 
     def balance(self, x: Array, v: Array, u: Array, p: Array | None = None) -> tuple[Array, Array, Array]:
         """r (n_v,), dr/dv (n_v, n_v), dr/dx (n_v, n_x) at state x, rates v, inputs u, parameter values p."""

@@ -1,4 +1,8 @@
-"""CasADi functions as machine code: C by CasADi's generator, compiled by the system's compiler, kept in a cache."""
+"""CasADi functions as machine code: C by CasADi's generator, compiled by the system's compiler, kept in a cache.
+
+A library is named by the digest of its code. For equations of a known structure an index holds that name, so that a
+program that finds both need not trace them.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +13,7 @@ import platform
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -32,17 +37,57 @@ def compile_function(function: casadi.Function) -> Any:
         CompilerError: no C compiler is found (named by the environment's CC, else cc or gcc), or it fails.
         FileError: there is neither a cache folder nor a temporary one.
     """
-    code = _c_code(function)
-    compiler = _compiler()
-    key = hashlib.sha256("\0".join((code, compiler, version("casadi"))).encode()).hexdigest()[:32]
-    found = _loaded(code, compiler, user_cache_folder() / "models" / f"{key}.so")["flat"]
-    found.argtypes, found.restype = [ctypes.c_void_p, ctypes.c_void_p], None
-    return found
+    return _flat(_library_of(function)[0])
+
+
+def found_or_compiled(key: str | None, trace: Callable[[], casadi.Function]) -> Any:
+    """The same for what ``trace`` gives, which is called only where ``key`` leads to no library.
+
+    Args:
+        key: tells functions apart before they are traced; None where nothing does.
+        trace: gives the function.
+
+    Raises:
+        CompilerError, FileError: as `compile_function`.
+    """
+    if key is None:
+        return compile_function(trace())
+    index = _folder() / f"{_digest(key, _compiler(), version('casadi'))}.index"
+    name = read_checked(index, key)
+    if name is not None and read_checked(library := _folder() / name.decode(), platform.machine()) is not None:
+        return _flat(ctypes.CDLL(str(library)))
+    loaded, library = _library_of(trace())
+    try:
+        write_checked(index, library.name.encode(), key)
+    except OSError as error:
+        warn_not_kept(error)
+    return _flat(loaded)
 
 
 def address_of(function: Any) -> int:
     """Where a compiled function stands in memory, for calls from compiled loops; the function must be kept alive."""
     return ctypes.cast(function, ctypes.c_void_p).value or 0
+
+
+def _flat(library: ctypes.CDLL) -> Any:
+    found = library["flat"]
+    found.argtypes, found.restype = [ctypes.c_void_p, ctypes.c_void_p], None
+    return found
+
+
+def _library_of(function: casadi.Function) -> tuple[ctypes.CDLL, Path]:
+    """The library of a function, and its file, which is missing where it cannot be kept."""
+    code, compiler = _c_code(function), _compiler()
+    library = _folder() / f"{_digest(code, compiler, version('casadi'))}.so"
+    return _loaded(code, compiler, library), library
+
+
+def _folder() -> Path:
+    return user_cache_folder() / "models"
+
+
+def _digest(*parts: str) -> str:
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
 
 
 def _c_code(function: casadi.Function) -> str:
