@@ -21,3 +21,8 @@ def test_an_error_that_is_sent_on_arrives_as_it_is(error: ContinuumError) -> Non
     assert type(arrived) is type(error)
     assert str(arrived) == str(error)
     assert vars(arrived) == vars(error)
+
+
+@pytest.mark.parametrize("error", [InvalidValueError("a\nb", 1, "c\u2028d"), FileError("x\ry", "has \x1b[31m")])
+def test_a_message_is_one_line_that_can_be_printed(error: ContinuumError) -> None:
+    assert str(error).isprintable()
