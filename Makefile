@@ -26,7 +26,7 @@ test: check browser ## run the checks and every test (ARGS="-k name" are given t
 quick: check ## run the checks and the fast unit tests: what to run after every change
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.run_tests --quick $(ARGS)
 
-exam: setup ## hide every effect in both plants with more seeds (12 minutes); ARGS="--rounds 10"
+exam: setup ## hide every effect in both plants with more seeds (20 minutes); ARGS="--rounds 10"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m pytest --part=hidden-effects --rounds 3 test/blind $(ARGS)
 
 browser: setup ## Chromium and Playwright for the viewer's tests, into out/browser; what cannot be had is left out
