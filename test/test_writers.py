@@ -12,6 +12,7 @@ SOURCES = [
 
 ELSEWHERE = {
     "continuum/continuum/whole_file.py": "the writer",
+    "continuum/continuum/compiled_code.py": "an empty file that is locked, in a temporary folder",
     "continuum/continuum/output_files.py": "opened and left as it was",
     "continuum/continuum/discovery/pictures.py": "into memory",
     "continuum/continuum/dynamics/compiled/machine_code.py": "in a temporary folder, then renamed",
