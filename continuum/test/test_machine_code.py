@@ -109,7 +109,7 @@ def twice(key: str | None, traced: list[str], number: float) -> float:
         return casadi.Function("twice", [x], [2 * x])
 
     given, found = np.array([number]), np.empty(1)
-    found_or_compiled(key, trace)(given.ctypes.data, found.ctypes.data)
+    found_or_compiled(key, "twice", trace)(given.ctypes.data, found.ctypes.data)
     return float(found[0])
 
 

@@ -130,8 +130,7 @@ class MotionEquations:
         return _TracedEquations(self._model)
 
     def _machine_code(self, function: Callable[[_TracedEquations], casadi.Function]) -> Any:
-        key = None if self._key is None else f"{self._key}\n{function.__qualname__}"
-        return found_or_compiled(key, lambda: function(self._traced))
+        return found_or_compiled(self._key, function.__qualname__, lambda: function(self._traced))
 
 
 def packed(

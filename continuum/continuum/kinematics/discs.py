@@ -13,7 +13,7 @@ import numpy as np
 
 from continuum.arm import Arm, Section
 from continuum.arrays import Array
-from continuum.kinematics.rigid import transform
+from continuum.kinematics.rigid import IDENTITY, matrix, transform, turned_about_z
 from continuum.kinematics.section import section_pose
 
 
@@ -47,8 +47,7 @@ def arm_disc_poses(bends: Sequence[Array], arm: Arm) -> list[Array]:
     found: list[Array] = []
     tip = np.eye(4)
     for section, bent in zip(arm.sections, bends, strict=True):
-        c, s = np.cos(section.twist), np.sin(section.twist)
-        turned = transform(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), np.zeros(3))
-        found.append(tip @ turned @ disc_poses(bent, section))
+        twist = matrix(turned_about_z(IDENTITY, np.cos(section.twist), np.sin(section.twist)))
+        found.append(tip @ transform(twist, np.zeros(3)) @ disc_poses(bent, section))
         tip = found[-1][-1]
     return found

@@ -57,8 +57,7 @@ class CompiledEquations:
         return self._machine_code("slopes")
 
     def _machine_code(self, name: str) -> Any:
-        key = None if self._key is None else f"{self._key}\n{name}"
-        return found_or_compiled(key, lambda: getattr(self._symbols, name))
+        return found_or_compiled(self._key, name, lambda: getattr(self._symbols, name))
 
     def balance(self, x: Array, v: Array, u: Array, p: Array | None = None) -> tuple[Array, Array, Array]:
         """r (n_v,), dr/dv (n_v, n_v), dr/dx (n_v, n_x) at state x, rates v, inputs u, parameter values p."""

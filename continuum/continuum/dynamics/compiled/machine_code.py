@@ -40,21 +40,23 @@ def compile_function(function: casadi.Function) -> Any:
     return _flat(_library_of(function)[0])
 
 
-def found_or_compiled(key: str | None, trace: Callable[[], casadi.Function]) -> Any:
-    """The same for what ``trace`` gives, which is called only where ``key`` leads to no library.
+def found_or_compiled(structure: str | None, name: str, trace: Callable[[], casadi.Function]) -> Any:
+    """The same for what ``trace`` gives, which is called only where no library is known for it.
 
     Args:
-        key: tells functions apart before they are traced; None where nothing does.
+        structure: tells equations apart before they are traced; None where nothing does.
+        name: of the function among those of the equations.
         trace: gives the function.
 
     Raises:
         CompilerError, FileError: as `compile_function`.
     """
-    if key is None:
+    if structure is None:
         return compile_function(trace())
+    key = f"{structure}\n{name}"
     index = _folder() / f"{_digest(key, _compiler(), version('casadi'))}.index"
-    name = read_checked(index, key)
-    if name is not None and read_checked(library := _folder() / name.decode(), platform.machine()) is not None:
+    known = read_checked(index, key)
+    if known is not None and read_checked(library := _folder() / known.decode(), platform.machine()) is not None:
         return _flat(ctypes.CDLL(str(library)))
     loaded, library = _library_of(trace())
     try:
