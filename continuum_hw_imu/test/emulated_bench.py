@@ -159,30 +159,36 @@ class Bridge:
         """Those of what was measured after an instant of `monotonic` [s]; topics keep no order among each other."""
         return [message for message in messages if self.monotonic(message) > instant]
 
-    def pull(self, effort, until) -> None:
-        """Command tensions, with every cable state that comes, until ``until()``.
-
-        A machine that was busy for long makes the bench let go of a commander that was silent, as it should; the node
-        is activated again then.
-        """
+    def command_until(self, effort, until) -> None:
+        """Command tensions, with every second cable state that comes, until ``until()``."""
+        due = len(self.cables)
 
         def done() -> bool:
-            if len(self.cables) >= self._due:
+            nonlocal due
+            if len(self.cables) >= due:
                 self.command(effort)
-                self._due = len(self.cables) + 2
-            return until() or self._times_let_go > let_go
+                due = len(self.cables) + 2
+            return until()
 
-        while True:
-            self._due, let_go = len(self.cables), self._times_let_go
-            self.probe.wait_until(done, lambda: f"what was pulled for; {self.bench.status}; {self.node.stderr}")
-            if self._times_let_go == let_go:
-                return
-            self.wait_for_state("inactive")
-            assert self.change("activate"), self.node.stderr
+        self.probe.wait_until(done, lambda: f"what was commanded for; {self.bench.status}; {self.node.stderr}")
 
-    @property
-    def _times_let_go(self) -> int:
-        return self.node.stderr.count("no longer the bench's commander")
+    def pull(self, effort, until) -> None:
+        """Command tensions until ``until()``, and activate the node again where it drops them.
+
+        The bench lets go of a commander that was silent, as on a machine that was busy for long, also before this
+        begins.
+        """
+
+        def dropped() -> int:
+            return self.probe.count(self.name, "dropped: not active")
+
+        done = False
+        while not done:
+            before = dropped()
+            self.command_until(effort, lambda before=before: until() or dropped() > before)
+            done = dropped() <= before
+            if not done and self.state == "inactive":
+                assert self.change("activate"), self.node.stderr
 
     def calibrate(self) -> list[str]:
         """At rest, straight, and after a bend towards cable 1; what the services answered."""

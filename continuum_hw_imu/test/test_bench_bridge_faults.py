@@ -79,7 +79,7 @@ def pull(bridge: Bridge) -> None:
 def go_on(bridge: Bridge, lasts: float) -> None:
     """Command on for so long by the emulator's clock."""
     end = bridge.bench.status["time"] + lasts
-    bridge.pull([8.0, 0.0], lambda: bridge.bench.status["time"] > end)
+    bridge.command_until([8.0, 0.0], lambda: bridge.bench.status["time"] > end)
 
 
 def slack_time_after(bench, instant: float) -> float:

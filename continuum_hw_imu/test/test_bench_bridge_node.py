@@ -133,7 +133,7 @@ def test_bias_and_zero_are_refused_while_the_arm_moves(bridge):
 
 def test_no_tension_before_activation(bridge):
     bridge.wait_for_state("inactive")
-    bridge.pull([10.0, 0.0], lambda: bridge.probe.count(bridge.name, "dropped: not active") > 3)
+    bridge.command_until([10.0, 0.0], lambda: bridge.probe.count(bridge.name, "dropped: not active") > 3)
     assert not np.any(bridge.bench.truth()["set_point"])
 
 
