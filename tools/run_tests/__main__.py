@@ -1,15 +1,22 @@
 """`make test` in three parts, and `make quick`.
 
-Tests that start nodes wait more than they compute: three files at a time, each module in a separate ROS domain. Unit
-tests compute: one file for each core. The hidden effects share out their cases themselves.
+Tests that start nodes wait more than they compute: three files at a time, each module in a separate ROS domain. What
+only computes has the rest of the processor meanwhile, at a lower priority: unit tests, one file for each core, then the
+hidden effects, which share out their cases themselves.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
+import signal
 import subprocess
 import sys
+import tempfile
 import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor, wait
+from dataclasses import dataclass
 from typing import Final
 
 _SIDE_BY_SIDE: Final = ("--dist=loadfile", "--numprocesses=auto", "--maxprocesses=4")
@@ -17,15 +24,30 @@ PARTS: Final = {
     "nodes": ("--dist=loadfile", "--numprocesses=3"),
     "units": _SIDE_BY_SIDE,
     "hidden-effects": (),
+    "quick": _SIDE_BY_SIDE,
 }
-"""What pytest is told for each part of all tests; ``--part`` is an option of ``conftest.py``."""
-
-QUICK: Final = {"quick": _SIDE_BY_SIDE}
-"""The fast ones of the unit tests alone."""
-
+"""pytest's options for each part, which ``--part``, an option of ``conftest.py``, names; "quick" is some of "units"."""
+FIRST: Final = ("nodes",)
+REST: Final = ("units", "hidden-effects")
 
 PASSED, INTERRUPTED, NOTHING_TO_RUN = 0, 2, 5
 """Exit codes of pytest."""
+_LOWER_PRIORITY: Final = ("nice", "-n", "10")
+_SHOWN_EVERY = 0.2  # [s]
+_MOST_SHOWN = 1 << 24  # bytes at a time; less than that comes between two times
+
+
+@dataclass(frozen=True)
+class Ended:
+    """One part, pytest's exit code and how long it took [s]."""
+
+    part: str
+    code: int
+    seconds: float
+
+    def __str__(self) -> str:
+        word = {PASSED: "passed", NOTHING_TO_RUN: "nothing to run"}.get(self.code, "failed")
+        return f"{self.part}: {word}, {self.seconds:.0f} s"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -33,17 +55,40 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="run_tests", description="Further arguments are given to pytest.")
     parser.add_argument("--quick", action="store_true", help="the fast unit tests alone")
     options, given = parser.parse_known_args(arguments)
-    codes, lines = list[int](), list[str]()
-    for part, how in (QUICK if options.quick else PARTS).items():
+    before = signal.signal(signal.SIGINT, lambda *_: None)  # pytest has it too, and ends with its report
+    try:
+        ended = run(("quick",), given) if options.quick else run_all(given)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    print(*ended, sep="\n", flush=True)
+    return exit_code([one.code for one in ended])
+
+
+def run_all(given: Sequence[str]) -> list[Ended]:
+    """Run what starts nodes and show it; the rest meanwhile at a lower priority, shown after it."""
+    with tempfile.TemporaryFile("w+") as out, ThreadPoolExecutor(1) as pool:
+        rest = pool.submit(run, REST, given, _LOWER_PRIORITY, out.fileno())
+        first = run(FIRST, given)
+        shown, done = 0, False
+        while not done:
+            done = bool(wait([rest], _SHOWN_EVERY).done)
+            text = os.pread(out.fileno(), _MOST_SHOWN, shown)
+            shown += sys.stdout.buffer.write(text)
+            sys.stdout.flush()
+        return [*first, *rest.result()]
+
+
+def run(parts: Sequence[str], given: Sequence[str], prefix: Sequence[str] = (), out: int | None = None) -> list[Ended]:
+    """Run parts one after the other, until one is interrupted; ``out`` is a file's descriptor."""
+    ended: list[Ended] = []
+    for part in parts:
         began = time.monotonic()
-        command = [sys.executable, "-m", "pytest", f"--part={part}", *how, *given]
-        codes.append(subprocess.run(command, check=False).returncode)
-        word = {PASSED: "passed", NOTHING_TO_RUN: "nothing to run"}.get(codes[-1], "failed")
-        lines.append(f"{part}: {word}, {time.monotonic() - began:.0f} s")
-        if codes[-1] == INTERRUPTED:
+        command = [*prefix, sys.executable, "-m", "pytest", f"--part={part}", *PARTS[part], *given]
+        code = subprocess.run(command, check=False, stdout=out, stderr=out).returncode
+        ended.append(Ended(part, code, time.monotonic() - began))
+        if code == INTERRUPTED:
             break
-    print("\n".join(lines), flush=True)
-    return exit_code(codes)
+    return ended
 
 
 def exit_code(codes: list[int]) -> int:

@@ -32,6 +32,8 @@ from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.planar.link_coupling import mass_moments
 from continuum.dynamics.planar.motion import Motion
 
+_SETTLED = 1e-13  # a step of Newton's method this small [rad] is rounding
+
 
 class BaseCompliance(Effect):
     """A spring and a damper under the base plate."""
@@ -84,11 +86,15 @@ class BaseCompliance(Effect):
 
     def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
         """The plate turned by the resting arm's weight."""
-        psi, of_links = np.zeros(1), np.sum(link_gravity_torque(np.cumsum(theta), p))
+        psi, of_links = 0.0, float(np.sum(link_gravity_torque(np.cumsum(theta), p)))
+        compliance, weight = own["compliance"].item(), (p.gravity * _first_moment(p)).item()
         for _ in range(20):  # Newton's method; the moment changes by less than its size when the plate turns a radian
-            moment = of_links + _hanging(psi, p)
-            slope = p.gravity * _first_moment(p) * np.cos(p.hang_angle + psi)
-            psi = psi - (psi + own["compliance"] * moment) / (1 + own["compliance"] * slope)
+            leaning = p.hang_angle.item() + psi
+            slope = 1 + compliance * weight * np.cos(leaning)
+            step = (psi + compliance * (of_links + weight * np.sin(leaning))) / slope
+            psi -= step
+            if abs(step) < _SETTLED:
+                break
         return np.append(psi, 0.0)
 
     def _moment(self, now: Instant, own: Own, state: Numbers) -> Numbers:
