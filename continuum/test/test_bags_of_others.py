@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from recorded_runs import START, TYPES, message, typestore, write
+from recorded_runs import ARM, START, TYPES, joint_state, message, postures, typestore, write
+from recorded_runs import STAMPS as RUN_STAMPS
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from swing_bag import ANGLES, PULL, RATES, ROWS, STAMPS, stamped, swing
 
@@ -102,3 +103,29 @@ def test_a_message_without_rates_is_left_out_where_others_have_some(tmp_path: Pa
     found = read_recording_bag(write(tmp_path / "swing", topics))
     np.testing.assert_array_equal(found.theta_rate, np.delete(RATES, 7, axis=0))
     assert len(found.notes) == 1
+
+
+@pytest.mark.parametrize("order", ["in turn", "one after the other", "at random"])
+def test_sections_that_publish_their_joints_each_are_one_arm(tmp_path: Path, order: str) -> None:
+    """As in the mode of the launch file in which cables move the arm: whatever the order in which messages arrive."""
+    whole = [joint_state(stamp, w) for stamp, w in zip(RUN_STAMPS, postures()[0], strict=True)]
+    parts = [
+        [
+            message(TYPES["/joint_states"], stamp, name=[one.name[k] for k in mine], position=one.position[mine])
+            for one, stamp in zip(whole, RUN_STAMPS, strict=True)
+            for mine in [[k for k, name in enumerate(one.name) if name.startswith(section.name)]]
+        ]
+        for section in ARM.sections
+    ]
+    arriving = [part for parts_of_one in zip(*parts, strict=True) for part in parts_of_one]
+    if order == "one after the other":
+        arriving = [part for messages in parts for part in messages]
+    if order == "at random":
+        turns = np.random.default_rng(0).permutation(np.repeat(range(len(parts)), len(whole)))
+        queues = [iter(messages) for messages in parts]
+        arriving = [next(queues[k]) for k in turns]
+    expected = read_tracks(write(tmp_path / "whole", {"/joint_states": whole})).joints
+    found = read_tracks(write(tmp_path / "parts", {"/joint_states": arriving})).joints
+    np.testing.assert_array_equal(found.times, expected.times)
+    places = [found.names.index(name) for name in expected.names]
+    np.testing.assert_array_equal(found.values[:, places], expected.values)
