@@ -45,12 +45,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     kept: list[pytest.Item] = []
     left_out: list[pytest.Item] = []
     for item in items:
-        (kept if part in _parts_of(item) else left_out).append(item)
+        (kept if part in parts_of(item) else left_out).append(item)
     config.hook.pytest_deselected(items=left_out)
     items[:] = kept
 
 
-def _parts_of(item: pytest.Item) -> tuple[str, ...]:
+def parts_of(item: pytest.Item) -> tuple[str, ...]:
     """The part of a test, and "quick" where it is one of the fast ones."""
     if item.get_closest_marker("ros"):
         return ("nodes",)

@@ -17,7 +17,7 @@ COLUMNS = "t_s,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,u1_N,u2_N"
 
 @pytest.fixture(scope="module")
 def case() -> Case:
-    return moreau.make_case(["backlash"], **SHORT)
+    return moreau.make_case(["inertia"], **SHORT)
 
 
 def test_the_plant_shares_no_code_with_the_library_nor_with_mujoco() -> None:
@@ -33,11 +33,11 @@ def test_the_plant_shares_no_code_with_the_library_nor_with_mujoco() -> None:
 
 
 def test_a_seed_gives_the_same_bytes_again(case: Case) -> None:
-    assert moreau.make_case(["backlash"], **SHORT).files == case.files
+    assert moreau.make_case(["inertia"], **SHORT).files == case.files
 
 
 def test_another_seed_gives_other_bytes(case: Case) -> None:
-    other = moreau.make_case(["backlash"], **(SHORT | {"seed": 12}))
+    other = moreau.make_case(["inertia"], **(SHORT | {"seed": 12}))
     assert all(other.files[name] != content for name, content in case.files.items())
 
 
@@ -46,7 +46,7 @@ def test_files_hold_angles_and_tensions_and_no_rates(case: Case) -> None:
 
 
 def test_a_seed_draws_the_same_as_in_the_other_plant(case: Case) -> None:
-    assert case.truth.plain() == plant.make_case(["backlash"], **SHORT).truth.plain()
+    assert case.truth.plain() == plant.make_case(["inertia"], **SHORT).truth.plain()
 
 
 def test_a_drawn_case_holds_what_is_planned() -> None:
@@ -57,7 +57,7 @@ def test_a_drawn_case_holds_what_is_planned() -> None:
 def test_a_case_is_written_as_any(case: Case, tmp_path: Path) -> None:
     paths = moreau.write_case(case, tmp_path / "data", tmp_path / "truth.json")
     assert [path.read_bytes() for path in paths] == [case.files[name] for name in sorted(case.files)]
-    assert "backlash" in (tmp_path / "truth.json").read_text()
+    assert "inertia" in (tmp_path / "truth.json").read_text()
 
 
 @pytest.mark.parametrize("noise", ["low", "ordinary", "high"])

@@ -18,12 +18,12 @@ SEED = 3
 FADED = dict.fromkeys(EFFECTS, 0.0005) | {"elastic_cable": 0.0, "backlash": 0.0, "presliding": 2e-3}
 
 
-def measured(regime: str, *effects: str, size: str | float = "medium", seconds: float = 2.0) -> Case:
+def measured(regime: str, *effects: str, size: str | float = "medium", seconds: float = 1.0) -> Case:
     return make_case(effects, size, [regime], SEED, seconds=seconds)
 
 
 @cache
-def clean(regime: str, seconds: float = 2.0) -> Case:
+def clean(regime: str, seconds: float = 1.0) -> Case:
     return measured(regime, seconds=seconds)
 
 

@@ -6,16 +6,17 @@ or what sliding costs. The sliding is that of the cable beyond the disc, so the 
 to the tip.
 """
 
+import numba
 import numpy as np
 
 from blind.plant.parameters import JOINTS
 
 LEAST = 1e-9  # friction must be positive for its rows to stay where they are among the constraints [N]
 NEIGHBOURS = np.eye(JOINTS) + np.eye(JOINTS, k=-1)  # adds each joint's angle and that of the one before
-UP_TO = np.triu(np.ones((JOINTS, JOINTS)), 1) + 0.5 * np.eye(JOINTS)  # sums friction up to the middle of each disc
 
 
-def friction_limits(angle: np.ndarray, pull: np.ndarray, force: np.ndarray, mu: float) -> np.ndarray:
+@numba.njit(cache=True)
+def friction_limits(angle, pull, force, mu):  # type: ignore[no-untyped-def]
     """Largest friction at each disc (2, 5) [N].
 
     Args:
@@ -24,8 +25,15 @@ def friction_limits(angle: np.ndarray, pull: np.ndarray, force: np.ndarray, mu: 
         force: friction at the discs one step ago (2, 5) [N], positive where it lengthens the cable beyond.
         mu: coefficient of friction.
     """
-    mean = pull[:, None] - force @ UP_TO
-    return np.maximum(2 * mu * np.sin(np.abs(NEIGHBOURS @ angle) / 4) * mean, LEAST)
+    limits = np.empty_like(force)
+    for cable in range(pull.size):
+        tension, before = pull[cable], 0.0
+        for disc in range(angle.size):
+            turn = abs(before + angle[disc]) / 2
+            mean = tension - 0.5 * force[cable, disc]
+            limits[cable, disc] = max(2 * mu * np.sin(turn / 2) * mean, LEAST)
+            tension, before = tension - force[cable, disc], angle[disc]
+    return limits
 
 
 def belt_like_ratio(angle: np.ndarray, mu: float) -> np.ndarray:

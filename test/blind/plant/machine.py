@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import mujoco
+import numba
 import numpy as np
 
 from blind.plant.cable_friction import LEAST, friction_limits
@@ -95,6 +96,7 @@ class Machine:
         self.angle, self.rate, self.pulling = np.zeros(JOINTS), np.zeros(JOINTS), np.zeros(len(CABLES))
         self.torque, self.coulomb = np.zeros(self.model.nv), p.coulomb.copy()
         self.cable_force = np.zeros((len(CABLES), JOINTS))  # friction at the discs [N], as in cable_friction
+        self._rubbed = False  # in the step before
         self._velocity = np.zeros(self.model.nv)  # at the instant of the positions
         self._earlier = np.zeros(self.model.nv)  # half a step before ``data.qvel``'s
         mujoco.mj_forward(self.model, self.data)
@@ -139,17 +141,17 @@ class Machine:
                 pulling = pull(pulling)
         self.pulling = pulling
         self.torque = -self._half_damping * velocity
-        slow = np.exp(-(np.abs(self._velocity[self.hinge] / p.stribeck_rate) ** p.stribeck_exponent))
-        self.coulomb = p.coulomb * (1 + p.stribeck * slow)
+        self.coulomb = _dry(self._velocity, self.hinge, p.coulomb, p.stribeck, p.stribeck_rate, p.stribeck_exponent)
         for act in self._acts:
             act()
         self._applied[:] = self.torque
         self._dry[self.hinge] = np.maximum(self.coulomb, LEAST)
         self._control[:] = pulling
-        rubbing = bool(pulling.any())
-        self._cables_dry[:] = (
-            friction_limits(self.angle, pulling, self.cable_force, p.cable_friction).ravel() if rubbing else 0.0
-        )
+        rubbing = pulling[0] != 0.0 or pulling[1] != 0.0
+        if rubbing:
+            self._cables_dry[:] = friction_limits(self.angle, pulling, self.cable_force, p.cable_friction).ravel()
+        else:
+            self._cables_dry[:] = 0.0
         earlier = velocity.copy()
         change = earlier - self._earlier
         self._earlier = earlier
@@ -166,14 +168,13 @@ class Machine:
         if rubbing:  # the first rows of the constraints are the hinges' friction, the next ones the cables'
             rows = self.data.efc_force[JOINTS : (len(CABLES) + 1) * JOINTS]
             self.cable_force = rows.reshape(len(CABLES), JOINTS).copy()
-        elif self.cable_force.any():
+        elif self._rubbed:
             self.cable_force = np.zeros((len(CABLES), JOINTS))
+        self._rubbed = rubbing
         self.time += self.dt
 
     def _look(self) -> None:
-        self._velocity = 1.5 * self._v - 0.5 * self._earlier
-        self.angle = self.joints @ self._q
-        self.rate = self.joints @ self._velocity
+        self._velocity, self.angle, self.rate = _now(self._q, self._v, self._earlier, self.joints)
 
     def settle(self, command: np.ndarray, duration: float = SETTLING) -> None:
         """Hold the tensions (2,) [N] for some time, and call its end time zero."""
@@ -221,3 +222,25 @@ class Machine:
                     now = now + (command[row + 1] - now) * (part / self.steps)
                 self.step(now, jump=part == 0)
         return Motion(np.arange(count) / (RATE * KEPT), angle, rate, rows)
+
+
+@numba.njit(cache=True)
+def _now(q, v, earlier, joints):  # type: ignore[no-untyped-def]
+    """Velocities at the instant of the positions (nv,), and angles and rates of the joints (5,)."""
+    velocity = 1.5 * v - 0.5 * earlier
+    angle, rate = np.zeros(len(joints)), np.zeros(len(joints))
+    for joint in range(len(joints)):
+        for dof in range(q.size):
+            angle[joint] += joints[joint, dof] * q[dof]
+            rate[joint] += joints[joint, dof] * velocity[dof]
+    return velocity, angle, rate
+
+
+@numba.njit(cache=True)
+def _dry(velocity, hinge, coulomb, stribeck, stribeck_rate, exponent):  # type: ignore[no-untyped-def]
+    """Dry friction of the hinges (5,) [N m]: Coulomb's, and Stribeck's where they turn slowly."""
+    limit = np.empty(hinge.size)
+    for k in range(hinge.size):
+        slow = np.exp(-(abs(velocity[hinge[k]] / stribeck_rate[k]) ** exponent))
+        limit[k] = coulomb[k] * (1 + stribeck[k] * slow)
+    return limit

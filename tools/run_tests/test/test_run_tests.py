@@ -12,12 +12,6 @@ from tools.run_tests import __main__ as run_tests
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[3]
-FILES = (
-    "continuum/test/test_arm.py",
-    "continuum/test/test_fabrikc.py",
-    "test/blind/test_hidden_effects.py",
-    "tools/ros2/test/test_graph.py",
-)
 
 
 @pytest.mark.parametrize(
@@ -42,14 +36,19 @@ def test_a_failure_of_any_part_is_one_of_the_whole(codes, whole, monkeypatch):
     assert all(command[-2:] == ["-k", "cable"] for command in commands)
 
 
-def collected(*options: str) -> list[str]:
-    command = [sys.executable, "-m", "pytest", "--collect-only", "-q", *options, *FILES]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True, timeout=120)
-    return [line for line in done.stdout.splitlines() if "::" in line]
+@pytest.mark.parametrize("markers", [(), ("slow",), ("ros",), ("ros", "slow"), ("hidden_effects",)])
+def test_each_test_is_in_one_part(markers: tuple[str, ...], request: pytest.FixtureRequest) -> None:
+    item = SimpleNamespace(get_closest_marker=lambda name: name if name in markers else None)
+    conftest = request.config.pluginmanager.get_plugin(str(ROOT / "conftest.py"))
+    parts = conftest.parts_of(item)
+    assert len({*run_tests.FIRST, *run_tests.REST}.intersection(parts)) == 1
+    assert ("quick" in parts) == (not markers)
+    assert set(parts) <= set(run_tests.PARTS)
 
 
-def test_each_test_is_in_one_part():
-    parts = {part: collected(f"--part={part}") for part in (*run_tests.FIRST, *run_tests.REST)}
-    assert all(parts.values())
-    assert sorted(test for part in parts.values() for test in part) == sorted(collected())
-    assert set() < set(collected("--part=quick")) < set(parts["units"])
+@pytest.mark.parametrize("part", run_tests.PARTS)
+def test_pytest_takes_the_parts(part: str) -> None:
+    file = "tools/run_tests/test/test_run_tests.py"
+    command = [sys.executable, "-m", "pytest", "--collect-only", "-q", f"--part={part}", file]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=120)
+    assert ("::" in done.stdout) == (part == "units")
