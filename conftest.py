@@ -6,9 +6,10 @@ files below, before it calls any hook: hence at import.
 """
 
 import importlib
+import re
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 import pytest
@@ -50,13 +51,32 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items[:] = kept
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out modules that hold nothing of the part, before they are imported: that takes longer than their text."""
+    part = config.getoption("part")
+    if part is None or not re.fullmatch(r"test_.*\.py", collection_path.name):
+        return None
+    text = collection_path.read_text(encoding="utf-8")
+    single = {(), *((name,) for name in _MARK.findall(text))}
+    whole = tuple(_WHOLE_MODULE.findall(text))
+    return not any(part in _parts({*marks, *whole}) for marks in single) or None
+
+
+_MARK = re.compile(r"\bmark\.(ros|hidden_effects|slow)\b")
+_WHOLE_MODULE = re.compile(r"^pytestmark = .*\bmark\.(ros|hidden_effects|slow)\b", re.MULTILINE)
+
+
 def parts_of(item: pytest.Item) -> tuple[str, ...]:
     """The part of a test, and "quick" where it is one of the fast ones."""
-    if item.get_closest_marker("ros"):
+    return _parts({name for name in ("ros", "hidden_effects", "slow") if item.get_closest_marker(name)})
+
+
+def _parts(markers: Collection[str]) -> tuple[str, ...]:
+    if "ros" in markers:
         return ("nodes",)
-    if item.get_closest_marker("hidden_effects"):
+    if "hidden_effects" in markers:
         return ("hidden-effects",)
-    return ("units",) if item.get_closest_marker("slow") else ("units", "quick")
+    return ("units",) if "slow" in markers else ("units", "quick")
 
 
 sys.path.append(str(Path(__file__).parent / "test"))  # for the package harness
