@@ -79,12 +79,16 @@ def run_all(given: Sequence[str]) -> list[Ended]:
 
 
 def run(parts: Sequence[str], given: Sequence[str], prefix: Sequence[str] = (), out: int | None = None) -> list[Ended]:
-    """Run parts one after the other, until one is interrupted; ``out`` is a file's descriptor."""
+    """Run parts one after the other, until one is interrupted; ``out`` is a file's descriptor.
+
+    pytest keeps the test modules that it has rewritten, whatever the caller wants of byte code.
+    """
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     ended: list[Ended] = []
     for part in parts:
         began = time.monotonic()
         command = [*prefix, sys.executable, "-m", "pytest", f"--part={part}", *PARTS[part], *given]
-        code = subprocess.run(command, check=False, stdout=out, stderr=out).returncode
+        code = subprocess.run(command, check=False, stdout=out, stderr=out, env=environment).returncode
         ended.append(Ended(part, code, time.monotonic() - began))
         if code == INTERRUPTED:
             break
