@@ -6,26 +6,30 @@ from typing import Any
 
 from llvmlite import ir
 from numba import types
-from numba.core import cgutils
 from numba.extending import intrinsic
 
+from continuum.dynamics.integration.compiled_loops import compiled
 
-def _call_at(typing: Any, address: Any, given: Any, wanted: Any) -> Any:
-    """``call_at(address, given, wanted)`` in numba's terms: its signature, and the code that it becomes."""
-    _ = typing, address
+
+@compiled
+def call_at(address, given, wanted):  # type: ignore[no-untyped-def]
+    """Call ``void f(const double *given, double *wanted)`` with contiguous arrays of floats."""
+    _call(address, given.ctypes.data, wanted.ctypes.data)
+
+
+def _generated(typing: Any, address: Any, given: Any, wanted: Any) -> Any:
+    """The same with the addresses of the data, in numba's terms: its signature, and the code that it becomes."""
+    _ = typing, address, given, wanted
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        double_pointer = ir.DoubleType().as_pointer()
-        function = ir.FunctionType(ir.VoidType(), [double_pointer, double_pointer])
-        pointers = [
-            cgutils.create_struct_proxy(kind)(context, builder, value=value).data  # type: ignore[no-untyped-call]
-            for kind, value in zip(signature.args[1:], arguments[1:], strict=True)
-        ]
-        builder.call(builder.inttoptr(arguments[0], function.as_pointer()), pointers)
+        _ = signature
+        pointer = ir.DoubleType().as_pointer()
+        function = ir.FunctionType(ir.VoidType(), [pointer, pointer]).as_pointer()
+        address, *data = arguments
+        builder.call(builder.inttoptr(address, function), [builder.inttoptr(one, pointer) for one in data])
         return context.get_dummy_value()
 
-    return types.void(types.int64, given, wanted), generate
+    return types.void(types.int64, types.int64, types.int64), generate
 
 
-call_at: Any = intrinsic(_call_at)
-"""``call_at(address, given, wanted)``: ``void f(const double *given, double *wanted)``, contiguous arrays of floats."""
+_call: Any = intrinsic(_generated)
