@@ -39,17 +39,6 @@ def test_a_written_arm_is_read_back(scratch: Path, keys: tuple[str, ...], arm: A
     assert load_arm(str(scratch)) == arm
 
 
-def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(FileError) as caught:
-        load_arm(tmp_path / "none.yaml")
-    assert str(caught.value).startswith(f"{tmp_path / 'none.yaml'}: cannot be read")
-
-
-def test_a_folder_is_no_file(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="cannot be read"):
-        load_arm(tmp_path)
-
-
 @pytest.mark.parametrize(
     "content",
     [
@@ -75,22 +64,6 @@ def test_a_file_that_holds_no_arm(scratch: Path, content: bytes) -> None:
         load_arm(scratch)
     assert caught.value.path == scratch
     assert "\n" not in str(caught.value)
-
-
-def test_a_wrong_value_is_named_as_in_the_file(scratch: Path) -> None:
-    scratch.write_text(ONE_SECTION.replace("0.02", "-0.02"), encoding="utf-8")
-    with pytest.raises(
-        InvalidValueError, match=r"arm\.yaml: arm\.s\.b is -0\.02; allowed: a finite number > 0 and <= 10 m$"
-    ):
-        load_arm(scratch)
-
-
-@LAW
-@given(pieces=st.lists(st.sampled_from(PIECES), max_size=25))
-def test_any_text_is_an_arm_or_refused(scratch: Path, pieces: list[str]) -> None:
-    scratch.write_text("".join(pieces), encoding="utf-8")
-    with pytest.raises((FileError, InvalidValueError)):
-        load_arm(scratch)
 
 
 @LAW

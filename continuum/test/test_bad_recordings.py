@@ -97,15 +97,6 @@ def test_too_few_messages(tmp_path: Path, topic: str, count: int) -> None:
         report_on(read(write(tmp_path / "recording", topics)))
 
 
-def test_no_recording(tmp_path: Path) -> None:
-    for path, told in (
-        (tmp_path / "nowhere", "is not a readable rosbag2 recording"),
-        (tmp_path, r"is not a readable rosbag2 recording \(it has no metadata.yaml\)"),
-    ):
-        with pytest.raises(FileError, match=told):
-            Bag(path)
-
-
 @pytest.fixture(scope="module", params=list(StoragePlugin))
 def short_recording(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
     topics = {topic: messages[: 8 * len(messages) // N] for topic, messages in run().items()}

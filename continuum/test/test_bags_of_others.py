@@ -8,7 +8,7 @@ import pytest
 from recorded_runs import ARM, START, TYPES, joint_state, message, postures, typestore, write
 from recorded_runs import STAMPS as RUN_STAMPS
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
-from swing_bag import ANGLES, PULL, RATES, ROWS, STAMPS, stamped, swing
+from swing_bag import ANGLES, PULL, RATES, STAMPS, stamped, swing
 
 from continuum.cli.diagnose import read_recording
 from continuum.errors import FileError
@@ -74,19 +74,6 @@ def test_others_among_the_cables_are_left_out_and_counted(tmp_path: Path) -> Non
     found = read_recording_bag(folder)
     np.testing.assert_allclose(found.pull.values, PULL, rtol=0, atol=1e-12)
     assert found.notes == read_tracks(folder).notes == ("1 message of others on /cable_states (winch), left out",)
-
-
-def test_two_runs_that_begin_at_other_times_are_refused(tmp_path: Path) -> None:
-    topics = swing()
-    for messages in topics.values():
-        again = deepcopy(messages)
-        for one, stamp in zip(again, STAMPS, strict=True):
-            stamped(one, stamp - 300_000_000)
-        messages.extend(again)
-    folder = write(tmp_path / "swing", topics)
-    for reader in (read_recording_bag, read_tracks):
-        with pytest.raises(FileError, match=f"message {ROWS + 1} .*backward"):
-            reader(folder)
 
 
 def test_degrees_are_not_shown_as_radians(tmp_path: Path) -> None:

@@ -5,17 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from dynamics_laws import random_model
+from test_model_file import assert_same
 
-from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model, model_from_mapping, save_model
 from continuum.dynamics.parameters import PARAMETERS
 from continuum.errors import InvalidValueError
-
-
-def assert_same(found: Model, expected: Model) -> None:
-    assert list(found.values()) == list(expected.values())
-    for name, value in expected.values().items():
-        np.testing.assert_array_equal(found.values()[name], value)
 
 
 def bare_chain(n_joints: int = 2) -> dict[str, object]:

@@ -169,33 +169,13 @@ def test_other_sources_are_compiled(make: Callable[[], Any], file: Path) -> None
     assert compiled_by(make()) == 1
 
 
-DAMAGES: dict[str, Callable[[bytes], bytes]] = {
-    "empty": lambda data: b"",
-    "cut": lambda data: data[: len(data) // 2],
-    "one byte short": lambda data: data[:-1],
-    "longer": lambda data: data + b"\0",
-    "bit in the index": lambda data: data[:99] + bytes([data[99] ^ 1]) + data[100:],
-    "bit in the code": lambda data: data[:-5000] + bytes([data[-5000] ^ 1]) + data[-4999:],
-    "zeros": lambda data: bytes(len(data)),
-}
-
-
-@pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
+@pytest.mark.parametrize("damage", [lambda data: data[: len(data) // 2], lambda data: data[:-1] + b"\0"])
 def test_what_was_damaged_is_compiled_again(
     make: Callable[[], Any], file: Path, damage: Callable[[bytes], bytes]
 ) -> None:
     compiled_by(make())
     (archive,) = kept(file.parent)
     archive.write_bytes(damage(archive.read_bytes()))
-    assert compiled_by(make()) == 1
-    assert compiled_by(make()) == 0
-
-
-def test_what_cannot_be_read_is_compiled_and_kept_elsewhere(make: Callable[[], Any], file: Path) -> None:
-    compiled_by(make())
-    (archive,) = kept(file.parent)
-    archive.unlink()
-    archive.mkdir()
     assert compiled_by(make()) == 1
     assert compiled_by(make()) == 0
 

@@ -56,29 +56,6 @@ def test_it_is_compiled_once(cache: Path, compilations: list[object]) -> None:
     assert len(list(cache.rglob("*.so"))) == 1
 
 
-@pytest.mark.parametrize(
-    "damage",
-    [
-        lambda data: b"",
-        lambda data: data[:1000],
-        lambda data: data[:-32],
-        lambda data: data[:-33] + bytes([data[-33] ^ 1]) + data[-32:],
-        lambda data: bytes(len(data)),
-    ],
-    ids=["empty", "cut", "without a digest", "a bit", "zeros"],
-)
-def test_a_damaged_file_is_made_again(
-    cache: Path, compilations: list[object], damage: Callable[[bytes], bytes]
-) -> None:
-    triple(1.0)
-    (library,) = cache.rglob("*.so")
-    data = library.read_bytes()
-    library.unlink()  # what is loaded must stay as it is
-    library.write_bytes(damage(data))
-    assert [triple(2.0), triple(4.0)] == [6.0, 12.0]
-    assert len(compilations) == 2
-
-
 def test_a_file_of_another_kind_of_machine_is_not_loaded(
     cache: Path, compilations: list[object], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,7 +4,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from command_line import THREE, Captured, code, refused
+from command_line import THREE, Captured, code
 from full_disk import at_most
 
 from continuum.errors import FileError
@@ -69,20 +69,6 @@ def test_a_command_on_a_full_disk_leaves_the_old_file(capsys: Captured, tmp_path
     assert line.startswith(f"continuum: {out}: cannot be written (")
     assert out.read_text(encoding="utf-8") == "old"
     assert {path.name for path in tmp_path.iterdir()} == {"first.png", "out.png"}
-
-
-def test_a_command_writes_through_a_dangling_link(tmp_path: Path) -> None:
-    (tmp_path / "link.csv").symlink_to("target.csv")
-    assert code(*RELEASE, "--csv", tmp_path / "link.csv") == 0
-    assert (tmp_path / "link.csv").is_symlink()
-    assert (tmp_path / "target.csv").read_text(encoding="utf-8").startswith("t_s,")
-
-
-def test_a_command_whose_output_is_its_input_by_a_hard_link_is_refused(capsys: Captured, tmp_path: Path) -> None:
-    table, out = tmp_path / "tensions.csv", tmp_path / "out.csv"
-    table.write_text("t_s,u1_N,u2_N\n0,0,0\n1,5,0\n", encoding="utf-8")
-    out.hardlink_to(table)
-    assert "is read" in refused(capsys, "simulate", "--tensions", table, "--csv", out)
 
 
 def test_what_cannot_be_printed_is_one_line() -> None:

@@ -15,6 +15,7 @@ from swing_bag import ANGLES, JOINTS, PULL, RATES, ROWS, STAMPS, T, stamped, swi
 from continuum.cli.diagnose import read_recording
 from continuum.errors import FileError
 from continuum.recordings.recording_bag import read_recording_bag
+from continuum.viewer.tracks import read_tracks
 
 
 def backwards(topics: Topics) -> None:
@@ -103,10 +104,6 @@ def turned(topics: Topics) -> None:
     topics["/joint_states"][3].position[0] = np.nan
 
 
-def pushing(topics: Topics) -> None:
-    topics["/cable_states"][50].effort = np.array([1.0, -2.0])
-
-
 def tensions_end_early(topics: Topics) -> None:
     del topics["/cable_states"][45:]
 
@@ -121,10 +118,6 @@ def without_stamps(topics: Topics) -> None:
         stamped(one, 0)
 
 
-def in_two_parts(topics: Topics) -> None:
-    del topics["/joint_states"][30:65]
-
-
 def silent(topics: Topics) -> None:
     topics["/joint_states"].clear()
 
@@ -136,11 +129,9 @@ def silent(topics: Topics) -> None:
         (other_cable, "holds no section_1_cable_1"),
         (no_bending_joint, "has the sections none on /joint_states; one that bends in a plane"),
         (turned, "turns its plane by section_1_phi"),
-        (pushing, "message 51: tension -2 N; a cable cannot push"),
         (tensions_end_early, r"has 3\d bad messages of 90; .*: messages 5\d, .*\.\. without a finite value"),
         (two_clocks, "has no message on /cable_states within 0.1 s"),
         (without_stamps, "has no message on /joint_states with a stamp"),
-        (in_two_parts, "messages 30 to 31: a gap of 0.3 s"),
         (silent, "has no message on /joint_states"),
     ],
 )
@@ -156,11 +147,6 @@ def test_an_arm_of_two_sections_is_refused(tmp_path: Path) -> None:
         read_recording_bag(write(tmp_path / "run", kinematic_run()))
 
 
-def test_no_recording(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="not a readable rosbag2 recording"):
-        read_recording_bag(tmp_path)
-
-
 @pytest.mark.parametrize(("first", "by", "shift"), [(45, 45, 0), (45, 6, 3_000_000), (30, 12, 0)])
 def test_a_clock_that_steps_back_is_refused(tmp_path: Path, first: int, by: int, shift: int) -> None:
     """Two runs in one bag, and a clock that was set back; its stamps may be the earlier ones or between these."""
@@ -169,8 +155,10 @@ def test_a_clock_that_steps_back_is_refused(tmp_path: Path, first: int, by: int,
     for messages in topics.values():
         for one, stamp in zip(messages, stamps, strict=True):
             one.header.stamp.sec, one.header.stamp.nanosec = divmod(int(stamp), 10**9)
-    with pytest.raises(FileError, match=f"message {first + 1} .*backward"):
-        read_recording_bag(write(tmp_path / "swing", topics))
+    folder = write(tmp_path / "swing", topics)
+    for reader in (read_recording_bag, read_tracks):
+        with pytest.raises(FileError, match=f"message {first + 1} .*backward"):
+            reader(folder)
 
 
 @pytest.mark.parametrize("places", [[0], list(range(0, 180, 2))])
@@ -182,12 +170,6 @@ def test_others_on_the_topic_are_left_out_and_counted(tmp_path: Path, places: li
     found = read_recording_bag(write(tmp_path / "swing", topics))
     np.testing.assert_array_equal(found.theta, ANGLES)
     assert [note for note in found.notes if "gripper" in note and str(len(places)) in note]
-
-
-def test_the_storage_file_is_the_recording(tmp_path: Path) -> None:
-    folder = write(tmp_path / "swing", swing())
-    (storage,) = (path for path in folder.iterdir() if path.suffix != ".yaml")
-    np.testing.assert_array_equal(read_recording(str(storage)).theta, ANGLES)
 
 
 @pytest.mark.parametrize("definition", ["", "this ; is no definition", "unknown_msgs/Other value"])

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -174,8 +173,6 @@ def changed(column: str, rows: slice, values: str | Callable[[float], float]) ->
     [
         (changed("t_s", slice(50, None), lambda t: t - 0.3), "row 52: time runs backward, to 0.116667 s; are these"),
         (changed("t_s", slice(50, None), lambda t: t + 0.3), "rows 51 to 52: a gap of 0.308 s"),
-        (changed("t_s", slice(None), lambda t: 1000 * t), "rows .*: a gap of 8.33 s.*time in milliseconds"),
-        (changed("u2_N", slice(33, 34), "-0.5"), "row 35: tension -0.5 N; a cable cannot push"),
         (changed("u2_N", slice(33, 63), "1e300"), r"row 35, u2: a tension of 1e\+300 N; .*: another unit"),
         (changed("q1_rad", slice(None), np.degrees), "row .*: a joint angle of 17.2 rad; .* degrees taken for"),
         (changed("q2_rad", slice(2, 30), ""), r"has 28 bad rows of 120; at most a tenth .* 10, 11, \.\. without"),
@@ -201,10 +198,6 @@ def changed(column: str, rows: slice, values: str | Callable[[float], float]) ->
         ),
         ({name: column[:20] for name, column in sway().items()}, "has 20 usable rows; at least 30 are needed"),
         (text_of(sway()).replace("dq1_rad_s", "q1_rad"), "has the column 'q1_rad' twice"),
-        (text_of(sway()).replace("\n", ",7\n", 7), "row 8 has 7 cells, the header 8"),
-        (text_of(sway()).replace(".", ","), r"row 2 has 1[0-4] cells, the header 7; decimal commas\?"),
-        (changed("q1_rad", slice(8, 9), '"0,25"'), "row 10, column q1_rad: '0,25' is no number; decimals must be"),
-        (text_of(sway()).split("\n", 1)[1], "row 1 holds numbers; the first row must be the header"),
         ("", "is empty"),
         ("t_s,q1_deg\n", "has 0 usable rows"),
     ],
@@ -215,14 +208,11 @@ def test_what_cannot_be_repaired_is_refused(tmp_path: Path, table: Cells | str, 
         read_recording_csv(path)
 
 
-def test_no_file_and_no_text(tmp_path: Path) -> None:
+def test_no_file(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"none\.csv: cannot be read: No such file"):
         read_recording_csv(tmp_path / "none.csv")
     with pytest.raises(FileError, match="cannot be read: Is a directory"):
         read_recording_csv(tmp_path)
-    (tmp_path / "picture.csv").write_bytes(b"\x89PNG\r\n\x1a\n\0\0\0")
-    with pytest.raises(FileError, match="is no text file: a CSV file is needed"):
-        read_recording_csv(tmp_path / "picture.csv")
 
 
 NUMBERS = st.floats(width=64).map(repr) | st.integers(-(10**30), 10**30).map(str)
@@ -266,12 +256,3 @@ def test_any_table_is_read_or_refused(tmp_path: Path, header: list[str], data: s
         return
     assert found.n_joints >= 1
     assert found.times.size >= 30
-
-
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(junk=st.binary(max_size=200), whole=st.booleans())
-def test_any_bytes_are_read_or_refused(tmp_path: Path, junk: bytes, whole: bool) -> None:
-    path = tmp_path / "run.csv"
-    path.write_bytes(junk if whole else text_of(sway()).encode() + junk)
-    with suppress(FileError):
-        assert read_recording_csv(path).n_joints == 2

@@ -37,18 +37,6 @@ def test_a_few_are_left_out_and_named(block: str, value: float) -> None:
     assert found.times.size == T.size - 2
 
 
-@pytest.mark.parametrize(
-    ("block", "value", "column", "told"),
-    [
-        ("theta", 5.2, "q1", "angle of 5.2 rad; .* degrees taken for radians"),
-        ("pull", 1e300, "u1", "tension of .* another unit"),
-    ],
-)
-def test_many_are_refused(block: str, value: float, column: str, told: str) -> None:
-    with pytest.raises(FileError, match=f"row 42, {column}: a .*{told}"):
-        repaired(spoiled(block, slice(40, 70), value))
-
-
 def test_few_that_all_others_lead_up_to_are_of_another_unit() -> None:
     grown = replace(SWING, theta=SWING.theta * 3.15 / 0.3, rate=None)
     with pytest.raises(FileError, match=r"row 2, q1: a joint angle of 3\.15 rad; .* degrees taken for radians"):

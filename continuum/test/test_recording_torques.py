@@ -68,13 +68,6 @@ def test_torques_that_cannot_be_are_refused(
         read_recording_csv(write(tmp_path, change(driven())))
 
 
-def test_a_row_without_a_torque_is_left_out(tmp_path: Path) -> None:
-    table = driven()
-    table["tau1_Nm"][10] = ""
-    found = read_recording_csv(write(tmp_path, table))
-    assert found.notes == ("row 12 without a finite value in every column, left out",)
-
-
 def test_joints_with_drives_may_turn_further_than_joints_between_discs(tmp_path: Path) -> None:
     turning = {f"q{j + 1}_rad": [repr(7.0 * float(t)) for t in T] for j in range(2)}
     slow = {f"dq{j + 1}_rad_s": ["7.0"] * T.size for j in range(2)}

@@ -139,10 +139,3 @@ def test_table_of_joint_angles_is_a_recording(tmp_path):
     assert tracks.joints.at(0.1) == pytest.approx(
         {"section_1_theta_1": np.radians(10.0), "section_1_theta_2": np.radians(-10.0)}
     )
-
-
-def test_what_is_no_recording_is_told_in_one_line(tmp_path):
-    with pytest.raises(FileError, match="metadata"):
-        read_tracks(tmp_path)
-    with pytest.raises(FileError, match="cannot be read"):
-        read_tracks(tmp_path / "none.csv")
