@@ -85,15 +85,6 @@ def test_an_arm_that_nobody_told_of_is_pale_and_said_so(opened):
     assert page._plots._lengths.plot is not None
 
 
-def test_while_nothing_is_moved_the_page_says_that_first_comes_a_choice(opened):
-    remote = RemoteArm(ARM, 30.0)
-    page = opened(remote)
-    for choice, words in (("nothing", "Choose"), ("the target", "Drag"), ("nothing", "Choose")):
-        remote._leads._handle.value = choice
-        page.draw()
-        assert words in remote._controls._answer.content
-
-
 @given(st.floats(1e-3, np.pi))
 @example(np.pi)
 @example(1.2)
@@ -109,8 +100,10 @@ def test_measured_arm_is_the_ghost_of_the_simulated_one(opened):
     remote = RemoteArm(ARM, 30.0)
     page = opened(remote)
     simulated, measured = np.array([[0.1, 0.2], [-0.3, 0.1]]), np.array([[0.2, 0.2], [-0.3, 0.2]])
-    remote.tell(joints=joints_of(measured, ARM), simulated=joints_of(simulated, ARM))
-    page.draw()
+    for told in (joints_of(simulated, ARM), {}, joints_of(simulated, ARM)):
+        remote.tell(joints=joints_of(measured, ARM), simulated=told)
+        page.draw()
+        assert page._ghost.visible == bool(told)
     np.testing.assert_allclose(page._scene.tip, arm_pose(simulated, ARM)[:3, 3], atol=1e-9)
     np.testing.assert_allclose(page._ghost.poses[-1, :3, 3], arm_pose(measured, ARM)[:3, 3], atol=1e-9)
 
@@ -223,27 +216,6 @@ def test_all_of_the_arm_moves_with_its_joints(opened):
     page.draw()
     assert not scene._arrows.visible
     assert len(page._tip_trail._points) > 0
-
-
-def test_the_ghost_goes_with_the_simulated_arm(opened):
-    remote = RemoteArm(ARM, 30.0)
-    page = opened(remote)
-    angles = joints_of(np.full((2, 2), 0.2), ARM)
-    for simulated in (angles, {}, angles):
-        remote.tell(joints=angles, simulated=simulated)
-        page.draw()
-        assert page._ghost.visible == bool(simulated)
-
-
-def test_statuses_are_shown(opened):
-    remote = RemoteArm(ARM, 30.0)
-    page = opened(remote)
-    remote.tell(statuses=(Status("imu 3", 2, "silent"),))
-    page.draw()
-    assert "imu 3" in page._statuses._table.content
-    remote.tell(statuses=())
-    page.draw()
-    assert "Nobody" in page._statuses._table.content
 
 
 def test_a_target_out_of_reach_is_told(opened):

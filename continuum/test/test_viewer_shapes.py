@@ -12,7 +12,6 @@ from continuum.joint_names import theta_joints
 from continuum.kinematics.cable_lines import cable_lines
 from continuum.kinematics.chain import arm_pose, section_tip_poses
 from continuum.kinematics.configuration import allen_from_jones
-from continuum.kinematics.routing import tangle
 from continuum.viewer.cable_holes import CableHoles
 from continuum.viewer.description import arm_description
 from continuum.viewer.link_poses import LinkPoses
@@ -36,32 +35,6 @@ def test_links_stand_where_the_kinematics_says(n):
     poses = chain.poses(chain.angles(joints_of(w, arm)))
     tips = poses[[chain.links.index(section.tip_frame) for section in arm.sections]]
     np.testing.assert_allclose(tips, section_tip_poses(w, arm), atol=EXACT)
-
-
-def test_a_joint_with_an_angle_of_its_own_follows_none():
-    """A real arm's joints are bent differently: in a plane, angles add up."""
-    arm = usual_arm(1)
-    (section,) = arm.sections
-    chain = LinkPoses(arm_description(arm))
-    bends = [0.1, 0.3, -0.2, 0.25, 0.05]
-    tip = chain.poses(chain.angles(dict(zip(section.theta_joints, bends, strict=True))))[-1]
-    turned = np.cumsum(bends)
-    way = section.b * (np.array([0.0, 1.0]) + 2 * np.array([np.sin(turned), np.cos(turned)]).T.sum(axis=0))
-    np.testing.assert_allclose(tip[[0, 2], 3], way - section.b * np.array([np.sin(turned[-1]), np.cos(turned[-1])]))
-    assert tip[1, 3] == pytest.approx(0.0, abs=EXACT)
-
-
-@pytest.mark.parametrize("n", [1, 3, 10])
-def test_cables_are_as_long_as_those_of_the_configuration(n):
-    arm, w = usual_arm(n), posture(n, seed=1)
-    chain = LinkPoses(arm_description(arm))
-    poses = chain.poses(chain.angles(joints_of(w, arm)))
-    lengths = dict.fromkeys(arm.cable_names, 0.0)
-    for passing in (False, True):
-        holes = CableHoles(arm, chain.links, passing)
-        for name, piece in zip(holes.cables, holes.pieces(poses), strict=True):
-            lengths[name] += np.linalg.norm(piece[1] - piece[0])
-    np.testing.assert_allclose(list(lengths.values()), tangle(w, arm), rtol=EXACT)
 
 
 @pytest.mark.parametrize("n", [1, 3, 10])
