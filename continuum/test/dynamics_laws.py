@@ -13,7 +13,7 @@ from continuum.dynamics.effect import Effect, Own
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
-from continuum.dynamics.planar.eq12_gravity_torque import gravity_potential, gravity_torque
+from continuum.dynamics.planar.eq12_gravity_torque import gravity_potential
 from continuum.dynamics.planar.eq12_inertia_matrix import inertia_matrix
 from continuum.dynamics.planar.eq12_spring_torque import spring_potential
 from continuum.dynamics.planar.instant import Instant
@@ -164,20 +164,6 @@ class TurningBase(Effect):
     def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
         """A harmonic oscillator."""
         return np.concatenate([state_rate[:1] - state[1:], state_rate[1:] + own["frequency"] ** 2 * state[:1]])
-
-
-class Sag(Effect):
-    """A torque of gravity on links that lean further than their joints: an effect that sums up angles of its own."""
-
-    name = "sag"
-    parameters: ClassVar[Mapping[str, Parameter]] = {
-        "share": Parameter("s", "1", 0.0, 1.0, False, "lean of a link per angle of its joint", 0.0)
-    }
-
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
-        """Gravity where the links lean, less gravity where they do not."""
-        leaning = replace(now.motion, theta=now.motion.theta * (1 + own["share"]))
-        return gravity_torque(leaning.link_angle, now.p) - gravity_torque(now.motion.link_angle, now.p)
 
 
 class Broken(Effect):

@@ -56,11 +56,6 @@ def test_arc_subtends_the_bend(section: Section) -> None:
     np.testing.assert_allclose(arc_length(theta, section) * curvature(theta, section), theta, rtol=1e-13)
 
 
-@pytest.mark.parametrize("section", SECTIONS, ids=lambda section: section.name)
-def test_arc_length_of_the_straight_section_is_the_backbone(section: Section) -> None:
-    np.testing.assert_allclose(arc_length(np.array([0.0, 1e-9]), section), section.length, rtol=1e-15)
-
-
 def test_jones_rates_undo_allen_rates() -> None:
     phi, theta = jones_grid()
     w_rate = allen_rates(phi, theta, np.full_like(phi, 0.7), np.full_like(phi, -0.2))

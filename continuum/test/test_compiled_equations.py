@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 from continuum_laws.differences import assert_same_slopes, differences
-from continuum_laws.samples import arm_of, limits_of, mixed_arm, random_postures
+from continuum_laws.samples import arm_of, mixed_arm, random_postures
 from continuum_laws.targets import misses, targets_at
 
 from continuum.arm import Arm
@@ -38,14 +38,6 @@ def test_tip_and_jacobian_are_those_of_the_chain(arm: Arm) -> None:
         np.testing.assert_allclose(np.reshape(rotation, (3, 3)), pose[:3, :3], rtol=0, atol=1e-13)
         np.testing.assert_allclose(position, pose[:3, 3], rtol=0, atol=1e-13)
         np.testing.assert_allclose(jacobian, arm_jacobian(w, arm), rtol=0, atol=1e-13)
-
-
-def test_arm_arrays_hold_the_arm() -> None:
-    arm = mixed_arm(4)
-    arrays, free = arm_arrays(arm), arm_arrays(arm, with_limits=False)
-    np.testing.assert_array_equal(arrays.bend_limit, limits_of(arm))
-    assert np.all(free.bend_limit > arrays.bend_limit)
-    assert np.all(free.bend_limit < [section.contact_bend for section in arm.sections])
 
 
 @pytest.mark.parametrize("kind", [POSITION, DIRECTION, POSE], ids=["position", "direction", "pose"])

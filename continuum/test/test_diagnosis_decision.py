@@ -66,12 +66,6 @@ def test_a_tolerance_that_is_asked_for_makes_a_model_adequate() -> None:
     assert decide(*sets, FLOOR, 0.05, 0.06, True).kind is Kind.CAUSE
 
 
-def test_one_effect_that_closes_most_is_the_cause() -> None:
-    found = verdict(candidate(SPRING, 0.0031), candidate(DRAG, 0.02))
-    assert (found.kind, found.sets, found.complete) == (Kind.CAUSE, (SPRING,), True)
-    assert found.probabilities == (1.0,)
-
-
 def test_a_cause_that_leaves_something_says_so() -> None:
     found = verdict(candidate(SPRING, 0.01))
     assert (found.kind, found.complete) == (Kind.CAUSE, False)

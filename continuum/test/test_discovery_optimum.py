@@ -65,14 +65,6 @@ def assert_solved(A: np.ndarray, b: np.ndarray, G: np.ndarray, least: np.ndarray
 
 
 @LAW
-@given(SEEDS, st.integers(1, 8))
-def test_the_bounded_minimum_is_the_least_within_a_box(seed: int, variables: int) -> None:
-    A, b, _, _ = convex(seed, variables, 0)
-    unit = np.eye(variables)
-    assert_solved(A, b, np.concatenate([unit, -unit]), -np.random.default_rng(seed).uniform(0.01, 2, 2 * variables))
-
-
-@LAW
 @given(SEEDS)
 def test_constraints_lower_evidence_by_their_rise(seed: int) -> None:
     """By as much as the least of minus the log-posterior within them is higher; not where they hold anyway."""

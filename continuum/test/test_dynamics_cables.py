@@ -12,7 +12,6 @@ from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.planar.cables import SIDES, chord_lengths, chord_slopes
 from continuum.dynamics.planar.eq12_cable_torque import cable_torque
 from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation, wrap_angles
-from continuum.dynamics.planar.eq16_link_wrenches import link_wrenches
 from continuum.dynamics.planar.eq17_serial_jacobian import serial_jacobian, serial_jacobian_transposed_times
 from continuum.kinematics.cables import cable_lengths
 from continuum.kinematics.configuration import allen_from_jones
@@ -29,27 +28,6 @@ def cases(n: int, seed: int, count: int = 8) -> list[tuple[Parameters, np.ndarra
     ]
 
 
-def disc_poses(theta: np.ndarray, p: Parameters) -> np.ndarray:
-    """x, z and angle of every disc, (n, 3), link by link."""
-    at, angle, poses = np.zeros(2), 0.0, []
-    for turn, b, d in zip(theta, p.half_spacing, p.joint_spacing, strict=True):
-        angle += turn
-        along = np.array([np.sin(angle), np.cos(angle)])
-        poses.append([*(at + b * along), angle])
-        at = at + d * along
-    return np.array(poses)
-
-
-@each_size
-def test_serial_jacobian_is_the_slope_of_the_discs_poses(n: int) -> None:
-    for p, theta, _, _ in cases(n, 1):
-        J = differences(lambda q: disc_poses(q, p), theta)  # (n, 3, n)  # noqa: B023
-        for i, angle in enumerate(np.cumsum(theta)):  # into the link's frame
-            c, s = np.cos(angle), np.sin(angle)
-            J[i] = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ J[i]
-        np.testing.assert_allclose(serial_jacobian(np.cumsum(theta), p), J.reshape(3 * n, n), rtol=0, atol=1e-11)
-
-
 @each_size
 def test_torque_of_wrenches_is_the_transposed_serial_jacobian(n: int) -> None:
     random = np.random.default_rng(n)
@@ -57,34 +35,6 @@ def test_torque_of_wrenches_is_the_transposed_serial_jacobian(n: int) -> None:
         wrenches, angle = random.normal(size=(n, 3)), np.cumsum(theta)
         torque = serial_jacobian(angle, p).T @ wrenches.reshape(-1)
         np.testing.assert_allclose(serial_jacobian_transposed_times(wrenches, angle, p), torque, atol=1e-13)
-
-
-@each_size
-def test_wrenches_are_those_of_strings_through_holes(n: int) -> None:
-    """Each chord pulls, between points of two discs, along the line from one to the other."""
-    for p, theta, _, _ in cases(n, 3):
-        tensions = np.random.default_rng(n).uniform(0, 50, (n, 2))
-        poses, expected = np.concatenate([[[0, -p.half_spacing[0], 0]], disc_poses(theta, p)]), np.zeros((n + 1, 3))
-        for i in range(n):  # module i lies between disc i - 1 and disc i
-            for side, tension in zip(SIDES, tensions[i], strict=True):
-                low, high = (hole(pose, side * p.hole_radius[i]) for pose in poses[i : i + 2])
-                pull = tension * (high - low) / np.linalg.norm(high - low)
-                expected[i] += wrench(pull, low, poses[i])
-                expected[i + 1] += wrench(-pull, high, poses[i + 1])
-        np.testing.assert_allclose(link_wrenches(tensions, theta, p), expected[1:], rtol=0, atol=1e-11)
-
-
-def hole(pose: np.ndarray, offset: float) -> np.ndarray:
-    return pose[:2] + offset * np.array([np.cos(pose[2]), -np.sin(pose[2])])
-
-
-def wrench(force: np.ndarray, at: np.ndarray, pose: np.ndarray) -> np.ndarray:
-    """(F_x, F_z, M) at a disc's centre, in its frame, of a force at a point; moments turn z towards x."""
-    c, s = np.cos(pose[2]), np.sin(pose[2])
-    lever = at - pose[:2]
-    return np.array(
-        [c * force[0] - s * force[1], s * force[0] + c * force[1], lever[1] * force[0] - lever[0] * force[1]]
-    )
 
 
 @each_size

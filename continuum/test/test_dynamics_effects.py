@@ -1,13 +1,9 @@
 """Effects beyond Eq. 12: each hook does what it says, effects compose, and at their defaults they are absent."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from dynamics_laws import (
-    FRICTIONLESS,
     LaggingDrive,
-    Sag,
     TipLoad,
     TurningBase,
     Wind,
@@ -16,8 +12,6 @@ from dynamics_laws import (
 )
 
 from continuum.dynamics.balance import balance
-from continuum.dynamics.effect import Effect
-from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
@@ -41,56 +35,6 @@ def with_effects(*effects: ActiveEffect) -> Model:
 PLAIN = with_effects()
 
 
-@pytest.mark.parametrize("effect", [Effect, TipLoad, Wind, Sag])
-def test_an_effect_without_states_is_absent_at_its_defaults(effect: Callable[[], Effect]) -> None:
-    x, v = instant(1)
-    np.testing.assert_array_equal(balance(with_effects(active(effect(), N)), x, v, U), balance(PLAIN, x, v, U))
-
-
-def test_a_base_that_does_not_turn_is_absent() -> None:
-    x, v = instant(2)
-    turning = with_effects(active(TurningBase()))
-    found = balance(turning, np.append(x, [0.0, 0.0]), np.append(v, [0.0, 0.0]), U)
-    np.testing.assert_array_equal(found, np.append(balance(PLAIN, x, v, U), [0.0, 0.0]))
-
-
-def test_a_drive_that_has_caught_up_is_absent() -> None:
-    x, v = instant(3)
-    found = balance(with_effects(active(LaggingDrive(), lag=0.5)), np.append(x, U), np.append(v, [0.0, 0.0]), 99 * U)
-    np.testing.assert_array_equal(found, np.append(balance(PLAIN, x, v, U), [0.0, 0.0]))
-
-
-def test_changed_parameters_are_those_of_another_model() -> None:
-    x, v = instant(4)
-    mass = PLAIN.parameters.mass + np.array([0.0, 0.0, 0.3])
-    found = balance(with_effects(active(TipLoad(), mass=0.3)), x, v, U)
-    np.testing.assert_array_equal(found, balance(PLAIN.with_values({"mass": mass}), x, v, U))
-
-
-def test_an_added_torque_stands_on_the_left() -> None:
-    x, v = instant(5)
-    found = balance(with_effects(active(Wind(), N, torque=0.25)), x, v, U)
-    np.testing.assert_allclose(found, balance(PLAIN, x, v, U) + 0.25, rtol=1e-14)
-
-
-def test_a_tilted_base_is_a_turned_hang_angle() -> None:
-    x, v = instant(6)
-    found = balance(with_effects(active(TurningBase(), tilt=0.4)), np.append(x, [0, 0]), np.append(v, [0, 0]), U)
-    turned = PLAIN.with_values({"hang_angle": PLAIN.parameters.hang_angle + 0.4})
-    np.testing.assert_allclose(found[:N], balance(turned, x, v, U), rtol=1e-12)
-
-
-def test_a_turning_base_moves_the_links_as_a_joint_would() -> None:
-    """Without what hangs on the first joint's own angle, it does not matter what turns the first link."""
-    nothing = FRICTIONLESS | {"stiffness": 0.0, "rotor_inertia": 0.0}
-    x, v = instant(7, 2)
-    found = balance(with_effects(active(TurningBase())).with_values(nothing), x, v, np.zeros(2))
-    joint = x[: 2 * N].copy(), v[:N].copy()
-    joint[0][[0, N]] += x[2 * N :]
-    joint[1][0] += v[-1]
-    np.testing.assert_allclose(found[:N], balance(PLAIN.with_values(nothing), *joint, np.zeros(2)), rtol=1e-12)
-
-
 def test_effects_compose() -> None:
     """Each has its own states and values; together they do what they do alone, whatever their order."""
     effects = [
@@ -107,16 +51,6 @@ def test_effects_compose() -> None:
     np.testing.assert_allclose(other, one[swap_v], rtol=1e-12)
     np.testing.assert_allclose(one[N : N + 2], [v[N] - x[2 * N + 1], v[N + 1] + 9.0 * x[2 * N]], rtol=1e-12)
     np.testing.assert_allclose(one[N + 2 :], 0.1 * v[N + 2 :] + x[2 * N + 2 :] - U, rtol=1e-12)
-
-
-def test_a_simulated_base_swings_and_a_simulated_drive_follows() -> None:
-    times = np.linspace(0.0, 0.5, 26)
-    model = with_effects(active(TurningBase(), frequency=7.0), active(LaggingDrive(), lag=0.1))
-    x0 = np.concatenate([np.zeros(2 * N), [0.3, 0.0], [0.0, 0.0]])
-    states = Simulator(model, Tolerances(1e-7, 1e-8, 0.05)).run(x0, times).states
-    np.testing.assert_allclose(states[:, 2 * N], 0.3 * np.cos(7 * times), rtol=0, atol=1e-5)
-    np.testing.assert_allclose(states[:, 2 * N + 2 :], (1 - np.exp(-times / 0.1))[:, None] * U, rtol=0, atol=1e-5)
-    assert np.ptp(states[:, :N], axis=0).min() > 1e-2
 
 
 def test_a_drive_without_lag_is_an_equation_without_rates_of_its_own() -> None:

@@ -19,7 +19,6 @@ from dynamics_laws import (
 from effects_laws import effect_of
 
 from continuum.dynamics.balance import balance
-from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import Model
 from continuum.dynamics.planar.cables import chord_lengths, chord_slopes
 from continuum.dynamics.planar.eq12_cable_torque import cable_torque
@@ -117,14 +116,6 @@ def test_cables_lose_by_the_direction_of_approach(seed: int, approach: int) -> N
     tension = u[0] * np.exp(-approach * p.capstan_friction * (np.cumsum(theta) - theta / 2))
     pull = -tension * chord_slopes(theta, p)[:, 0]
     np.testing.assert_allclose(gravity_torque(np.cumsum(theta), p) + spring_torque(theta, p), pull, rtol=0, atol=1e-9)
-
-
-def test_an_arm_pulled_slowly_and_let_settle_comes_to_the_equilibrium() -> None:
-    model = model_of(6).with_values({"coulomb_friction": 0.0, "viscous_friction": 0.05, "capstan_friction": 0.0})
-    tensions = Tensions(np.array([0.0, 1.0]), np.stack([np.zeros(2), PULL]))
-    simulator = Simulator(model, Tolerances(1e-8, 1e-9, 0.05))
-    settled = simulator.run(np.zeros(N), np.array([0.0, 10.0]), tensions)
-    np.testing.assert_allclose(settled.theta[-1], found_at(model, Load(PULL)).theta, rtol=0, atol=1e-6)
 
 
 def test_a_standing_arm_too_heavy_for_its_springs_rests_but_not_for_long() -> None:

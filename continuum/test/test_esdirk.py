@@ -47,17 +47,6 @@ def test_order_conditions(method: Method) -> None:
 
 
 @each_method
-def test_shape_of_an_esdirk_method(method: Method) -> None:
-    a, c = method().a, method().c
-    np.testing.assert_array_equal(a, np.tril(a))
-    np.testing.assert_array_equal(a[0], 0)
-    np.testing.assert_array_equal(np.diag(a)[1:], a[1, 1])
-    assert a[1, 1] > 0
-    np.testing.assert_allclose(c[-1], 1, rtol=1e-15)
-    np.testing.assert_allclose((a @ c)[1:], c[1:] ** 2 / 2, rtol=1e-13)  # every implicit stage is of order two
-
-
-@each_method
 def test_stability(method: Method) -> None:
     """|R| <= 1 on the imaginary axis, and 0 at infinity: L-stable."""
     a = method().a

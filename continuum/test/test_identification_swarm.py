@@ -81,16 +81,6 @@ def test_a_swarm_stays_within_bounds_and_never_gets_worse(seed: int) -> None:
     assert lowest == np.sum(place)
 
 
-def test_one_seed_one_answer() -> None:
-    def found(seed: int) -> np.ndarray:
-        return particle_swarm(
-            lambda x: float(np.sum(x**4 - x)), LOWER, UPPER, np.random.default_rng(seed), SwarmSettings()
-        )[0]
-
-    np.testing.assert_array_equal(found(3), found(3))
-    assert np.any(found(3) != found(4))
-
-
 def test_a_swarm_that_has_met_stops() -> None:
     calls = 0
 

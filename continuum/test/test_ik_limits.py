@@ -7,7 +7,7 @@ from continuum_laws.targets import misses, targets_at
 
 from continuum.arm import Arm
 from continuum.kinematics.compiled.arm_arrays import arm_arrays
-from continuum.kinematics.compiled.limits import hold_outward, pull_within, stop_radial
+from continuum.kinematics.compiled.limits import pull_within
 from continuum.kinematics.configuration import bend, jones_from_allen
 from continuum.kinematics.ik_target import POSE, POSITION
 from continuum.kinematics.inverse_kinematics import OBJECTIVES, InverseKinematics
@@ -22,29 +22,6 @@ def test_only_sections_bent_too_far_are_pulled_back_and_keep_their_azimuth() -> 
         np.testing.assert_array_equal(back[inside], w[inside])
         np.testing.assert_allclose(bend(back)[~inside], limits_of(arm)[~inside], rtol=1e-14)
         np.testing.assert_allclose(jones_from_allen(back)[0], jones_from_allen(w)[0], atol=1e-14)
-
-
-def test_a_section_at_its_limit_may_turn_and_unbend_but_not_bend_further() -> None:
-    arm = arm_arrays(arm_of(3, bend_limit=1.0))
-    w = np.array([0.6, 0.8, 0.6, 0.8, 0.3, 0.4])  # the last is within its limit
-    outward, inward = w.copy(), -0.1 * w
-    whole = np.random.default_rng(2).normal(size=(6, 6))
-
-    jacobian, held = whole.copy(), np.zeros(3, bool)
-    assert not hold_outward(arm, w, inward, held, jacobian, 5, 0.0)
-    np.testing.assert_array_equal(jacobian, whole)
-
-    assert hold_outward(arm, w, outward, held, jacobian, 5, 0.0)
-    np.testing.assert_array_equal(held, [True, True, False])
-    np.testing.assert_allclose(jacobian[:5, :2] @ [0.6, 0.8], 0.0, atol=1e-15)
-    np.testing.assert_allclose(jacobian[:, :2] @ [-0.8, 0.6], whole[:, :2] @ [-0.8, 0.6], atol=1e-15)
-    np.testing.assert_array_equal(jacobian[:, 4:], whole[:, 4:])
-    np.testing.assert_array_equal(jacobian[5], whole[5])
-    assert not hold_outward(arm, w, outward, held, jacobian, 5, 0.0)  # what is held stays so: the search for a set ends
-
-    rate = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
-    stop_radial(w, held, rate)
-    np.testing.assert_allclose(rate, [-0.32, 0.24, 0.0, 0.0, 5.0, 6.0], atol=1e-12)
 
 
 @pytest.mark.parametrize("objective", OBJECTIVES)

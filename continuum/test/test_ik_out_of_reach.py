@@ -112,3 +112,15 @@ def test_no_random_posture_meets_position_and_rotation_better(name: str, kind: i
         distances, angles = misses(arm, tried, repeated)
         least = np.min(np.hypot(distances, weight * angles))
         assert np.hypot(batch.distances[k], weight * batch.angles[k]) <= least + 1e-9
+
+
+def test_a_warm_start_stays_with_its_nearest_pose() -> None:
+    """A target straight below is equally near from all sides: the arm that is there already stays on its side."""
+    arm = arm_of(2, 1.0)
+    ik, below = InverseKinematics(arm), Targets([[0.0, 0.0, -0.5]] * 8)
+    first = ik.solve_many(below).configurations[0]
+    for angle in (0.5, 2.0, -1.2):
+        c, s = np.cos(angle), np.sin(angle)
+        turned = first @ np.array([[c, s], [-s, c]])
+        found = ik.follow(below, turned).configurations
+        np.testing.assert_allclose(found, np.broadcast_to(turned, found.shape), rtol=0, atol=1e-6)

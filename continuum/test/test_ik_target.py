@@ -106,14 +106,6 @@ def test_large_numbers_are_finite_and_long_directions_have_a_length() -> None:
     np.testing.assert_allclose(Targets(2.0 * np.eye(3), 1e300 * np.eye(3)).directions, np.eye(3), rtol=1e-15)
 
 
-def test_rows_hold_what_is_wanted() -> None:
-    position, rotation = [0.1, 0.0, 0.2], np.eye(3)[[1, 2, 0]]
-    np.testing.assert_array_equal(Target(position).rows, [position])
-    np.testing.assert_array_equal(Target(position, [0, 2, 0]).rows, [[*position, 0, 1, 0]])
-    np.testing.assert_array_equal(Target(position, rotation=rotation).rows, [[*position, *rotation.ravel()]])
-    np.testing.assert_array_equal(Targets([position], rotations=[rotation]).rotations, [rotation])
-
-
 def test_no_input_makes_the_solver_compile_again() -> None:
     """Transposed matrices, integers, strides: compiled once for all, so that no node waits for a compiler."""
     arm = arm_of(3)
