@@ -33,18 +33,11 @@ def test_total_mass_and_bodies_that_can_exist(arm: Arm) -> None:
     bodies = moving_bodies(description)
     total = sum(section.n_joints * section.link_mass for section in arm.sections)
     assert sum(mass for mass, _, _ in bodies.values()) == pytest.approx(total, rel=1e-12)
+    assert bodies.keys() == {joint.child for joint in description.joints.values() if joint.type != "fixed"}
     for mass, _, inertia in bodies.values():
         x, y, z = sorted(np.linalg.eigvalsh(inertia))
         assert min(mass, x) > 0
         assert x + y >= z * (1 - 1e-12)
-
-
-@settings(max_examples=5, deadline=None)
-@given(arms())
-def test_every_moving_link_has_mass(arm: Arm) -> None:
-    description = Description(arm)
-    moving = {joint.child for joint in description.joints.values() if joint.type != "fixed"}
-    assert set(moving_bodies(description)) == moving
 
 
 @pytest.mark.parametrize("arm", shipped_arms(), ids=lambda arm: f"{arm.n_sections}_sections")

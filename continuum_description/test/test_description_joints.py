@@ -5,7 +5,7 @@ import math
 import sys
 
 import pytest
-from description_model import Description, arms, shipped_arms
+from description_model import Description, arms
 from hypothesis import given, settings
 
 from continuum.arm import Arm, Section
@@ -53,11 +53,6 @@ def check_structure(description: Description) -> None:
         assert (base.type, base.parent, base.child) == ("fixed", parent, section.base_frame)
         check_bending_joints(description, section)
         check_turning_joints(description, section)
-
-
-@pytest.mark.parametrize("arm", shipped_arms(), ids=lambda arm: f"{arm.n_sections}_sections")
-def test_structure_of_shipped_arms(arm: Arm) -> None:
-    check_structure(Description(arm))
 
 
 @settings(max_examples=10, deadline=None)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from emulated_bench import CABLES, N_SENSORS, Ears, bridge_at, emulated_bench
-from harness import NodeProcess, Probe, ended_in_any_case, running
+from harness import NodeProcess, Probe, running
 
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.planar.cables import cable_lengths
@@ -202,13 +202,6 @@ def test_a_viewer_that_nobody_uses_is_no_commander(active, domain):
         active.pull([5.0, 0.0], lambda: active.bench.status["set_points"][0] > 4.9)
         active.probe.wait_for_report(active.name)
         assert active.probe.count(active.name, "dropped: several commanders") == before
-
-
-def test_a_second_bridge_does_not_get_the_port(bridge, bench, domain):
-    again = NodeProcess("continuum_hw_imu", "bench_bridge", domain, name="second", parameters={"port": bench.port})
-    with ended_in_any_case(again):
-        again.wait_for_line("is held by another process")
-        assert again.stop() == 0
 
 
 def test_calibration_file_is_read_again(bridge):

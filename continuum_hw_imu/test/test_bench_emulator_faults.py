@@ -124,19 +124,6 @@ def test_damaged_and_noisy_lines_cost_what_they_touch(lab):
     assert lab.decoder.good - good >= 125
 
 
-def test_repeated_and_late_frames_are_told_by_their_numbers(lab):
-    lab.open()
-    lab.run(0.1)
-    lab.order("repeat share=0.5 for=1")
-    lab.run(1.2)
-    repeated = lab.arrivals.repeated
-    lab.order("late share=0.3 by=0.1 for=1")
-    lab.run(1.5)
-    assert repeated == pytest.approx(65, abs=25)
-    assert lab.arrivals.late > 20
-    assert lab.arrivals.lost == 0
-
-
 def test_sensors_drop_out_clip_and_run_low(lab):
     lab.open()
     lab.run(0.1)
@@ -168,15 +155,6 @@ def test_clear_ends_what_lasts_and_what_is_to_come(lab):
     assert of(m.ImuFrame, frames)[-1].present.all()
     assert lab.order("status")["waiting_orders"] == 0
     assert not lab.bench.deaf
-
-
-def test_a_script_s_orders_come_at_their_time(lab):
-    lab.open()
-    lab.order("at 0.5 drop sensor=1 for=0.2")
-    images = of(m.ImuFrame, lab.run(1.0))
-    gone = [k for k, image in enumerate(images) if not image.present[0]]
-    assert gone[0] == pytest.approx(30, abs=1)
-    assert len(gone) == pytest.approx(12, abs=1)
 
 
 def test_a_machine_that_sleeps_skips_time_and_says_so(lab):

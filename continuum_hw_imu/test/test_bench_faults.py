@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from continuum.dynamics.live.stepper import Interval
 from continuum.errors import InvalidValueError
 from continuum_hw_imu.emulator.actuators import Actuators
-from continuum_hw_imu.emulator.device_clock import DeviceClock
 from continuum_hw_imu.emulator.hand import Hand
 from continuum_hw_imu.emulator.line_faults import FaultyLine, LineFault, LineFaultKind, pieces_of
 from continuum_hw_imu.emulator.line_queue import LineQueue
@@ -163,15 +162,6 @@ def test_actuators_follow_with_their_lag():
 def test_load_cells_are_noisy():
     actuators = Actuators(2, 0.0, 0.05, np.random.default_rng(0))
     assert np.std([actuators.measured() for _ in range(2000)]) == pytest.approx(0.05, rel=0.1)
-
-
-def test_a_clock_that_drifts_does_not_leap():
-    clock = DeviceClock(100.0, 5_000_000, drift=100.0)
-    assert clock.at(110.0) == 15_001_000
-    clock.drift_from(110.0, -200.0)
-    assert clock.at(110.0) == 15_001_000
-    assert clock.at(120.0) == 25_001_000 - 2_000
-    assert clock.real(clock.at(117.5)) == pytest.approx(117.5, abs=1e-6)
 
 
 @pytest.mark.parametrize("kind", list(LineFaultKind))

@@ -102,16 +102,10 @@ def test_frames_of_other_sensors_or_cables_are_left_out_and_counted():
     assert [len(imu) for imu in published.imus] == [5] * N
 
 
-def test_a_bench_that_lets_cables_go_for_ever_is_none():
-    slow = replace(HELLO, limits=replace(HELLO.limits, slack_time=60.0))
-    assert Published(hello=slow).streams.problem == "looped lets cables go in 60 s; allowed: up to 5 s"
-
-
-@pytest.mark.parametrize("word", ["command", "heartbeat"])
-def test_a_bench_that_pulls_on_for_long_without_a_word_is_none(word):
-    stubborn = replace(HELLO, limits=replace(HELLO.limits, **{f"{word}_timeout": 60.0}))
-    told = f"looped pulls on for 60 s without {word}s; allowed: up to 2 s"
-    assert Published(hello=stubborn).streams.problem == told
+@pytest.mark.parametrize("limit", ["slack_time", "command_timeout", "heartbeat_timeout"])
+def test_a_bench_that_pulls_on_for_long_or_lets_cables_go_for_ever_is_none(limit):
+    stubborn = replace(HELLO, limits=replace(HELLO.limits, **{limit: 60.0}))
+    assert "60 s" in Published(hello=stubborn).streams.problem
 
 
 def test_a_bench_that_tells_of_other_places_is_greeted_anew_whatever_its_boot():
@@ -248,15 +242,6 @@ def test_a_clock_that_is_set_back_loses_the_angles(back):
     published.measure(1, link_rates=[0.5] * N)
     bench.client.ask_who(1e9)
     published.measure(round(60 * back) + 60, link_rates=[0.5] * N)  # never at rest
-    assert not published.joints
-
-
-def test_what_the_estimator_passes_over_is_withheld():
-    published = Published()
-    published.measure(60)
-    published.joints.clear()
-    published.bench.now -= 1.0
-    published.measure(3, link_rates=[0.5] * N)
     assert not published.joints
 
 

@@ -41,6 +41,7 @@ BAD_PARAMETERS = {
         "initial_angles is [0.1, 0.2]; allowed: 5",
     ),
     "unknown storage": ("recorder", (), {"storage": "tape"}, "storage is 'tape'; allowed: one of mcap, sqlite3"),
+    "address of another machine": ("viewer", ARM, {"host": "198.51.100.1"}, "198.51.100.1"),
 }
 
 
@@ -68,11 +69,6 @@ def test_bad_parameter_ends_the_node_with_one_line(case, badly_started):
     assert len(lines) == 1
     assert expected in lines[0]
     assert lines[0].startswith(f"{executable}: error: ")
-
-
-def test_existing_folder_is_not_recorded_over(domain, tmp_path):
-    (line,) = error_lines(NodeProcess("continuum_manipulator", "recorder", domain, parameters={"output": tmp_path}))
-    assert "exists already" in line
 
 
 def test_arm_file_that_is_no_parameter_file(domain, tmp_path):

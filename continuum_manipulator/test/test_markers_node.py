@@ -88,16 +88,6 @@ def slow(domain):
         yield probe
 
 
-def test_last_posture_of_a_burst_is_drawn(slow):
-    markers = slow.hear(MarkerArray, "slow/cable_markers", REPORT)
-    say = slow.speaker(JointState, "slow/joint_states").publish
-    w = postures(1)[0][0]
-    slow.warm_up(lambda: say(joint_state(0, w)), markers)
-    for i in range(1, 20):
-        say(joint_state(i, w))
-    slow.wait_until(lambda: markers and instant_of(markers[-1].markers[0]) == 19, "markers of the last posture")
-
-
 def test_last_bend_of_every_section_is_drawn_where_each_has_a_message(slow):
     markers = slow.hear(MarkerArray, "slow/cable_markers", REPORT)
     say = slow.speaker(JointState, "slow/joint_states").publish

@@ -110,18 +110,6 @@ def test_statuses_without_end_are_not_kept(probe):
     assert "<html" in page_of(probe)
 
 
-@pytest.mark.parametrize(
-    ("parameters", "word"), [({"port": 70000}, "port"), ({"host": "198.51.100.1"}, "198.51.100.1"), ({"rat": 1}, "rat")]
-)
-def test_bad_start_is_one_line(domain, parameters, word):
-    node = NodeProcess("continuum_manipulator", "viewer", domain, files=(ARM_FILE,), parameters=parameters)
-    with ended_in_any_case(node):
-        assert node.exit_code() == 2
-        (line,) = node.stderr.strip().splitlines()
-        assert line.startswith("viewer: error: ")
-        assert word in line
-
-
 def test_ends_cleanly_without_a_file_for_the_arm(domain):
     node = NodeProcess("continuum_manipulator", "viewer", domain, name="usual", parameters={"port": 0})
     with ended_in_any_case(node):

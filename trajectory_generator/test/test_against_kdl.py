@@ -90,14 +90,6 @@ def test_poses_and_twists_equal_those_of_kdl(name: str) -> None:
     assert sample.angular_velocity == pytest.approx(figures[:, 11:14], rel=0, abs=VELOCITY_TOLERANCE)
 
 
-@pytest.mark.parametrize("name", CASES)
-def test_figures_reach_from_rest_to_rest(name: str) -> None:
-    times = kdl_figures(name)[:, 0]
-    assert len(times) == (1000 if name.startswith("helix") else 150 if name in ("turning", "circle") else 50)
-    assert times[0] == 0
-    assert times[-1] == pytest.approx(CASES[name].duration, abs=2e-4)
-
-
 def test_in_metres_kdl_leaves_the_path_in_the_arcs_of_the_helix() -> None:
     """Why the helix is compared in millimetres: in metres KDL agrees on every leg and strays in every arc."""
     figures = kdl_figures("helix_corner_0.02_in_metres")

@@ -79,8 +79,6 @@ BAD = {
     "kind": ({"path": "spiral"}, "path is 'spiral'; allowed: one of helix, via_points, line, circle"),
     "unknown": ({"helix.raduis": 1.0}, "helix.raduis is 1.0; allowed: no parameter of this name; known for this path:"),
     "of another path": ({"path": "line", "helix.radius": 1.0}, "helix.radius is 1.0; allowed: no parameter"),
-    "type": ({"max_speed": "fast"}, "max_speed is 'fast'; allowed: a finite number"),
-    "negative": ({"helix.radius": -0.1}, "helix.radius is -0.1; allowed: a finite number >= 1e-06 and <= 1000 m"),
     "flat helix": ({"helix.z_end": 0.01}, "helix.z_end is 0.01; allowed: a height other than z_start"),
     "tight corner": (
         {"corner_radius": 0.16},

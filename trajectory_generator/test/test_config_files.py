@@ -7,7 +7,6 @@ import pytest
 import yaml
 from scipy.spatial.transform import Rotation
 
-from continuum.errors import InvalidValueError
 from trajectory_generator.from_parameters import trajectory_from_mapping
 from trajectory_generator.parameters import PATH_PARAMETERS, parameters_of
 
@@ -48,30 +47,7 @@ def test_helix_files_are_those_of_the_thesis() -> None:
         "max_speed": 0.1,
         "max_acceleration": 0.02,
     }
-    assert {name for name in original if original[name] != ours.get(name)} == {
-        "corner_radius",
-        "equivalent_radius",
-        "lead_time",
-        "rest_time",
-        "rate",
-    }
     assert (original["corner_radius"], original["lead_time"], original["rate"]) == (0.02, 10.0, 20.0)
-
-
-def test_what_the_comment_in_the_helix_file_says_of_its_corners() -> None:
-    for corner_radius, in_arc in ((0.14, 10.6e-3), (0.02, 1.5e-3)):
-        pieces = trajectory_from_mapping({**parameters("helix.yaml"), "corner_radius": corner_radius}).path.pieces
-        lines, arcs = pieces.travel[2:-2:2], pieces.travel[1::2]
-        assert arcs == pytest.approx(in_arc, abs=0.05e-3)
-        assert lines == pytest.approx(11.4e-3 - in_arc, abs=0.1e-3)
-
-
-@pytest.mark.parametrize("radius", [0.02, 0.05, 0.5])
-def test_the_share_of_the_radius_that_the_comment_gives_fits(radius: float) -> None:
-    values = {**parameters("helix.yaml"), "helix.radius": radius, "helix.n_points": 9 * 29 // 8 + 2}
-    assert trajectory_from_mapping({**values, "corner_radius": 0.93 * radius}).duration > 0
-    with pytest.raises(InvalidValueError, match="make it smaller"):
-        trajectory_from_mapping({**values, "helix.n_points": 301, "corner_radius": 1.5 * radius})
 
 
 def test_defaults_are_the_helix_of_the_thesis() -> None:

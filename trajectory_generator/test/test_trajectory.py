@@ -4,25 +4,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 from continuum.errors import InvalidValueError
 from trajectory_generator.trajectory import Trajectory
 
 Quotient = Callable[[np.ndarray, np.ndarray, float], np.ndarray]
-
-
-def test_twist_is_the_derivative_of_the_pose(trajectory: Trajectory, angular_velocity: Quotient) -> None:
-    t, step = np.linspace(0, trajectory.duration, 777), 1e-5
-    s = trajectory.profile.position(t - trajectory.lead_time)
-    joints = np.concatenate([[0], trajectory.path.ends])
-    t = t[np.abs(s[:, None] - joints).min(axis=1) > 1e-4]  # twists step where a piece ends
-    before, after, now = trajectory.sample(t - step), trajectory.sample(t + step), trajectory.sample(t)
-    turned = [Rotation.from_quat(sample.quaternion).as_matrix() for sample in (before, after)]
-
-    assert len(t) > 300
-    assert now.linear_velocity == pytest.approx((after.position - before.position) / (2 * step), abs=1e-7)
-    assert now.angular_velocity == pytest.approx(angular_velocity(*turned, 2 * step), abs=1e-7)
 
 
 def test_it_rests_before_and_after_in_the_ends_of_its_path(trajectory: Trajectory) -> None:
@@ -40,12 +26,6 @@ def test_speed_limit_holds_and_is_used(trajectory: Trajectory) -> None:
     speed = np.linalg.norm(sample.linear_velocity, axis=1)
     turning = np.linalg.norm(sample.angular_velocity, axis=1) * trajectory.path.equivalent_radius
     assert np.maximum(speed, turning).max() == pytest.approx(trajectory.max_speed, rel=1e-9)
-
-
-def test_acceleration_limit_holds_along_the_helix(helix: Trajectory) -> None:
-    t = helix.times(500.0)
-    speed = np.linalg.norm(helix.sample(t).linear_velocity, axis=1)
-    assert np.abs(np.diff(speed) * 500.0).max() == pytest.approx(helix.max_acceleration, rel=1e-6)
 
 
 def test_quaternions_are_of_length_one_with_w_not_negative(wandering: Trajectory) -> None:

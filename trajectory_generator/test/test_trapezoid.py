@@ -34,14 +34,6 @@ def test_limits_hold_and_position_never_falls(profile: Trapezoid) -> None:
     assert np.diff(profile.position(t)).min() >= -1e-12 * profile.distance
 
 
-@settings(deadline=None)
-@given(profiles)
-def test_second_half_mirrors_the_first(profile: Trapezoid) -> None:
-    t = instants(profile)
-    assert profile.position(t[::-1]) == pytest.approx(profile.distance - profile.position(t), abs=1e-9)
-    assert profile.velocity(t[::-1]) == pytest.approx(profile.velocity(t), rel=1e-9, abs=1e-9)
-
-
 @pytest.mark.parametrize("distance", [0.3, 0.5, 2.0])
 def test_velocity_and_acceleration_are_derivatives(distance: float) -> None:
     profile = Trapezoid(distance, max_speed=0.1, max_acceleration=0.02)
