@@ -96,29 +96,3 @@ def test_a_page_that_shows_a_picture_is_made_by_its_command() -> None:
     shown = {(page.name, Path(address).name) for page in PAGES if page.name in commands for address in pictures(page)}
     assert len(shown) >= 3
     assert {(page, picture) for page, picture in shown if commands[page] != rows("Pictures")[picture]} == set()
-
-
-@pytest.mark.parametrize(
-    ("link", "nowhere"),
-    [
-        ("errata.md", False),
-        ("errata.md#", False),
-        ("architecture.md#the-simulated-arm", False),
-        ("#pages", False),
-        ("../README.md#em-português", False),
-        ("../continuum", False),
-        ("gone.md", True),
-        ("architecture.md#gone", True),
-        ("#gone", True),
-        ("pictures/gone.png", True),
-    ],
-)
-def test_what_leads_nowhere_is_found(link: str, nowhere: bool) -> None:
-    assert leads_nowhere(INDEX, link) == nowhere
-
-
-def test_links_and_pictures_are_found(tmp_path: Path) -> None:
-    page = tmp_path / "page.md"
-    page.write_text('[a](b.md#c) ![d](e.png) <img src="//f/g.png">\n```sh\n[x](y)\n```\n`[x](z)` [h](i "t")\n')
-    assert links(page) == ["b.md#c", "e.png", "i"]
-    assert pictures(page) == ["e.png", "//f/g.png"]

@@ -10,7 +10,7 @@ import pytest
 
 from tools.bench_discovery.cases import run_campaign
 from tools.bench_discovery.plans import Plan, campaign
-from tools.bench_discovery.result import Result, append, digest_of_sources, kept, load
+from tools.bench_discovery.result import Result, append, load
 from tools.bench_discovery.test.results_by_hand import effect, named, result, verdict
 
 pytestmark = pytest.mark.slow
@@ -30,21 +30,6 @@ def test_results_are_kept(tmp_path: Path) -> None:
         file.write('{"digest": "cut o')
     assert load(path) == some
     assert load(tmp_path / "none") == []
-
-
-def test_what_is_kept_of_a_verdict() -> None:
-    cause = named("rest_angle", 2, angle=(0.123456, 0.0, 0.2))
-    cause["parameters"] += [cause["parameters"][0] | {"recording": "run_1"}]
-    short = kept(verdict("cause", [cause]) | {"notes": ["much"]})
-    (only,) = short["sets"][0]["effects"][0]["parameters"]
-    assert only["value"] == 0.1235
-    assert short["open_loop"] == {"noise": 0.003, "before": [0.02], "after": [0.004]}
-    assert "notes" not in short
-
-
-def test_the_digest_is_the_same_each_time() -> None:
-    assert digest_of_sources() == digest_of_sources()
-    assert len(digest_of_sources()) == 12
 
 
 def ready() -> None:

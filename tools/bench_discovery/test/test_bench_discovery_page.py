@@ -6,8 +6,7 @@ import math
 
 import pytest
 
-from tools.bench_discovery.figures import Rate, bins, closed_shares, estimates, expected_error, quantile
-from tools.bench_discovery.goals import MET, MISSED, NONE, goals
+from tools.bench_discovery.figures import Rate, bins, estimates, expected_error, quantile
 from tools.bench_discovery.page import page
 from tools.bench_discovery.result import Result
 from tools.bench_discovery.test.results_by_hand import effect, named, result, verdict
@@ -52,29 +51,6 @@ def test_probabilities_are_judged_by_what_is_there() -> None:
     assert bins(ALL) == [(0.4, Rate(1, 1)), (0.6, Rate(0, 1)), (1.0, Rate(2, 3))]
     assert expected_error(bins(ALL)) == pytest.approx((0.6 + 0.6 + 1) / 5)
     assert math.isnan(expected_error([]))
-
-
-def test_closed_shares_are_of_causes() -> None:
-    assert closed_shares(ALL) == [0.95, 0.5, 0.95]
-
-
-def test_goals() -> None:
-    found = {goal.what: goal for goal in goals(ALL)}
-    status = {what: (goal.figure.partition(" (")[0], goal.n, goal.status) for what, goal in found.items()}
-    assert status["one diagnosis of eight recordings: processor time, median"] == ("6 s", 8, MET)
-    assert status["one diagnosis of eight recordings: processor time, of 99 %"] == ("60 s", 8, MISSED)
-    assert status["one diagnosis of eight recordings: memory, the most"] == ("0.488 GiB", 8, MET)
-    assert status["one effect, medium or large: named or in a true set"] == ("66.7 %", 3, MISSED)
-    assert status["of these, the least often found effect: `base_tilt`"] == ("0.0 %", 1, MISSED)
-    assert status["of these, `backlash`"] == ("-", 0, NONE)
-    assert status["one effect, small: named or in a true set"] == ("0.0 %", 1, MISSED)
-    assert status["a wrong cause or joint is named, whatever is hidden"] == ("12.5 %", 8, MISSED)
-    assert status["nothing hidden: anything but adequate"] == ("50.0 %", 2, MISSED)
-    assert status["outside of the library: unknown, or not complete"] == ("100.0 %", 1, MET)
-    assert status["two effects: exactly these"] == ("100.0 %", 1, MET)
-    assert [goal.status for goal in goals(ALL)] == sorted(
-        (goal.status for goal in goals(ALL)), key=(MISSED, MET, NONE).index
-    )
 
 
 def test_the_page_is_of_the_held_out_half_where_there_is_one() -> None:

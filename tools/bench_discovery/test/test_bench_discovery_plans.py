@@ -36,13 +36,6 @@ def test_seeds_are_the_same_each_time_and_of_one_half_alone(plans: list[Plan]) -
         assert {plan.half for plan in planned(half)} == {half}
 
 
-def test_there_are_enough_cases(plans: list[Plan]) -> None:
-    kinds = Counter(plan.kind for plan in plans)
-    assert len(plans) >= 1200
-    assert kinds["clean"] >= 300
-    assert min(kinds["outside"], kinds["pairs"]) >= 100
-
-
 def test_effects_are_hidden_only_where_they_can_be_seen(plans: list[Plan]) -> None:
     assert "releases" not in shown_in(["capstan"])
     assert all(EFFECTS[name].seen_in & {DRIVEN} for plan in plans if plan.regime != "releases" for name in plan.effects)
@@ -86,8 +79,3 @@ def test_a_campaign_may_be_narrowed(plans: list[Plan]) -> None:
     some = list(narrowed(plans, ["capstan", "backlash", "moreau", "large"]))
     assert {plan.effects for plan in some} == {("capstan",), ("backlash",)}
     assert {(plan.plant, plan.size) for plan in some} == {("moreau", "large")}
-
-
-def test_small_datasets_have_the_first_recordings(plans: list[Plan]) -> None:
-    assert {len(plan.recordings) for plan in plans} == {4, 8}
-    assert all(plan.recordings == REGIMES[plan.regime][: plan.runs] for plan in plans)

@@ -8,7 +8,6 @@ import pytest
 from continuum.dynamics.compiled.equations import CompiledEquations
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.planar.eq18_state_space import numpy_state_space
-from tools.bench_dynamics.growth import Size, exponent
 from tools.bench_dynamics.lean_rates import lean_rates
 from tools.bench_dynamics.orders import slope_error
 from tools.bench_dynamics.page import Result, Score
@@ -50,11 +49,6 @@ def test_every_rival_finds_the_converged_solution() -> None:
 
 def test_sensitivities_come_to_those_of_neighbouring_runs() -> None:
     assert slope_error(scene(), Tolerances(1e-6, 1e-7, 0.01)) < 1e-3
-
-
-def test_the_exponent_of_a_power_is_the_power() -> None:
-    sizes = [Size(n, 0.0, 3e-5 * n**2.5, 1.0) for n in (5, 10, 20)]
-    assert exponent(sizes) == pytest.approx(2.5)
 
 
 @pytest.mark.parametrize(

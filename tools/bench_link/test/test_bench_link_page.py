@@ -10,7 +10,6 @@ from tools.bench_link.closed_loop import ClosedLoop, Minute, by_minute
 from tools.bench_link.command import main
 from tools.bench_link.deaths import Death
 from tools.bench_link.ears import Sample, State
-from tools.bench_link.faults import CASES, FAULTS, orders
 from tools.bench_link.goals import goals
 from tools.bench_link.latency import Delays
 from tools.bench_link.page import page
@@ -86,12 +85,6 @@ def test_faults_and_parts_that_there_are_not_are_refused(words, capsys):
     with pytest.raises(SystemExit):
         main(words.split())
     assert capsys.readouterr().err.splitlines()[-1].startswith("make bench-link ARGS=...: error: ")
-
-
-def test_every_fault_stands_alone_and_beside_every_other():
-    n = len(FAULTS)
-    assert len(CASES) == len(set(CASES)) == n + n * (n - 1) // 2
-    assert orders(("unplugged", "late"))[1] == FAULTS["unplugged"]
 
 
 def test_a_case_is_judged_by_the_truth():

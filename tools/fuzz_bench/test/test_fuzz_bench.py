@@ -5,8 +5,7 @@ import pytest
 
 from continuum_hw_imu.protocol import checksum, decoder
 from tools.fuzz_bench.campaign import LIMITS, Tally, run
-from tools.fuzz_bench.line import WAYS, Block
-from tools.fuzz_bench.page import page
+from tools.fuzz_bench.line import WAYS
 
 pytestmark = pytest.mark.slow
 
@@ -45,15 +44,3 @@ def test_a_parser_that_raises_is_seen(monkeypatch):
     monkeypatch.setattr(decoder.Decoder, "_frame", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         tally("bytes at random")
-
-
-def test_the_same_seed_gives_the_same_bytes():
-    first, second = (next(WAYS["sound frames, hurt"](np.random.default_rng(3))) for _ in range(2))
-    assert isinstance(first, Block)
-    assert first == second
-
-
-def test_the_page_has_the_figures():
-    text = page([Tally("some way", 123456, 7, 0)], {"size": 99, "inputs": 5, "accepted": 3, "waiting": 2})
-    assert "| some way | 123456 | 7 | 0 |" in text
-    assert "99 bytes in 5 inputs" in text

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from continuum.discovery import Diagnosis, diagnose
-from continuum.discovery.candidates import examine
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.recordings.recording import Recording
 from continuum.recordings.recording_csv import read_recording_csv
-from tools.prototype.account import THE_GUESS, end_predicted, every_effect_alone, guess_beside, simulated_from
+from tools.prototype.account import end_predicted
 from tools.prototype.stability import repeated, said
 
 pytestmark = pytest.mark.slow
@@ -52,24 +51,6 @@ def test_the_end_of_what_the_model_made_is_predicted(run: Recording) -> None:
     ]
     for one in predicted:
         assert np.max(one.degrees) < 1.0
-
-
-def test_a_simulation_begins_where_it_is_told(run: Recording) -> None:
-    found = examine([run], MODEL)
-    q, w = np.full(5, 0.1), np.zeros(5)
-    angles = simulated_from(found.problem, found.baseline.fit.state, run.rows(slice(10, None)), q, w)
-    assert angles.shape == (87, 5)
-    np.testing.assert_allclose(angles[0], q)
-
-
-def test_every_effect_is_weighed_once(run: Recording) -> None:
-    found = examine([run], MODEL)
-    names = [label.partition("@")[0] for label, _ in every_effect_alone(found)]
-    assert len(names) == len(set(names))
-    assert THE_GUESS in names
-    where, gain = guess_beside(found, found.baseline)
-    assert where.startswith(THE_GUESS)
-    assert np.isfinite(gain)
 
 
 def test_a_process_with_another_kernel_says_the_same(path: Path, result: Diagnosis) -> None:
