@@ -203,9 +203,3 @@ def test_an_elastic_cable_pulls_as_commanded_in_the_end() -> None:
     assert machine.state.pulling[0] < 10.0
     machine.settle(np.array([15.0, 0.0]), 2.0)
     assert machine.state.pulling[0] == pytest.approx(15.0, rel=1e-3)
-
-
-def test_a_load_falls_off_once() -> None:
-    machine = arm(EFFECTS["dropping_load"](0.1))
-    assert 0.25 * 1.6 <= machine.mechanism.drop_at <= 0.5 * 1.6
-    assert machine.mechanism.dropping == 0.1

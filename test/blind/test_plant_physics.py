@@ -13,7 +13,6 @@ from blind.moreau.boxes import solve_boxed
 from blind.moreau.chain import Chain, assemble, equations, gravity
 from blind.moreau.joints import dry_friction
 from blind.moreau.mechanism import Mechanism, without_effects
-from blind.moreau.outside import add_drag, strap
 from blind.plant import EFFECTS, Effect, Parameters, prototype
 from blind.plant.parameters import GRAVITY
 
@@ -160,23 +159,6 @@ def test_torques_and_mass_matrix_are_those_of_lagrange() -> None:
     centrifugal = np.einsum("kij,k,j->i", by_angle, v, v) - 0.5 * np.einsum("ijk,j,k->i", by_angle, v, v)
     weight = [-(potential(q + s) - potential(q - s)) / (2 * H) for s in H * np.eye(n)]
     np.testing.assert_allclose(torque, weight - centrifugal, atol=1e-5)
-
-
-def test_the_strap_pulls_along_its_line() -> None:
-    m, chain = everything()
-    m = m._replace(strap=60.0)
-    q = np.random.default_rng(2).uniform(-0.5, 0.5, chain.length.size)
-    stretch = [strap(m, chain, np.cumsum(q + s))[0] - strap(m, chain, np.cumsum(q - s))[0] for s in H * np.eye(q.size)]
-    np.testing.assert_allclose(strap(m, chain, np.cumsum(q))[1], np.array(stretch) / (2 * H), atol=1e-8)
-
-
-def test_drag_of_a_stiff_arm_that_swings_is_that_of_a_rod() -> None:
-    """-c w^2 times the integral of r^3 about the base, straight from b to 11 b."""
-    m = without_effects(prototype())._replace(drag=5.0)
-    chain, b, w = assemble(m), m.half_spacing, 3.0
-    torque = np.zeros(5)
-    add_drag(m, chain, np.zeros(5), np.full(5, w), torque)
-    assert torque.sum() == pytest.approx(-5.0 * w**2 * (10 * b) ** 4 / 4, rel=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -121,27 +121,6 @@ def to_hinges(absolute: np.ndarray) -> None:
 
 
 @compiled
-def energy(m: Mechanism, chain: Chain, q: np.ndarray, v: np.ndarray) -> float:
-    """Kinetic, of gravity and of the springs [J], for angles (n,) [rad] and rates (n,) [rad/s] of the hinges."""
-    n = q.size
-    mass, torque, turned = np.empty((n, n)), np.empty(n), np.cumsum(q)
-    equations(chain, m.load, turned, np.zeros(n), gravity(m, 0.0), mass, torque)
-    total = 0.5 * v @ mass @ v
-    pull = gravity(m, 0.0)
-    across = up = 0.0
-    for k in range(n):
-        c, weight = chain.centre[k], chain.mass[k] + (m.load if k == n - 1 else 0.0)
-        total -= weight * (pull[0] * (across + c * np.sin(turned[k])) + pull[1] * (up - c * np.cos(turned[k])))
-        across += chain.length[k] * np.sin(turned[k])
-        up -= chain.length[k] * np.cos(turned[k])
-        bent = q[k] - chain.rest[k]
-        total += 0.5 * chain.stiffness[k] * bent**2
-    for k in chain.hinge:
-        total += 0.25 * m.hardening * chain.stiffness[k] * (q[k] - chain.rest[k]) ** 4
-    return total
-
-
-@compiled
 def gravity(m: Mechanism, time: float) -> np.ndarray:
     """Its acceleration in the plate's frame (2,), across and up, less that of a shaken bracket [m/s^2]."""
     shaken = m.shake * np.sin(m.shake_rate * time + m.shake_phase)

@@ -9,10 +9,7 @@ to the tip.
 import numba
 import numpy as np
 
-from blind.plant.parameters import JOINTS
-
 LEAST = 1e-9  # friction must be positive for its rows to stay where they are among the constraints [N]
-NEIGHBOURS = np.eye(JOINTS) + np.eye(JOINTS, k=-1)  # adds each joint's angle and that of the one before
 
 
 @numba.njit(cache=True)
@@ -34,9 +31,3 @@ def friction_limits(angle, pull, force, mu):  # type: ignore[no-untyped-def]
             limits[cable, disc] = max(2 * mu * np.sin(turn / 2) * mean, LEAST)
             tension, before = tension - force[cable, disc], angle[disc]
     return limits
-
-
-def belt_like_ratio(angle: np.ndarray, mu: float) -> np.ndarray:
-    """Tension beyond each disc over tension at the base (5,) while the cable is pulled in: closed form of the law."""
-    h = mu * np.sin(np.abs(NEIGHBOURS @ angle) / 4)
-    return np.cumprod((1 - h) / (1 + h))
