@@ -6,17 +6,15 @@ import numpy as np
 import pytest
 from dynamics_laws import LaggingDrive, active, random_model
 
-from continuum.arm import Section
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.live.live_arm import INTEGRATORS, LiveArm
 from continuum.dynamics.live.stepper import Interval
 from continuum.dynamics.model_file import load_model
-from continuum.dynamics.planar.cables import SIDES
+from continuum.dynamics.planar.cables import SIDES, chord_lengths
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
-from continuum.kinematics.cables import cable_lengths
 
 pytestmark = pytest.mark.slow
 
@@ -64,13 +62,9 @@ def test_a_jump_begins_anew(integrator):
     np.testing.assert_array_equal(cut, driven(LiveArm(MODEL, at_cut, integrator), np.zeros((10, 2))))
 
 
-def test_cables_are_those_of_the_kinematics():
-    """A planar section is a section with cables at 0 and pi, its joints bent alike; rates are slopes of lengths."""
-    p = MODEL.parameters
-    section = Section("s", MODEL.n_joints, p.half_spacing[0], p.hole_radius[0], cable_azimuths=(0.0, 2.0, np.pi))
-    bend = 1.1
-    arm = LiveArm(MODEL, np.full(5, bend / 5))
-    np.testing.assert_allclose(arm.cable_lengths, cable_lengths(np.array([0.0, bend]), section)[[0, 2]], rtol=1e-12)
+def test_cable_rates_are_slopes_of_their_lengths():
+    arm = LiveArm(MODEL, START)
+    np.testing.assert_allclose(arm.cable_lengths, chord_lengths(START, MODEL.parameters).sum(axis=0), rtol=1e-12)
     arm.place(np.concatenate([START, [0.3, -0.2, 1.0, 0.0, 2.0]]))
     rates, before, step = arm.cable_rates, arm.cable_lengths, 1e-7
     arm.place(arm.angles + step * arm.rates)

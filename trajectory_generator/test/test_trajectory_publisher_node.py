@@ -174,15 +174,8 @@ def test_help_lists_the_parameters_of_every_path():
         assert names.count(name) == 1
 
 
-@pytest.mark.parametrize(
-    ("parameters", "expected"),
-    [
-        ({"max_speed": -0.1}, "max_speed is -0.1; allowed:"),
-        ({"helix.radius": 0.1}, "unknown parameter 'helix.radius'; known:"),
-    ],
-)
-def test_bad_parameters_end_the_node_with_one_line(domain, parameters, expected):
-    with ended_in_any_case(publisher(domain, **parameters)) as (node,):
+def test_a_parameter_of_another_path_ends_the_node_with_one_line(domain):
+    with ended_in_any_case(publisher(domain, **{"helix.radius": 0.1})) as (node,):
         assert node.exit_code() == 2
         (line,) = node.stderr.splitlines()
-        assert expected in line
+        assert "unknown parameter 'helix.radius'; known:" in line
