@@ -86,6 +86,9 @@ def test_simulated_time_sets_the_pace(domain, probe):
         clock.step(-500.0)
         clock.repeat_until(lambda: "time went back: by 500.000 s; the arm goes on from its posture" in node.stderr)
         clock.step_until(0.02, lambda: stamps(cables)[-1] < back and not any(cables[-1].effort))
+        instants = stamps(cables)
+        pulling = instants[(instants < back) & np.array([any(one.effort) for one in cables])]
+        assert np.ptp(pulling) < 2 * NANOSECONDS  # not until the time of the last command has passed again
         assert node.stop() == 0
 
 

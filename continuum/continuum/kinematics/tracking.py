@@ -27,7 +27,6 @@ _RESTARTS = 64  # of a search that a moving arm waits for
 _RESTARTS_IN_MOTION = 16  # so that a pose out of reach takes about a millisecond; the next one tries the next postures
 _N_TURNS = 16  # until the first postures are tried again
 _SHIFT = 1e-4  # part of the arm's length by which a target is moved for the rate of the nearest posture
-_JUMP = 0.5  # change of a coordinate against the prediction [rad] from which an answer does not continue the motion
 
 
 @dataclass(frozen=True)
@@ -141,9 +140,6 @@ class Tracker:
         predicted = self._predict(dt) if self._rates else self.configuration
         result = self._continue[self._n_out_of_reach % _N_TURNS].solve(target, predicted)
         if not result.solved:
-            self._rates = []
-            return result
-        if np.max(np.abs(result.configuration - predicted)) > _JUMP:
             self._rates = []
         return result
 
