@@ -10,6 +10,7 @@ _NEXT_STEPS = """\
 what you can do next:
   continuum info ARM.yaml                      lengths, cables and bend limits of an arm
   continuum solve ARM.yaml 0.15 0 0.20         bring the tip to a point; bends and cable lengths of the answer
+  continuum model new --out MODEL.yaml         write the model file of a planar arm; from-urdf reads one from a URDF
   continuum view ARM.yaml                      move it in the browser; a recording is played
   continuum simulate --release 90 --picture X.png   let go of an arm that is bent by 90 degrees
   continuum import-dot 1.csv 2.csv 3.csv 4.csv 5.csv --out run_1.csv ..   joint angles of exported sensor data
@@ -69,7 +70,7 @@ def _run(arguments: list[str]) -> int:
     """Parse and run; what takes time to import is imported here, where an interrupt is caught."""
     import argparse
 
-    from continuum.cli import diagnose, import_dot, info, report, simulate, solve, view
+    from continuum.cli import diagnose, import_dot, info, model, report, simulate, solve, view
     from continuum.cli.negative_numbers import written_out
     from continuum.errors import ContinuumError
 
@@ -80,7 +81,7 @@ def _run(arguments: list[str]) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command", required=True)
-    for command in (info, solve, simulate, import_dot, diagnose, report, view):
+    for command in (info, solve, model, simulate, import_dot, diagnose, report, view):
         command.add_to(commands)
     options, unknown = parser.parse_known_args(written_out(arguments))
     if unknown:  # the command's own usage is the one that helps

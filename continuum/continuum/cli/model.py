@@ -1,0 +1,183 @@
+"""`continuum model`: write the model file of a planar arm, from its values or from a URDF."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from continuum.dynamics.parameters import PARAMETERS, Parameter
+from continuum.errors import InvalidValueError
+from continuum.output_files import check_apart, check_writable
+from continuum.printable import printable
+from continuum.whole_file import write_whole
+
+if TYPE_CHECKING:
+    from continuum.dynamics.model import Model
+
+_GIVEN = "given to continuum model new"
+_CABLES = ("half_spacing", "hole_radius")
+_LENGTHS = ("link_length", "half_spacing")
+_UNITS = {"joint": "about the joint, from which m c^2 is taken off", "center": "about the centre of mass"}
+
+
+def add_to(commands: Any) -> None:
+    """Add this subcommand to the parser's."""
+    parser = commands.add_parser("model", help="write the model file of a planar arm", description=__doc__)
+    ways = parser.add_subparsers(title="ways", metavar="WAY", dest="way", required=True)
+    _add_new(ways)
+    _add_urdf(ways)
+
+
+def _add_new(ways: Any) -> None:
+    new = ways.add_parser(
+        "new", help="from values, asked for where they are left out",
+        description="Write a model file from values: one for all joints, or one for each, as 0.3,0.2. At a terminal, "
+        "what is required and was left out is asked for.",
+    )  # fmt: skip
+    new.add_argument("--joints", metavar="N", help="number of joints")
+    new.add_argument(
+        "--inputs", choices=("joint_torques", "cables"),
+        help="what drives the arm; default cables where --half-spacing and --hole-radius are given",
+    )  # fmt: skip
+    new.add_argument(
+        "--inertia-about", choices=tuple(_UNITS), default="center", help="what --inertia is about; default %(default)s"
+    )
+    for name, parameter in PARAMETERS.items():
+        new.add_argument(f"--{name.replace('_', '-')}", metavar="V", help=_help(parameter).replace("%", "%%"))
+    new.add_argument("--out", metavar="MODEL.yaml", required=True, help="the file to write")
+    new.set_defaults(run=_new)
+
+
+def _add_urdf(ways: Any) -> None:
+    urdf = ways.add_parser(
+        "from-urdf", help="from a URDF of a serial arm that moves in one plane",
+        description="Write a model file from a URDF: masses, inertias, lengths, damping and friction of one chain of "
+        "joints with parallel axes. What a model's angles are in the URDF's is printed, and stands in the file.",
+    )  # fmt: skip
+    urdf.add_argument("urdf", metavar="ARM.urdf", help="the description; xacro files have to be expanded first")
+    urdf.add_argument("--tip", metavar="LINK", help="link whose frame is the tip; default the last on the last link")
+    urdf.add_argument(
+        "--gravity", metavar="X,Y,Z", default="0,0,-9.81",
+        help="acceleration in the frame of the URDF's root [m/s2]; default %(default)s",
+    )  # fmt: skip
+    urdf.add_argument("--out", metavar="MODEL.yaml", required=True, help="the file to write")
+    urdf.set_defaults(run=_from_urdf)
+
+
+def _help(parameter: Parameter) -> str:
+    left_out = "required" if parameter.default is None and not parameter.optional else ""
+    left_out = f"default {parameter.default:g}" if parameter.default is not None else left_out
+    return f"{parameter.meaning} [{parameter.unit}]" + (f"; {left_out}" if left_out else "")
+
+
+def _new(options: argparse.Namespace) -> int:
+    from continuum.dynamics.commented_model import commented_model
+    from continuum.dynamics.model_file import model_from_mapping
+
+    check_writable(options.out)
+    given = {name: text for name in PARAMETERS if (text := getattr(options, name)) is not None}
+    joints = _whole(options.joints if options.joints is not None else _asked("--joints", "number of joints"))
+    wanted = [name for name, one in PARAMETERS.items() if one.default is None and not one.optional]
+    if not any(name in given for name in _LENGTHS):
+        wanted.append("link_length")
+    for name in wanted:
+        if name not in given:
+            given[name] = _asked(f"--{name.replace('_', '-')}", f"{PARAMETERS[name].meaning} [{PARAMETERS[name].unit}]")
+    values: dict[str, list[float]] = {name: _numbers(name, text) for name, text in given.items()}
+    if options.inertia_about == "joint":
+        values["inertia"] = _about_centre(joints, values)
+    parameters = {
+        name: {"value": value[0] if len(value) == 1 else value, "unit": PARAMETERS[name].unit, "source": _GIVEN}
+        for name, value in values.items()
+    }
+    inputs = options.inputs or ("cables" if all(name in given for name in _CABLES) else "joint_torques")
+    model = model_from_mapping({"n_joints": joints, "inputs": inputs, "parameters": parameters})
+    write_whole(options.out, commented_model(model))
+    _print(options.out, model, ())
+    return 0
+
+
+def _from_urdf(options: argparse.Namespace) -> int:
+    # Here, so that the other commands need not wait for what reads URDFs.
+    from dataclasses import replace
+
+    from continuum.dynamics.commented_model import commented_model
+    from continuum.dynamics.model_file import model_from_mapping
+    from continuum.dynamics.urdf_chain import chain_from_urdf
+
+    check_apart([options.out], [options.urdf])
+    check_writable(options.out)
+    gravity = _numbers("gravity", options.gravity)
+    if len(gravity) != 3:
+        raise InvalidValueError("--gravity", options.gravity, "three numbers, as 0,0,-9.81")
+    chain = chain_from_urdf(options.urdf, options.tip, gravity)
+    parameters = {
+        name: {"value": [float(one) for one in value], "unit": PARAMETERS[name].unit, "source": ""}
+        for name, value in chain.model.parameters.named().items()
+    }
+    checked = model_from_mapping(
+        {"n_joints": chain.model.n_joints, "inputs": "joint_torques", "parameters": parameters}
+    )
+    written = ("mass", "inertia", "center_of_mass", "link_length", "viscous_friction", "coulomb_friction", "gravity")
+    sources = dict.fromkeys((*written, "hang_angle"), f"{options.urdf}")
+    tip = f"the frame of {chain.tip}" if chain.tip else "twice as far as the last centre of mass: the URDF has no tip"
+    lines = [f"tip: {tip}", *_angles(chain.joints, chain.signs.tolist(), chain.zeros.tolist())]
+    model = replace(checked, sources=sources)
+    write_whole(options.out, commented_model(model, [f"Made from {options.urdf}.", *lines]))
+    _print(options.out, model, lines)
+    return 0
+
+
+def _angles(names: Sequence[str], signs: Sequence[float], zeros: Sequence[float]) -> list[str]:
+    """What the model's angles are in the description's."""
+    lines = []
+    for number, (name, sign, zero) in enumerate(zip(names, signs, zeros, strict=True), 1):
+        offset = f" {'-' if zero < 0 else '+'} {abs(math.degrees(zero)):.6g} deg" if abs(zero) > 1e-9 else ""
+        lines.append(f"q{number} = {'-' if sign < 0 else ''}{name}{offset}")
+    return lines
+
+
+def _print(path: str, model: Model, lines: Sequence[str]) -> None:
+    for line in lines:
+        print(printable(line))
+    joints = "1 joint" if model.n_joints == 1 else f"{model.n_joints} joints"
+    print(f"written: {path} ({joints}, driven by {model.inputs.value.replace('_', ' ')})")
+
+
+def _asked(option: str, meaning: str) -> str:
+    """What a person says; nobody is asked where there is no terminal."""
+    if not sys.stdin.isatty():
+        raise InvalidValueError(option, None, f"{meaning}; give it, or call the command at a terminal, which asks")
+    return input(f"{meaning}: ")
+
+
+def _whole(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError as error:
+        raise InvalidValueError("--joints", text, "a whole number from 1 to 1000") from error
+
+
+def _numbers(name: str, text: str) -> list[float]:
+    """Numbers apart by commas."""
+    try:
+        return [float(one) for one in text.split(",")]
+    except ValueError as error:
+        raise InvalidValueError(f"--{name.replace('_', '-')}", text, "a number, or several as 0.3,0.2") from error
+
+
+def _about_centre(joints: int, values: dict[str, list[float]]) -> list[float]:
+    """Inertias about the centres of mass from those about the joints, by the parallel axes [kg m2]."""
+    mass, centre, inertia = (
+        value * joints if len(value) == 1 else value
+        for value in (values["mass"], values["center_of_mass"], values["inertia"])
+    )
+    if not len(mass) == len(centre) == len(inertia) == joints:
+        raise InvalidValueError("--inertia", inertia, f"one number, or {joints}, as of --mass and --center-of-mass")
+    found = [i - m * c**2 for m, c, i in zip(mass, centre, inertia, strict=True)]
+    if min(found) < 0:
+        raise InvalidValueError("--inertia", inertia, "about the joint at least mass times centre of mass squared")
+    return found
