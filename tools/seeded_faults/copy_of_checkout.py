@@ -46,7 +46,11 @@ class CopyOfCheckout:
         """Ids of the tests that fail; where they hang, or pytest itself fails, the files."""
         paths = os.environ.get("PYTHONPATH", "").split(os.pathsep)
         copied = [path.replace(f"{self._root}/build/", f"{self._place}/") for path in paths]
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join([*copied, *paths])}
+        environment = {
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join([*copied, *paths]),
+            "PYTHONDONTWRITEBYTECODE": "1",  # that of a file of the same second and size would stand for the faulty one
+        }
         cache = self._place / ".pytest_cache"
         shutil.rmtree(cache, ignore_errors=True)
         command = [
