@@ -7,8 +7,8 @@ import numpy as np
 from continuum.discovery.baseline import problem_of
 from continuum.discovery.gauss_newton import modes_along
 from continuum.discovery.problem import Linearised, State, linearise
-from continuum.discovery.score_test import is_linear
 from continuum.discovery.search import Found
+from continuum.discovery.sensitivities import is_linear
 from continuum.discovery.unknowns import Unknowns
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model_file import load_model

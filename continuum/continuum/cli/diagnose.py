@@ -62,6 +62,10 @@ def run(options: argparse.Namespace) -> int:
     for recording in recordings:
         for note in recording.notes:  # what was not understood may be what matters
             print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
+    for recording in recordings:
+        if recording.n_joints != model.n_joints:
+            allowed = f"{model.n_joints}, as {options.model} has; --model names another"
+            raise InvalidValueError(f"{recording.name}: number of joints", recording.n_joints, allowed)
     # Here, so that data that are refused need not wait for numba.
     from continuum.cli.progress import told
     from continuum.discovery import diagnose
@@ -79,6 +83,9 @@ def run(options: argparse.Namespace) -> int:
     if options.extended is not None:
         save_model(result.extended_model, options.extended)
     show(result)  # at last: whoever reads it may stop reading
+    print(f"\nof {_what(options)}")
+    for path in filter(None, (options.json, options.report, options.extended)):
+        print(f"written: {printable(path)}")
     return EXIT_CODES[result.verdict.kind.value]
 
 
@@ -94,11 +101,16 @@ def _made(options: argparse.Namespace) -> dict[str, Any]:
     }
 
 
+def _what(options: argparse.Namespace) -> str:
+    """Recordings and model in one line."""
+    made = _made(options)
+    return f"{', '.join(made['recordings'])}; model {made['model']}"
+
+
 def _how(options: argparse.Namespace) -> str:
-    """The same in one line, and on which day."""
-    made, day = _made(options), datetime.datetime.now().astimezone().date().isoformat()
-    what = f"{', '.join(made['recordings'])}; model {made['model']}"
-    return f"Made on {day} by continuum {made['version']} of {what}."
+    """The same, by which version and on which day."""
+    day = datetime.datetime.now().astimezone().date().isoformat()
+    return f"Made on {day} by continuum {_made(options)['version']} of {_what(options)}."
 
 
 def read_recording(path: str) -> Recording:

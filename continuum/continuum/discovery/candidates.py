@@ -14,7 +14,7 @@ from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_needless, 
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem, linearise
-from continuum.discovery.score_test import Promise, is_linear, promises
+from continuum.discovery.score_test import Promise, promises
 from continuum.discovery.search import (
     MOST,
     RUNNER_UP,
@@ -25,6 +25,7 @@ from continuum.discovery.search import (
     with_one_more,
     with_unseen,
 )
+from continuum.discovery.sensitivities import is_linear
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
 from continuum.estimation.structure import Structure

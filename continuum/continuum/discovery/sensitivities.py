@@ -1,0 +1,119 @@
+"""Open-loop sensitivities of one fit by all effects whose sizes enter linearly: one simulation of every segment."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.fitted import Fitted
+from continuum.discovery.hypotheses import Hypothesis
+from continuum.discovery.library import Library
+from continuum.discovery.normal_equations import NormalEquations, Scale, Values
+from continuum.discovery.open_loop import Segment
+from continuum.discovery.output_error import DAMPING, OutputError
+from continuum.discovery.unknowns import Unknown, Unknowns, linear_unknown, own_unknowns
+
+
+class Sensitivities:
+    """Residuals of a fit, and their derivatives by what was fitted and by all further effects.
+
+    Args:
+        judge: by which the set was fitted.
+        fit: of a set.
+        library: with the hypotheses.
+
+    Attributes:
+        hypotheses: those that are linear.
+        wide: the unknowns of the fit and those of all hypotheses.
+        segments: with derivatives by these.
+    """
+
+    def __init__(self, judge: OutputError, fit: Fitted, library: Library) -> None:
+        self._judge, self._fit, runs = judge, fit, range(len(fit.values.own))
+        self.hypotheses = [h for h in library.hypotheses if is_linear(h)]
+        common = [[linear_unknown(h, k, library) for k in range(len(h.coefficients))] for h in self.hypotheses]
+        own = [[own_unknowns(h, library, r, {}) for h in self.hypotheses] for r in runs]
+        added = zip(self.hypotheses, common, zip(*own, strict=True), strict=True)
+        self._added = {h: (of_all, of_runs) for h, of_all, of_runs in added}
+        self.wide = _joined(fit.unknowns, _once(common), [_once(own[r]) for r in runs])
+        self.segments = judge.simulated(self.wide, padded(fit.values, self.wide))
+        self._at = [{one.place: k for k, one in enumerate([*self.wide.common, *mine])} for mine in self.wide.own]
+
+    @property
+    def completed(self) -> bool:
+        """Whether the simulations did not fail."""
+        return all(np.isfinite(one.square) for one in self.segments)
+
+    @cached_property
+    def _weights(self) -> list[float]:
+        return Scale(self.segments, self._judge.floor).weights([one.error for one in self.segments])
+
+    def with_effect(self, unknowns: Unknowns, h: Hypothesis) -> Unknowns:
+        """Some unknowns, and those of a hypothesis."""
+        return _joined(unknowns, *self._added[h])
+
+    def residuals_after(
+        self, unknowns: Unknowns, values: Values, segments: Sequence[Segment] | None = None
+    ) -> list[Array]:
+        """Residuals of each segment after a step by some of the unknowns, (rows, n) each [rad].
+
+        Args:
+            unknowns: of the step.
+            values: from which it begins; unknowns beyond these begin at 0.
+            segments: with other residuals than the fit's.
+        """
+        local = len(self._judge.local_precision)
+        chosen = [self._by(one, unknowns, local) for one in segments or self.segments]
+        start = padded(values, unknowns)
+        normal = NormalEquations(unknowns, start, chosen, self._weights, self._judge.local_precision)
+        return normal.expected_residuals(normal.stepped(DAMPING))
+
+    def _by(self, one: Segment, unknowns: Unknowns, local: int) -> Segment:
+        """A segment with the derivatives by some unknowns only, and by its own."""
+        at, width = self._at[one.run], one.slopes.shape[1]
+        some = [at[each.place] for each in (*unknowns.common, *unknowns.own[one.run])]
+        return Segment(one.run, one.rows, one.readings, one.slopes[:, [*some, *range(width - local - 1, width)]])
+
+    def changes(self, h: Hypothesis, sizes: Array, own_sizes: Array) -> list[Segment]:
+        """Segments whose residuals are what a hypothesis would leave if it were in the data.
+
+        Args:
+            h: one of the linear ones.
+            sizes: of its unknowns that all recordings have in common, (k,).
+            own_sizes: of those that each recording has for itself, (m,), in turn with either sign.
+        """
+        of_all, of_runs = self._added[h]
+        found = []
+        for one in self.segments:
+            at, sign = self._at[one.run], 1 - 2 * (one.run % 2)
+            slopes = one.slopes.copy()
+            of_run = of_runs[one.run]
+            columns = [at[each.place] for each in (*of_all, *of_run)]
+            slopes[:, -1] = -slopes[:, columns] @ np.concatenate([sizes, sign * own_sizes])
+            found.append(Segment(one.run, one.rows, one.readings, slopes))
+        return found
+
+
+def is_linear(h: Hypothesis) -> bool:
+    """Whether sizes of a hypothesis enter linearly."""
+    return h.start is None and all(c.kind == "slot" for c in h.coefficients)
+
+
+def padded(values: Values, unknowns: Unknowns) -> Values:
+    """The same values, and zero for further unknowns."""
+    common = np.pad(values.common, (0, len(unknowns.common) - len(values.common)))
+    own = [np.pad(x, (0, len(those) - len(x))) for x, those in zip(values.own, unknowns.own, strict=True)]
+    return Values(common, tuple(own), values.local)
+
+
+def _joined(unknowns: Unknowns, more: Sequence[Unknown], more_own: Sequence[Sequence[Unknown]]) -> Unknowns:
+    own = [[*those, *new] for those, new in zip(unknowns.own, more_own, strict=True)]
+    return unknowns.with_lists([*unknowns.common, *more], own)
+
+
+def _once(unknowns: Sequence[Sequence[Unknown]]) -> list[Unknown]:
+    """One for each place."""
+    return list({one.place: one for those in unknowns for one in those}.values())
