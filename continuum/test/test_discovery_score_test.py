@@ -13,6 +13,7 @@ from continuum.discovery.baseline import fitted_baseline, problem_of
 from continuum.discovery.decision import is_worth
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.output_error import OutputError
+from continuum.discovery.power import powers
 from continuum.discovery.problem import linearise
 from continuum.discovery.score_test import promises
 from continuum.discovery.search import RUNNER_UP, Found
@@ -71,3 +72,21 @@ def test_where_nothing_is_hidden_nothing_is_worth_it() -> None:
     judge, found, fit = fitted("joint_stiffness", "excess", 0.0, 0)
     best = promises(judge, fit, found.lin.library)[0]
     assert not is_worth(best.gain, best.observations)
+
+
+@pytest.mark.parametrize("times_smallest", [0.3, 3.0])
+@pytest.mark.parametrize(
+    ("effect", "parameter", "joint"), [("joint_stiffness", "excess", 1), ("tip_payload", "mass", 0)]
+)
+def test_what_is_larger_than_the_smallest_that_would_have_shown_is_worth_it(
+    effect: str, parameter: str, joint: int, times_smallest: float
+) -> None:
+    """The smallest size by an arm without any effect, the gain by arms that have it."""
+    judge, found, fit = fitted("joint_stiffness", "excess", 0.0, 0)
+    key = effect, (joint,) if effect_named(effect).parameters[parameter].per_joint else None
+    smallest = next(
+        one for one in powers(judge, fit, fit.errors, found.lin.library) if one.hypothesis.key == key
+    ).size * (effect_named(effect).parameters[parameter].typical or 1.0)
+    judge, found, fit = fitted(effect, parameter, times_smallest * smallest, joint)
+    hidden = next(one for one in promises(judge, fit, found.lin.library) if one.hypothesis.key == key)
+    assert is_worth(hidden.gain, hidden.observations) == (times_smallest > 1)

@@ -77,6 +77,15 @@ class Sensitivities:
         some = [at[each.place] for each in (*unknowns.common, *unknowns.own[one.run])]
         return Segment(one.run, one.rows, one.readings, one.slopes[:, [*some, *range(width - local - 1, width)]])
 
+    def without_residuals(self) -> list[Segment]:
+        """Segments as if the fit were exact."""
+        found = []
+        for one in self.segments:
+            slopes = one.slopes.copy()
+            slopes[:, -1] = 0.0
+            found.append(Segment(one.run, one.rows, one.readings, slopes))
+        return found
+
     def changes(self, h: Hypothesis, sizes: Array, own_sizes: Array) -> list[Segment]:
         """Segments whose residuals are what a hypothesis would leave if it were in the data.
 
