@@ -10,6 +10,7 @@ import re
 import signal
 import sys
 from collections.abc import Collection, Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -46,6 +47,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     kept: list[pytest.Item] = []
     left_out: list[pytest.Item] = []
     for item in items:
+        if parts_of(item)[0] not in _parts_in(item.path):
+            raise pytest.UsageError(f"{item.nodeid}: its marker is not seen in the text; write pytest.mark.NAME there")
         (kept if part in parts_of(item) else left_out).append(item)
     config.hook.pytest_deselected(items=left_out)
     items[:] = kept
@@ -56,10 +59,16 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     part = config.getoption("part")
     if part is None or not re.fullmatch(r"test_.*\.py", collection_path.name):
         return None
-    text = collection_path.read_text(encoding="utf-8")
-    single = {(), *((name,) for name in _MARK.findall(text))}
-    whole = tuple(_WHOLE_MODULE.findall(text))
-    return not any(part in _parts({*marks, *whole}) for marks in single) or None
+    return part not in _parts_in(collection_path) or None
+
+
+@cache
+def _parts_in(path: Path) -> frozenset[str]:
+    """Parts that a module may hold some of, by the markers in its text."""
+    text = path.read_text(encoding="utf-8")
+    whole = _WHOLE_MODULE.findall(text)
+    single = [(), *((name,) for name in _MARK.findall(text))]
+    return frozenset(part for marks in single for part in _parts({*marks, *whole}))
 
 
 _MARK = re.compile(r"\bmark\.(ros|hidden_effects|slow)\b")

@@ -92,11 +92,9 @@ def test_a_message_without_rates_is_left_out_where_others_have_some(tmp_path: Pa
     assert len(found.notes) == 1
 
 
-@pytest.mark.parametrize("order", ["in turn", "one after the other", "at random"])
-def test_sections_that_publish_their_joints_each_are_one_arm(tmp_path: Path, order: str) -> None:
-    """As in the mode of the launch file in which cables move the arm: whatever the order in which messages arrive."""
-    whole = [joint_state(stamp, w) for stamp, w in zip(RUN_STAMPS, postures()[0], strict=True)]
-    parts = [
+def sections_apart(whole: list) -> list[list]:
+    """Messages of a node for each section."""
+    return [
         [
             message(TYPES["/joint_states"], stamp, name=[one.name[k] for k in mine], position=one.position[mine])
             for one, stamp in zip(whole, RUN_STAMPS, strict=True)
@@ -104,6 +102,13 @@ def test_sections_that_publish_their_joints_each_are_one_arm(tmp_path: Path, ord
         ]
         for section in ARM.sections
     ]
+
+
+@pytest.mark.parametrize("order", ["in turn", "one after the other", "at random", "one ends early"])
+def test_sections_that_publish_their_joints_each_are_one_arm(tmp_path: Path, order: str) -> None:
+    """As in the mode of the launch file in which cables move the arm: whatever the order in which messages arrive."""
+    whole = [joint_state(stamp, w) for stamp, w in zip(RUN_STAMPS, postures()[0], strict=True)]
+    parts = sections_apart(whole)
     arriving = [part for parts_of_one in zip(*parts, strict=True) for part in parts_of_one]
     if order == "one after the other":
         arriving = [part for messages in parts for part in messages]
@@ -111,8 +116,21 @@ def test_sections_that_publish_their_joints_each_are_one_arm(tmp_path: Path, ord
         turns = np.random.default_rng(0).permutation(np.repeat(range(len(parts)), len(whole)))
         queues = [iter(messages) for messages in parts]
         arriving = [next(queues[k]) for k in turns]
+    if order == "one ends early":
+        arriving, whole = [one for one in arriving if one not in parts[1][-20:]], whole[:-20]
     expected = read_tracks(write(tmp_path / "whole", {"/joint_states": whole})).joints
-    found = read_tracks(write(tmp_path / "parts", {"/joint_states": arriving})).joints
+    tracks = read_tracks(write(tmp_path / "parts", {"/joint_states": arriving}))
+    found = tracks.joints
     np.testing.assert_array_equal(found.times, expected.times)
     places = [found.names.index(name) for name in expected.names]
     np.testing.assert_array_equal(found.values[:, places], expected.values)
+    assert any("20 messages of single sections" in note for note in tracks.notes) == (order == "one ends early")
+
+
+def test_sections_without_a_common_stamp_are_refused(tmp_path: Path) -> None:
+    parts = sections_apart([joint_state(stamp, w) for stamp, w in zip(RUN_STAMPS, postures()[0], strict=True)])
+    for one, stamp in zip(parts[1], RUN_STAMPS, strict=True):
+        stamped(one, stamp + 200_000)
+    arriving = [part for parts_of_one in zip(*parts, strict=True) for part in parts_of_one]
+    with pytest.raises(FileError, match="0 of which have a stamp that all 2 have"):
+        read_tracks(write(tmp_path / "parts", {"/joint_states": arriving}))

@@ -17,6 +17,7 @@ import time
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
+from threading import Event
 from typing import Final
 
 _SIDE_BY_SIDE: Final = ("--dist=loadfile", "--numprocesses=auto", "--maxprocesses=4")
@@ -30,11 +31,11 @@ PARTS: Final = {
 FIRST: Final = ("nodes",)
 REST: Final = ("units", "hidden-effects")
 
-PASSED, INTERRUPTED, NOTHING_TO_RUN = 0, 2, 5
+PASSED, NOTHING_TO_RUN = 0, 5
 """Exit codes of pytest."""
 _LOWER_PRIORITY: Final = ("nice", "-n", "10")
 _SHOWN_EVERY = 0.2  # [s]
-_MOST_SHOWN = 1 << 24  # bytes at a time; less than that comes between two times
+_AT_ONCE = 1 << 20  # bytes
 
 
 @dataclass(frozen=True)
@@ -55,48 +56,55 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="run_tests", description="Further arguments are given to pytest.")
     parser.add_argument("--quick", action="store_true", help="the fast unit tests alone")
     options, given = parser.parse_known_args(arguments)
-    before = signal.signal(signal.SIGINT, lambda *_: None)  # pytest has it too, and ends with its report
+    stopped = Event()
+    before = signal.signal(signal.SIGINT, lambda *_: stopped.set())  # pytest has it too, and ends with its report
     try:
-        ended = run(("quick",), given) if options.quick else run_all(given)
+        ended = run(("quick",), given, stopped) if options.quick else run_all(given, stopped)
     finally:
         signal.signal(signal.SIGINT, before)
     print(*ended, sep="\n", flush=True)
-    return exit_code([one.code for one in ended])
+    return exit_code([one.code for one in ended], selected=bool(given))
 
 
-def run_all(given: Sequence[str]) -> list[Ended]:
+def run_all(given: Sequence[str], stopped: Event) -> list[Ended]:
     """Run what starts nodes and show it; the rest meanwhile at a lower priority, shown after it."""
     with tempfile.TemporaryFile("w+") as out, ThreadPoolExecutor(1) as pool:
-        rest = pool.submit(run, REST, given, _LOWER_PRIORITY, out.fileno())
-        first = run(FIRST, given)
+        rest = pool.submit(run, REST, given, stopped, _LOWER_PRIORITY, out.fileno())
+        first = run(FIRST, given, stopped)
         shown, done = 0, False
         while not done:
             done = bool(wait([rest], _SHOWN_EVERY).done)
-            text = os.pread(out.fileno(), _MOST_SHOWN, shown)
-            shown += sys.stdout.buffer.write(text)
+            while text := os.pread(out.fileno(), _AT_ONCE, shown):
+                shown += sys.stdout.buffer.write(text)
             sys.stdout.flush()
         return [*first, *rest.result()]
 
 
-def run(parts: Sequence[str], given: Sequence[str], prefix: Sequence[str] = (), out: int | None = None) -> list[Ended]:
-    """Run parts one after the other, until one is interrupted; ``out`` is a file's descriptor.
+def run(
+    parts: Sequence[str], given: Sequence[str], stopped: Event, prefix: Sequence[str] = (), out: int | None = None
+) -> list[Ended]:
+    """Run parts one after the other, until ``stopped`` is set; ``out`` is a file's descriptor.
 
-    pytest keeps the test modules that it has rewritten, whatever the caller wants of byte code.
+    pytest keeps the test modules that it has rewritten, whatever the caller wants of byte code. Each part has a cache:
+    two that run at the same time would overwrite what failed in the other.
     """
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     ended: list[Ended] = []
     for part in parts:
         began = time.monotonic()
-        command = [*prefix, sys.executable, "-m", "pytest", f"--part={part}", *PARTS[part], *given]
+        options = (f"--part={part}", f"--override-ini=cache_dir=.pytest_cache/{part}", *PARTS[part])
+        command = [*prefix, sys.executable, "-m", "pytest", *options, *given]
         code = subprocess.run(command, check=False, stdout=out, stderr=out, env=environment).returncode
         ended.append(Ended(part, code, time.monotonic() - began))
-        if code == INTERRUPTED:
+        if stopped.is_set() or code == -signal.SIGINT:
             break
     return ended
 
 
-def exit_code(codes: list[int]) -> int:
-    """Exit code of the whole: a part without tests is no failure unless no part has any."""
+def exit_code(codes: list[int], selected: bool = False) -> int:
+    """Exit code of the whole; a part may have no tests where only ``selected`` ones run, unless no part has any."""
+    if not selected:
+        return next(filter(None, codes), PASSED)
     ran = [code for code in codes if code != NOTHING_TO_RUN]
     return next(filter(None, ran), PASSED) if ran else NOTHING_TO_RUN
 

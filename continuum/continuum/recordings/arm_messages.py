@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -25,8 +24,7 @@ _MARKS = (theta_joints("", 1)[0].removesuffix("1"), cable_names("", 1)[0].remove
 def of_an_arm(path: Path, topic: str, messages: Iterable[Any]) -> tuple[list[Any], tuple[str, ...]]:
     """Messages of who publishes bending joints or cables in the order of their stamps, and a note on each left out.
 
-    Where nobody does, all are there; so are all where others have some of the arm's names. Of nodes that publish a part
-    of the arm each, messages of one stamp are one.
+    Where nobody does, all are there; so are all where others have some of the arm's names.
 
     Raises:
         FileError: no message has a stamp, stamps are of two runs or of a clock that was set back, or two publish one
@@ -38,56 +36,12 @@ def of_an_arm(path: Path, topic: str, messages: Iterable[Any]) -> tuple[list[Any
     strangers = {name for one in others for name in one.name}
     if not mine or set(mine[0].name) & strangers:
         mine, others = stamped, []
-    ordered = _joined([_of_one(path, topic, part) for part in _parts(mine)])
+    ordered = _in_order(path, topic, mine)
+    _refuse_two_arms(path, topic, ordered)
     if not others:
         return ordered, unstamped
     names = printable(", ".join(sorted(strangers)[:_SHOWN])) or "without names"
     return ordered, (*unstamped, f"{_counted(len(others))} of others on {topic} ({names}), left out")
-
-
-def _parts(messages: Sequence[Any]) -> list[list[Any]]:
-    """Messages by their names, where no name is in two parts; else all are one."""
-    parts: dict[frozenset[str], list[Any]] = {}
-    for one in messages:
-        parts.setdefault(frozenset(one.name), []).append(one)
-    apart = len(frozenset[str]().union(*parts)) == sum(map(len, parts)) and frozenset() not in parts
-    return list(parts.values()) if apart else [list(messages)]
-
-
-def _of_one(path: Path, topic: str, messages: list[Any]) -> list[Any]:
-    ordered = _in_order(path, topic, messages)
-    _refuse_two_arms(path, topic, ordered)
-    return ordered
-
-
-def _joined(parts: Sequence[Sequence[Any]]) -> list[Any]:
-    """One message for each stamp of the parts; a part that has no message of a stamp is left as it was before.
-
-    It begins where all parts are known. A field counts where each part has it.
-    """
-    if len(parts) == 1:
-        return list(parts[0])
-    by_stamp: dict[int, dict[int, Any]] = {}
-    for number, part in enumerate(parts):
-        for one in part:
-            by_stamp.setdefault(stamp_ns(one), {})[number] = one
-    joined, latest = list[Any](), dict[int, Any]()
-    for stamp in sorted(by_stamp):
-        latest |= by_stamp[stamp]
-        if len(latest) == len(parts):
-            joined.append(_one_message([latest[number] for number in range(len(parts))], by_stamp[stamp]))
-    return joined
-
-
-def _one_message(parts: Sequence[Any], new: Mapping[int, Any]) -> Any:
-    fields = {
-        field: np.concatenate([np.asarray(getattr(one, field), dtype=float) for one in parts])
-        if all(len(getattr(one, field)) == len(one.name) for one in parts)
-        else np.zeros(0)
-        for field in ("position", "velocity", "effort")
-    }
-    header = next(iter(new.values())).header
-    return SimpleNamespace(header=header, name=[name for one in parts for name in one.name], **fields)
 
 
 def _with_stamp(path: Path, topic: str, messages: list[Any]) -> tuple[list[Any], tuple[str, ...]]:

@@ -15,6 +15,7 @@ from continuum.joint_names import bending_joints, cable_names, theta_joints
 from continuum.recordings.arm_messages import of_an_arm
 from continuum.recordings.arm_recording import TOPICS
 from continuum.recordings.bag import Bag, is_bag, stamp_ns
+from continuum.recordings.joined_sections import joined_sections
 from continuum.recordings.named_values import named_values
 from continuum.recordings.plausible_values import LARGEST_TURN
 from continuum.recordings.recording_csv import read_recording_csv
@@ -130,7 +131,11 @@ def _read(bag: Bag, topic: str, fields: Sequence[str], notes: list[str], namespa
     names: dict[str, tuple[str, ...]] = {}
     times: dict[str, list[float]] = {field: [] for field in fields}
     rows: dict[str, list[Array]] = {field: [] for field in fields}
-    mine, others = of_an_arm(bag.path, namespace + topic, bag.messages(namespace + topic, TOPICS[topic]))
+    messages = list(bag.messages(namespace + topic, TOPICS[topic]))
+    if topic == "/joint_states":
+        messages, alone = joined_sections(bag.path, namespace + topic, messages)
+        notes += alone
+    mine, others = of_an_arm(bag.path, namespace + topic, messages)
     notes += others
     for one in mine:
         for field in fields:
