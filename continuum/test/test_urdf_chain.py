@@ -17,6 +17,7 @@ LINK = """<link name="{name}"><inertial><origin xyz="{xyz}" rpy="{rpy}"/><mass v
 <inertia ixx="{a}" iyy="{b}" izz="{c}" ixy="0" ixz="0" iyz="0"/></inertial></link>"""
 JOINT = """<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>
 <origin xyz="{xyz}" rpy="{rpy}"/><axis xyz="{axis}"/>{more}</joint>"""
+FAR_AWAY = ["--mass=1", "--center-of-mass=1e200", "--inertia=1", "--link-length=1", "--inertia-about=joint"]
 LIMIT = '<limit lower="-3" upper="3" effort="100" velocity="100"/>'
 
 
@@ -99,6 +100,11 @@ def test_the_command_writes_the_model(tmp_path: Path, capsys: pytest.CaptureFixt
         (("<robot", "<"), "cannot be read"),
         (('damping="0', 'damping="x0'), "damping"),
         (("</robot>", '<link name="other"/></robot>'), "no tree"),
+        (("</robot>", '<link name="tip"/></robot>'), "2 times"),
+        (("</robot>", ""), "cannot be read"),
+        ((' iyy="', ' jyy="'), "moment of inertia iyy"),
+        (("<robot", '<!DOCTYPE r [<!ENTITY a "b">]><robot'), "document type"),
+        (('<axis xyz="0 0 1"/>', '<axis xyz="0 0 0"/>'), "axis"),
     ],
 )
 def test_what_is_no_planar_chain_is_refused(change: tuple[str, str], what: str, tmp_path: Path) -> None:
@@ -140,6 +146,9 @@ def test_a_commented_file_gives_its_model_back(name: str, tmp_path: Path) -> Non
     ("words_of_option", "what"),
     [
         (["--joints", "two"], "--joints is 'two'"),
+        (["--joints", "0", "--inertia-about", "joint"], "--joints"),
+        (["--joints", "1000000000"], "--joints"),
+        (["--joints", "1", *FAR_AWAY], "--inertia"),
         (["--joints", "2", "--mass", "1,2,3"], "mass"),
         (["--joints", "1", "--mass", "1", "--center-of-mass", "1", "--inertia", "x"], "--inertia is 'x'"),
         (["--joints", "1", "--mass", "1"], "required|give it"),

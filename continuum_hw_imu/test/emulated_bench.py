@@ -20,6 +20,7 @@ from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 from continuum_manipulator.nodekit.two_clocks import read_together
 from continuum_msgs.msg import CableStates
 
+MOST_ACTIVATIONS = 5  # in one pull: a bench lets go of whoever was silent, not of whoever speaks
 CABLES = ["section_1_cable_1", "section_1_cable_2"]
 N_SENSORS = 5
 
@@ -182,13 +183,14 @@ class Bridge:
         def dropped() -> int:
             return self.probe.count(self.name, "dropped: not active")
 
-        done = False
-        while not done:
+        for _ in range(MOST_ACTIVATIONS):
             before = dropped()
             self.command_until(effort, lambda before=before: until() or dropped() > before)
-            done = dropped() <= before
-            if not done and self.state == "inactive":
+            if dropped() <= before:
+                return
+            if self.state == "inactive":
                 assert self.change("activate"), self.node.stderr
+        raise AssertionError(f"activated again {MOST_ACTIVATIONS} times; {self.node.stderr}")
 
     def calibrate(self) -> list[str]:
         """At rest, straight, and after a bend towards cable 1; what the services answered."""

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any
 from continuum.dynamics.parameters import PARAMETERS, Parameter
 from continuum.errors import InvalidValueError
 from continuum.output_files import check_apart, check_writable
-from continuum.printable import printable
+from continuum.printable import one_line
 from continuum.whole_file import write_whole
 
 if TYPE_CHECKING:
     from continuum.dynamics.model import Model
 
 _GIVEN = "given to continuum model new"
+_MOST_JOINTS = 1000
 _CABLES = ("half_spacing", "hole_radius")
 _LENGTHS = ("link_length", "half_spacing")
 _UNITS = {"joint": "about the joint, from which m c^2 is taken off", "center": "about the centre of mass"}
@@ -142,23 +143,26 @@ def _angles(names: Sequence[str], signs: Sequence[float], zeros: Sequence[float]
 
 def _print(path: str, model: Model, lines: Sequence[str]) -> None:
     for line in lines:
-        print(printable(line))
+        print(one_line(line))
     joints = "1 joint" if model.n_joints == 1 else f"{model.n_joints} joints"
-    print(f"written: {path} ({joints}, driven by {model.inputs.value.replace('_', ' ')})")
+    print(f"written: {one_line(path)} ({joints}, driven by {model.inputs.value.replace('_', ' ')})")
 
 
 def _asked(option: str, meaning: str) -> str:
     """What a person says; nobody is asked where there is no terminal."""
     if not sys.stdin.isatty():
         raise InvalidValueError(option, None, f"{meaning}; give it, or call the command at a terminal, which asks")
-    return input(f"{meaning}: ")
+    try:
+        return input(f"{meaning}: ")
+    except EOFError:
+        raise InvalidValueError(option, None, meaning) from None
 
 
 def _whole(text: str) -> int:
-    try:
-        return int(text)
-    except ValueError as error:
-        raise InvalidValueError("--joints", text, "a whole number from 1 to 1000") from error
+    """Number of joints."""
+    if not text.strip().isdecimal() or not 1 <= len(text.strip()) <= 4 or not 1 <= int(text) <= _MOST_JOINTS:
+        raise InvalidValueError("--joints", text, f"a whole number from 1 to {_MOST_JOINTS}")
+    return int(text)
 
 
 def _numbers(name: str, text: str) -> list[float]:
@@ -177,7 +181,7 @@ def _about_centre(joints: int, values: dict[str, list[float]]) -> list[float]:
     )
     if not len(mass) == len(centre) == len(inertia) == joints:
         raise InvalidValueError("--inertia", inertia, f"one number, or {joints}, as of --mass and --center-of-mass")
-    found = [i - m * c**2 for m, c, i in zip(mass, centre, inertia, strict=True)]
+    found = [i - m * c * c for m, c, i in zip(mass, centre, inertia, strict=True)]
     if min(found) < 0:
         raise InvalidValueError("--inertia", inertia, "about the joint at least mass times centre of mass squared")
     return found

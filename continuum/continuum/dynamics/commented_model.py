@@ -8,7 +8,7 @@ import yaml
 
 from continuum.dynamics.model import Model
 from continuum.dynamics.parameters import PARAMETERS, Parameter
-from continuum.printable import printable
+from continuum.printable import one_line
 
 _HEAD = """\
 # A planar arm of {joints}, from the base to the tip. A value is one number for all joints, or a list.
@@ -25,8 +25,7 @@ def commented_model(model: Model, heading: Sequence[str] = ()) -> str:
     """
     n, values = model.n_joints, model.parameters.named()
     lines = [
-        _HEAD.format(joints="1 joint" if n == 1 else f"{n} joints")
-        + "".join(f"# {_one_line(one)}\n" for one in heading)
+        _HEAD.format(joints="1 joint" if n == 1 else f"{n} joints") + "".join(f"# {one_line(one)}\n" for one in heading)
     ]
     lines += [f"n_joints: {n}\n", f"inputs: {model.inputs.value}  # cables or joint_torques\n", "parameters:\n"]
     for name, parameter in PARAMETERS.items():
@@ -48,7 +47,3 @@ def _explained(parameter: Parameter) -> str:
     left_out = "" if parameter.default is None else f"; {parameter.default:g} where it is left out"
     bounds = f"{parameter.lower:g} to {parameter.upper:g} {parameter.unit}"
     return f"{parameter.symbol}: {parameter.meaning}; {bounds}{left_out}"
-
-
-def _one_line(text: str) -> str:
-    return "".join(letter if letter.isprintable() else " " for letter in printable(text))

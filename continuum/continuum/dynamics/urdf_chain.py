@@ -10,10 +10,12 @@ the first joint's axis, and phi_i the direction from p_i to p_i+1 counted from t
 from __future__ import annotations
 
 import io
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import yourdfpy
@@ -28,7 +30,17 @@ _TURNING = ("revolute", "continuous")
 _PARALLEL = 1e-4  # rad: what descriptions round
 _SHORTEST = 1e-4  # m, of links, as in model files
 _BESIDE = 0.01  # part of a link's length by which its centre of mass may lie off the line from joint to joint
-_UNREADABLE = (OSError, SyntaxError, KeyError, AttributeError, TypeError, ValueError, yourdfpy.urdf.URDFError)
+_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_UNREADABLE = (
+    OSError,
+    SyntaxError,
+    RecursionError,
+    KeyError,
+    AttributeError,
+    TypeError,
+    ValueError,
+    yourdfpy.urdf.URDFError,
+)
 """What yourdfpy's reading of a damaged description runs into."""
 
 
@@ -143,11 +155,10 @@ class _Description:
     def __init__(self, path: Path) -> None:
         self._path = path
         try:
+            data = path.read_bytes()
+            _check_text(path, data)
             robot = yourdfpy.URDF.load(
-                io.BytesIO(path.read_bytes()),
-                build_scene_graph=False,
-                load_meshes=False,
-                build_collision_scene_graph=False,
+                io.BytesIO(data), build_scene_graph=False, load_meshes=False, build_collision_scene_graph=False
             ).robot
         except _UNREADABLE as error:
             raise FileError(path, f"cannot be read as a URDF ({type(error).__name__}: {error})") from error
@@ -174,7 +185,7 @@ class _Description:
             joint, pose = group.turning[0]
             group = self._fixed_to(joint.child, pose)
             joints.append(joint)
-            axes.append(pose[:3, :3] @ joint.axis / np.linalg.norm(joint.axis))
+            axes.append(pose[:3, :3] @ _axis(self._path, joint))
             places.append(pose[:3, 3])
             groups.append(group)
         if not joints:
@@ -183,22 +194,46 @@ class _Description:
 
     def _fixed_to(self, name: str, pose: Array) -> _Group:
         """A link at a pose (4, 4) [m], with all that is fixed to it."""
-        inertial = self._links[name].inertial
-        group = _Group([] if inertial is None else [_body(self._path, name, inertial, pose)], {name: pose[:3, 3]}, [])
-        for joint in self._beyond[name]:
-            at = pose if joint.origin is None else pose @ joint.origin
-            if joint.type == "fixed":
-                other = self._fixed_to(joint.child, at)
-                group.bodies += other.bodies
-                group.frames |= other.frames
-                group.turning += other.turning
-            elif joint.type in _TURNING and joint.mimic is None:
-                group.turning.append((joint, at))
-            else:
-                kind = "moved by another one (mimic)" if joint.mimic is not None else joint.type
-                allowed = ", ".join((*_TURNING, "fixed"))
-                raise FileError(self._path, f"has the joint {joint.name}, which is {kind}; allowed: {allowed}")
+        group, waiting = _Group([], {}, []), [(name, pose)]
+        while waiting:
+            name, pose = waiting.pop(0)
+            inertial = self._links[name].inertial
+            group.frames[name] = pose[:3, 3]
+            if inertial is not None:
+                group.bodies.append(_body(self._path, name, inertial, pose))
+            for joint in self._beyond[name]:
+                at = pose if joint.origin is None else pose @ joint.origin
+                if joint.type == "fixed":
+                    waiting.append((joint.child, at))
+                elif joint.type in _TURNING and joint.mimic is None:
+                    group.turning.append((joint, at))
+                else:
+                    kind = "moved by another one (mimic)" if joint.mimic is not None else joint.type
+                    allowed = ", ".join((*_TURNING, "fixed"))
+                    raise FileError(self._path, f"has the joint {joint.name}, which is {kind}; allowed: {allowed}")
         return group
+
+
+def _check_text(path: Path, data: bytes) -> None:
+    """Refuse what yourdfpy mends or fills in without a word: damaged text, entities, names and moments of inertia.
+
+    Raises:
+        FileError: it is damaged so.
+        ParseError: it is no XML.
+    """
+    if b"<!DOCTYPE" in data:
+        raise FileError(path, "has a document type; descriptions have none")
+    root = ElementTree.fromstring(data)
+    for kind in ("link", "joint"):
+        counts = Counter(one.get("name", "") for one in root.findall(kind))
+        for name, count in counts.items():
+            if count > 1:
+                raise FileError(path, f"has {count} times the {kind} {name}")
+    for link in root.findall("link"):
+        for inertia in link.findall("inertial/inertia"):
+            for moment in _MOMENTS:
+                if moment not in inertia.attrib:
+                    raise FileError(path, f"has a link {link.get('name')} without its moment of inertia {moment}")
 
 
 def _body(path: Path, name: str, inertial: yourdfpy.urdf.Inertial, pose: Array) -> _Body:
@@ -209,11 +244,22 @@ def _body(path: Path, name: str, inertial: yourdfpy.urdf.Inertial, pose: Array) 
     return _Body(float(inertial.mass), at[:3, 3], turn @ np.asarray(inertial.inertia) @ turn.T)
 
 
+def _axis(path: Path, joint: yourdfpy.urdf.Joint) -> Array:
+    """Unit vector (3,)."""
+    axis = np.asarray(joint.axis, dtype=float)
+    length = float(np.linalg.norm(axis))
+    if axis.shape != (3,) or not 1e-9 < length < np.inf:
+        raise FileError(
+            path, f"has a joint {joint.name} with the axis {axis.tolist()}; three numbers, not all zero, are needed"
+        )
+    return axis / length
+
+
 def _lumped(path: Path, name: str, bodies: Sequence[_Body]) -> _Body:
     """Bodies as one, by the parallel axes of each."""
     mass = sum(one.mass for one in bodies)
-    if not mass > 0:
-        raise FileError(path, f"has a link {name} without mass; every link of a model has one")
+    if not 0 < mass < np.inf:
+        raise FileError(path, f"has a link {name} of mass {mass:g}; every link of a model has one, which is finite")
     centre = np.sum([one.mass * one.centre for one in bodies], axis=0) / mass
     inertia = np.zeros((3, 3))
     for one in bodies:
