@@ -1,0 +1,160 @@
+"""A URDF's links as groups that are fixed to each other, and the joints that turn them, from the base to the tip."""
+
+from __future__ import annotations
+
+import io
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import yourdfpy
+
+from continuum.arrays import Array
+from continuum.errors import FileError
+
+_TURNING = ("revolute", "continuous")
+_MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+_UNREADABLE = (
+    OSError,
+    SyntaxError,
+    RecursionError,
+    KeyError,
+    AttributeError,
+    TypeError,
+    ValueError,
+    yourdfpy.urdf.URDFError,
+)
+"""What yourdfpy's reading of a damaged description runs into."""
+
+
+@dataclass(frozen=True)
+class Body:
+    """Mass [kg], centre of mass (3,) [m] and inertia about it (3, 3) [kg m2] in the root's frame."""
+
+    mass: float
+    centre: Array
+    inertia: Array
+
+
+@dataclass
+class Group:
+    """Links that are fixed to each other: their bodies, their frames' places (3,) [m], and joints that turn others."""
+
+    bodies: list[Body]
+    frames: dict[str, Array]
+    turning: list[tuple[yourdfpy.Joint, Array]]
+
+
+class Description:
+    """Links and joints of a file.
+
+    Args:
+        path: of the URDF.
+
+    Raises:
+        FileError: it cannot be read, or its links are no tree.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            data = path.read_bytes()
+            _check_text(path, data)
+            robot = yourdfpy.URDF.load(
+                io.BytesIO(data), build_scene_graph=False, load_meshes=False, build_collision_scene_graph=False
+            ).robot
+        except _UNREADABLE as error:
+            raise FileError(path, f"cannot be read as a URDF ({type(error).__name__}: {error})") from error
+        self._links = {link.name: link for link in robot.links}
+        self._beyond: dict[str, list[yourdfpy.urdf.Joint]] = {name: [] for name in self._links}
+        for joint in robot.joints:
+            if joint.parent not in self._links or joint.child not in self._links:
+                raise FileError(path, f"has a joint {joint.name} between links that it does not have")
+            self._beyond[joint.parent].append(joint)
+        moved = [joint.child for joint in robot.joints]
+        roots = sorted(self._links.keys() - set(moved))
+        if len(roots) != 1 or len(set(moved)) != len(moved):
+            raise FileError(path, f"is no tree of links: its roots are {', '.join(roots) or 'none'}")
+        self._root = roots[0]
+
+    def chain(self) -> tuple[list[yourdfpy.urdf.Joint], Array, list[Array], list[Group]]:
+        """Joints from the base to the tip, their axes (n, 3), their places (3,) [m], and what each moves."""
+        joints, axes, places, groups = list[yourdfpy.urdf.Joint](), list[Array](), list[Array](), list[Group]()
+        group = self._fixed_to(self._root, np.eye(4))
+        while group.turning:
+            if len(group.turning) > 1:
+                names = ", ".join(joint.name for joint, _ in group.turning)
+                raise FileError(self._path, f"branches into the joints {names}; one chain is needed")
+            joint, pose = group.turning[0]
+            group = self._fixed_to(joint.child, pose)
+            joints.append(joint)
+            axes.append(pose[:3, :3] @ _axis(self._path, joint))
+            places.append(pose[:3, 3])
+            groups.append(group)
+        if not joints:
+            raise FileError(self._path, f"has no joint that turns ({' or '.join(_TURNING)})")
+        return joints, np.array(axes), places, groups
+
+    def _fixed_to(self, name: str, pose: Array) -> Group:
+        """A link at a pose (4, 4) [m], with all that is fixed to it."""
+        group, waiting = Group([], {}, []), [(name, pose)]
+        while waiting:
+            name, pose = waiting.pop(0)
+            inertial = self._links[name].inertial
+            group.frames[name] = pose[:3, 3]
+            if inertial is not None:
+                group.bodies.append(_body(self._path, name, inertial, pose))
+            for joint in self._beyond[name]:
+                at = pose if joint.origin is None else pose @ joint.origin
+                if joint.type == "fixed":
+                    waiting.append((joint.child, at))
+                elif joint.type in _TURNING and joint.mimic is None:
+                    group.turning.append((joint, at))
+                else:
+                    kind = "moved by another one (mimic)" if joint.mimic is not None else joint.type
+                    allowed = ", ".join((*_TURNING, "fixed"))
+                    raise FileError(self._path, f"has the joint {joint.name}, which is {kind}; allowed: {allowed}")
+        return group
+
+
+def _check_text(path: Path, data: bytes) -> None:
+    """Refuse what yourdfpy mends or fills in without a word: damaged text, entities, names and moments of inertia.
+
+    Raises:
+        FileError: it is damaged so.
+        ParseError: it is no XML.
+    """
+    if b"<!DOCTYPE" in data:
+        raise FileError(path, "has a document type; descriptions have none")
+    root = ElementTree.fromstring(data)
+    for kind in ("link", "joint"):
+        counts = Counter(one.get("name", "") for one in root.findall(kind))
+        for name, count in counts.items():
+            if count > 1:
+                raise FileError(path, f"has {count} times the {kind} {name}")
+    for link in root.findall("link"):
+        for inertia in link.findall("inertial/inertia"):
+            for moment in _MOMENTS:
+                if moment not in inertia.attrib:
+                    raise FileError(path, f"has a link {link.get('name')} without its moment of inertia {moment}")
+
+
+def _body(path: Path, name: str, inertial: yourdfpy.urdf.Inertial, pose: Array) -> Body:
+    if inertial.mass is None or inertial.inertia is None:
+        raise FileError(path, f"has a link {name} with an <inertial> without mass or inertia")
+    at = pose if inertial.origin is None else pose @ inertial.origin
+    turn = at[:3, :3]
+    return Body(float(inertial.mass), at[:3, 3], turn @ np.asarray(inertial.inertia) @ turn.T)
+
+
+def _axis(path: Path, joint: yourdfpy.urdf.Joint) -> Array:
+    """Unit vector (3,)."""
+    axis = np.asarray(joint.axis, dtype=float)
+    length = float(np.linalg.norm(axis))
+    if axis.shape != (3,) or not 1e-9 < length < np.inf:
+        raise FileError(
+            path, f"has a joint {joint.name} with the axis {axis.tolist()}; three numbers, not all zero, are needed"
+        )
+    return axis / length
