@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from continuum.printable import one_line
+
 
 class ContinuumError(Exception):
     """Base of every error that this library raises on purpose."""
@@ -20,7 +22,7 @@ class InvalidValueError(ContinuumError, ValueError):
         self.name = name
         self.value = value
         self.allowed = allowed
-        super().__init__(_in_one_line(f"{name} is {value!r}; allowed: {allowed}"))
+        super().__init__(one_line(f"{name} is {value!r}; allowed: {allowed}"))
 
     def __reduce__(self) -> tuple[type[InvalidValueError], tuple[str, object, str]]:
         """As it is from process to process."""
@@ -33,7 +35,7 @@ class FileError(ContinuumError, OSError):
     def __init__(self, path: object, problem: str) -> None:
         self.path = path
         self.problem = problem
-        super().__init__(_in_one_line(f"{path}: {problem}"))
+        super().__init__(one_line(f"{path}: {problem}"))
 
     def __reduce__(self) -> tuple[type[FileError], tuple[object, str]]:
         """As it is from process to process."""
@@ -42,8 +44,3 @@ class FileError(ContinuumError, OSError):
 
 class MeasurementError(ContinuumError):
     """What was measured cannot give what was asked of it, for example a bias while the arm moves."""
-
-
-def _in_one_line(message: str) -> str:
-    """What files and users name may hold any character; one that is not printable is escaped as Python does."""
-    return "".join(mark if mark.isprintable() else mark.encode("unicode_escape").decode() for mark in message)

@@ -11,5 +11,5 @@ def printable(name: str) -> str:
 
 
 def one_line(text: str) -> str:
-    """Text from a file without what moves a terminal's cursor or begins a line."""
-    return "".join(letter if letter.isprintable() else "?" for letter in printable(text))
+    """What files and users name may hold any character; one that is not printable is escaped as Python does."""
+    return "".join(mark if mark.isprintable() else mark.encode("unicode_escape").decode() for mark in text)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from continuum.dynamics.parameters import PARAMETERS, Parameter
 from continuum.errors import InvalidValueError
@@ -14,14 +14,14 @@ from continuum.output_files import check_apart, check_writable
 from continuum.printable import one_line
 from continuum.whole_file import write_whole
 
-if TYPE_CHECKING:
-    from continuum.dynamics.model import Model
-
 _GIVEN = "given to continuum model new"
 _MOST_JOINTS = 1000
 _CABLES = ("half_spacing", "hole_radius")
 _LENGTHS = ("link_length", "half_spacing")
-_UNITS = {"joint": "about the joint, from which m c^2 is taken off", "center": "about the centre of mass"}
+_ABOUT = ("joint", "center")
+_FROM_URDF = (
+    "mass", "inertia", "center_of_mass", "link_length", "viscous_friction", "coulomb_friction", "gravity", "hang_angle",
+)  # fmt: skip
 
 
 def add_to(commands: Any) -> None:
@@ -44,7 +44,7 @@ def _add_new(ways: Any) -> None:
         help="what drives the arm; default cables where --half-spacing and --hole-radius are given",
     )  # fmt: skip
     new.add_argument(
-        "--inertia-about", choices=tuple(_UNITS), default="center", help="what --inertia is about; default %(default)s"
+        "--inertia-about", choices=_ABOUT, default="center", help="what --inertia is about; default %(default)s"
     )
     for name, parameter in PARAMETERS.items():
         new.add_argument(f"--{name.replace('_', '-')}", metavar="V", help=_help(parameter).replace("%", "%%"))
@@ -69,15 +69,13 @@ def _add_urdf(ways: Any) -> None:
 
 
 def _help(parameter: Parameter) -> str:
-    left_out = "required" if parameter.default is None and not parameter.optional else ""
-    left_out = f"default {parameter.default:g}" if parameter.default is not None else left_out
-    return f"{parameter.meaning} [{parameter.unit}]" + (f"; {left_out}" if left_out else "")
+    text = f"{parameter.meaning} [{parameter.unit}]"
+    if parameter.default is not None:
+        return f"{text}; default {parameter.default:g}"
+    return text if parameter.optional else f"{text}; required"
 
 
 def _new(options: argparse.Namespace) -> int:
-    from continuum.dynamics.commented_model import commented_model
-    from continuum.dynamics.model_file import model_from_mapping
-
     check_writable(options.out)
     given = {name: text for name in PARAMETERS if (text := getattr(options, name)) is not None}
     joints = _whole(options.joints if options.joints is not None else _asked("--joints", "number of joints"))
@@ -90,23 +88,12 @@ def _new(options: argparse.Namespace) -> int:
     values: dict[str, list[float]] = {name: _numbers(name, text) for name, text in given.items()}
     if options.inertia_about == "joint":
         values["inertia"] = _about_centre(joints, values)
-    parameters = {
-        name: {"value": value[0] if len(value) == 1 else value, "unit": PARAMETERS[name].unit, "source": _GIVEN}
-        for name, value in values.items()
-    }
     inputs = options.inputs or ("cables" if all(name in given for name in _CABLES) else "joint_torques")
-    model = model_from_mapping({"n_joints": joints, "inputs": inputs, "parameters": parameters})
-    write_whole(options.out, commented_model(model))
-    _print(options.out, model, ())
-    return 0
+    return _write(options.out, joints, inputs, values, _GIVEN)
 
 
 def _from_urdf(options: argparse.Namespace) -> int:
     # Here, so that the other commands need not wait for what reads URDFs.
-    from dataclasses import replace
-
-    from continuum.dynamics.commented_model import commented_model
-    from continuum.dynamics.model_file import model_from_mapping
     from continuum.dynamics.urdf_chain import chain_from_urdf
 
     check_apart([options.out], [options.urdf])
@@ -115,21 +102,11 @@ def _from_urdf(options: argparse.Namespace) -> int:
     if len(gravity) != 3:
         raise InvalidValueError("--gravity", options.gravity, "three numbers, as 0,0,-9.81")
     chain = chain_from_urdf(options.urdf, options.tip, gravity)
-    parameters = {
-        name: {"value": [float(one) for one in value], "unit": PARAMETERS[name].unit, "source": ""}
-        for name, value in chain.model.parameters.named().items()
-    }
-    checked = model_from_mapping(
-        {"n_joints": chain.model.n_joints, "inputs": "joint_torques", "parameters": parameters}
-    )
-    written = ("mass", "inertia", "center_of_mass", "link_length", "viscous_friction", "coulomb_friction", "gravity")
-    sources = dict.fromkeys((*written, "hang_angle"), f"{options.urdf}")
+    named = chain.model.parameters.named()
+    values = {name: [float(one) for one in named[name]] for name in _FROM_URDF}
     tip = f"the frame of {chain.tip}" if chain.tip else "twice as far as the last centre of mass: the URDF has no tip"
     lines = [f"tip: {tip}", *_angles(chain.joints, chain.signs.tolist(), chain.zeros.tolist())]
-    model = replace(checked, sources=sources)
-    write_whole(options.out, commented_model(model, [f"Made from {options.urdf}.", *lines]))
-    _print(options.out, model, lines)
-    return 0
+    return _write(options.out, chain.model.n_joints, "joint_torques", values, str(options.urdf), lines)
 
 
 def _angles(names: Sequence[str], signs: Sequence[float], zeros: Sequence[float]) -> list[str]:
@@ -141,11 +118,23 @@ def _angles(names: Sequence[str], signs: Sequence[float], zeros: Sequence[float]
     return lines
 
 
-def _print(path: str, model: Model, lines: Sequence[str]) -> None:
+def _write(
+    path: str, n_joints: int, inputs: str, values: Mapping[str, list[float]], source: str, lines: Sequence[str] = ()
+) -> int:
+    """Write the checked model, with lines that are printed too."""
+    from continuum.dynamics.commented_model import commented_model
+    from continuum.dynamics.model_file import model_from_mapping
+
+    parameters = {
+        name: {"value": value, "unit": PARAMETERS[name].unit, "source": source} for name, value in values.items()
+    }
+    model = model_from_mapping({"n_joints": n_joints, "inputs": inputs, "parameters": parameters})
+    write_whole(path, commented_model(model, lines))
     for line in lines:
         print(one_line(line))
-    joints = "1 joint" if model.n_joints == 1 else f"{model.n_joints} joints"
-    print(f"written: {one_line(path)} ({joints}, driven by {model.inputs.value.replace('_', ' ')})")
+    joints = "1 joint" if n_joints == 1 else f"{n_joints} joints"
+    print(f"written: {one_line(path)} ({joints}, driven by {inputs.replace('_', ' ')})")
+    return 0
 
 
 def _asked(option: str, meaning: str) -> str:

@@ -44,6 +44,10 @@ class Segment:
     readings: Array
     slopes: Array
 
+    def with_residuals(self, residuals: Array) -> Segment:
+        """The same with other residuals, (rows n,) [rad]."""
+        return replace(self, slopes=np.column_stack([self.slopes[:, :-1], residuals]))
+
     @cached_property
     def gram(self) -> Array:
         """[J r]' [J r]."""

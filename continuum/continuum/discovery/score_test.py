@@ -85,6 +85,4 @@ def _less(one: Segment, wide: Unknowns, fitted: Values, left: Hypothesis | None)
     filled, every = padded(fitted, wide), [*wide.common, *wide.own[one.run]]
     values = np.concatenate([filled.common, filled.own[one.run]])
     gone = [k for k, unknown in enumerate(every) if unknown.hypothesis is left]
-    slopes = one.slopes.copy()
-    slopes[:, -1] -= slopes[:, gone] @ values[gone]
-    return Segment(one.run, one.rows, one.readings, slopes)
+    return one.with_residuals(one.slopes[:, -1] - one.slopes[:, gone] @ values[gone])

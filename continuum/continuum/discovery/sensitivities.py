@@ -32,7 +32,7 @@ class Sensitivities:
     """
 
     def __init__(self, judge: OutputError, fit: Fitted, library: Library) -> None:
-        self._judge, self._fit, runs = judge, fit, range(len(fit.values.own))
+        self._judge, runs = judge, range(len(fit.values.own))
         self.hypotheses = [h for h in library.hypotheses if is_linear(h)]
         common = [[linear_unknown(h, k, library) for k in range(len(h.coefficients))] for h in self.hypotheses]
         own = [[own_unknowns(h, library, r, {}) for h in self.hypotheses] for r in runs]
@@ -79,12 +79,7 @@ class Sensitivities:
 
     def without_residuals(self) -> list[Segment]:
         """Segments as if the fit were exact."""
-        found = []
-        for one in self.segments:
-            slopes = one.slopes.copy()
-            slopes[:, -1] = 0.0
-            found.append(Segment(one.run, one.rows, one.readings, slopes))
-        return found
+        return [one.with_residuals(np.zeros(len(one.slopes))) for one in self.segments]
 
     def changes(self, h: Hypothesis, sizes: Array, own_sizes: Array) -> list[Segment]:
         """Segments whose residuals are what a hypothesis would leave if it were in the data.
@@ -98,11 +93,8 @@ class Sensitivities:
         found = []
         for one in self.segments:
             at, sign = self._at[one.run], 1 - 2 * (one.run % 2)
-            slopes = one.slopes.copy()
-            of_run = of_runs[one.run]
-            columns = [at[each.place] for each in (*of_all, *of_run)]
-            slopes[:, -1] = -slopes[:, columns] @ np.concatenate([sizes, sign * own_sizes])
-            found.append(Segment(one.run, one.rows, one.readings, slopes))
+            columns = [at[each.place] for each in (*of_all, *of_runs[one.run])]
+            found.append(one.with_residuals(-one.slopes[:, columns] @ np.concatenate([sizes, sign * own_sizes])))
         return found
 
 

@@ -17,7 +17,6 @@ from continuum.errors import FileError
 _TURNING = ("revolute", "continuous")
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 _UNREADABLE = (
-    OSError,
     SyntaxError,
     RecursionError,
     KeyError,
@@ -61,12 +60,18 @@ class Description:
         self._path = path
         try:
             data = path.read_bytes()
-            _check_text(path, data)
+        except OSError as error:
+            raise FileError(path, f"cannot be read ({error.strerror or error})") from error
+        if b"<!DOCTYPE" in data:
+            raise FileError(path, "has a document type; descriptions have none")
+        try:
+            root = ElementTree.fromstring(data)
             robot = yourdfpy.URDF.load(
                 io.BytesIO(data), build_scene_graph=False, load_meshes=False, build_collision_scene_graph=False
             ).robot
         except _UNREADABLE as error:
             raise FileError(path, f"cannot be read as a URDF ({type(error).__name__}: {error})") from error
+        _check_text(path, root)
         self._links = {link.name: link for link in robot.links}
         self._beyond: dict[str, list[yourdfpy.urdf.Joint]] = {name: [] for name in self._links}
         for joint in robot.joints:
@@ -119,16 +124,8 @@ class Description:
         return group
 
 
-def _check_text(path: Path, data: bytes) -> None:
-    """Refuse what yourdfpy mends or fills in without a word: damaged text, entities, names and moments of inertia.
-
-    Raises:
-        FileError: it is damaged so.
-        ParseError: it is no XML.
-    """
-    if b"<!DOCTYPE" in data:
-        raise FileError(path, "has a document type; descriptions have none")
-    root = ElementTree.fromstring(data)
+def _check_text(path: Path, root: ElementTree.Element) -> None:
+    """Refuse names that stand twice, and moments of inertia that are missing: yourdfpy fills them in without a word."""
     for kind in ("link", "joint"):
         counts = Counter(one.get("name", "") for one in root.findall(kind))
         for name, count in counts.items():
