@@ -49,7 +49,8 @@ def simulation(recording: Recording, model: Model, sought: float | None) -> tupl
 
 def test_a_given_delay_is_a_delay_that_was_sought(recording: Recording) -> None:
     """And with it the recording is simulated."""
-    given = replace(nominal(), effects=(ActiveEffect(effect_named("sensor_delay"), {"delay": np.array([DELAY])}),))
+    late = {"delay": np.array([DELAY]), "lag": np.zeros(5)}
+    given = replace(nominal(), effects=(ActiveEffect(effect_named("sensor_delay"), late),))
     simulators, state = simulation(recording, given, None)
     angles = RunSimulation(simulators, state, 0).readings(ROWS, np.zeros(15))
     other, _ = simulation(recording, nominal(), None)

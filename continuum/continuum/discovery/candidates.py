@@ -96,29 +96,40 @@ def examine(
 def _baseline(problem: Problem, recordings: Sequence[Recording]) -> tuple[Examined, OutputError, OutputError | None]:
     """The refitted model alone, inputs taken as they simulate nearer: held from row to row, or linear between rows.
 
+    Where the model file lacks friction, with friction: without it little tells.
+
     Returns:
         The baseline, what fits by these inputs, and what does by the others.
     """
-    start = fitted_baseline(problem)
-    judge, found = OutputError(problem, tuple(recordings)), Found(linearise(problem, start), ())
+    judge, found = OutputError(problem, tuple(recordings)), _refitted(problem)
     fit, linear = judge.fit(found, ()), with_linear_inputs(problem)
     if linear is None:
         return Examined(found, fit), judge, None
     fit, other = fit if fit.settled else judge.further(found, fit), judge.around(linear)
     nearer = other.fit(found, [fit])
     if nearer.error < fit.error:
-        found = Found(linearise(linear, fitted_baseline(linear)), ())
+        found = _refitted(linear)
         return Examined(found, other.fit(found, [nearer])), other, judge
     return Examined(found, fit), judge, other
+
+
+def _refitted(problem: Problem) -> Found:
+    """The model with the springs and the friction that the filter finds."""
+    lin = linearise(problem, fitted_baseline(problem))
+    return Found(lin, tuple(h for h in lin.library.hypotheses if h.is_refit))
 
 
 class _Fits:
     """Fits of sets, the baseline first, and the search from set to set."""
 
-    def __init__(self, baseline: Examined, judge: OutputError, other: OutputError | None, progress: Progress) -> None:
+    def __init__(self, start: Examined, judge: OutputError, other: OutputError | None, progress: Progress) -> None:
         self.judge, self._by_other_inputs, self.log = judge, other, list[str]()
         self._problem, self._progress = judge.problem, progress
-        self._by_key: dict[frozenset[object], Examined] = {baseline.found.key: baseline}
+        self._by_key: dict[frozenset[object], Examined] = {}
+        if start.found.chosen:
+            baseline = Found(start.found.lin, ())
+            self._keep(baseline, judge.fit(baseline, [start.fit]))
+        self._by_key[start.found.key] = start
         self._expanded: set[frozenset[object]] = set()
 
     @property
@@ -163,7 +174,7 @@ class _Fits:
 
     def _to_expand(self) -> Examined | None:
         best = self.nearest
-        effects, done = len(best.found.chosen), best.found.key in self._expanded
+        effects, done = best.found.effects, best.found.key in self._expanded
         return best if effects < MOST and not done and (self._is_unexplained(best) or not effects) else None
 
     def _expand(self, about: Examined) -> None:
@@ -236,7 +247,7 @@ class _Fits:
                 self._add_parts(one, missing=True)
 
     def _add_parts(self, whole: Examined, missing: bool = False) -> None:
-        for part in (whole.found.with_only(h) for h in whole.found.chosen if len(whole.found.chosen) > 1):
+        for part in (whole.found.without(h) for h in whole.found.chosen if len(whole.found.chosen) > 1):
             if not (missing and part.key in self._by_key):
                 self._keep(part, self.judge.fit(part, [whole.fit]))
 

@@ -1,7 +1,8 @@
 """Coordinates of the baseline: springs and friction common to all joints, of any size that the data ask for.
 
 The sizes from which friction is estimated come from the motion, not from the model file: a file whose friction is far
-off, or zero, must not change an answer. Where the file's values are plausible, their pattern over the joints is kept.
+off must not change an answer. Where the file's values are plausible, their pattern over the joints is kept. A file
+without any friction has no such pattern: each joint has friction of its own then, which is a hypothesis, not a refit.
 """
 
 from __future__ import annotations
@@ -32,6 +33,15 @@ _LEAST = 0.02  # part of its reference below which no mass, inertia or spring is
 _SPEED = (-0.8, 4.0)  # least and largest relative change of Stribeck's rate: beyond, its curve is another term
 _ROUNDING = 1e-6  # part of a torque below which it is the rounding of a solution
 _RATES = (0.0, 0.5, 1.0, 2.0, 9.0)  # multiples of Stribeck's rate at which dry friction must not be negative
+PARAMETER = {
+    "stiffness": "stiffness", "viscous": "viscous_friction", "coulomb": "coulomb_friction",
+    "stribeck": "stribeck_gain", "speed": "stribeck_speed",
+}  # fmt: skip
+"""Which parameter each kind of coordinate changes."""
+_FRICTION = ("viscous", "coulomb", "stribeck", "speed")  # coordinates of friction
+
+type Coordinate = tuple[str, int]
+"""What it changes, and at which joint, from 0; -1 where at all alike."""
 
 
 @dataclass(frozen=True)
@@ -42,36 +52,58 @@ class Coordinates:
         structure: of the model.
         reference: parameter values about which the coordinates count, (n_p,).
         torque: of the arm, root mean square [N m].
-        steps: change of each coordinate's parameter by one unit, (n,) each.
+        steps: change of each kind's parameter by one unit, (n,) each.
+        lacks_friction: whether the model file has none at any joint.
     """
 
     structure: Structure
     reference: Array
     torque: float
     steps: Mapping[str, Array]
+    lacks_friction: bool
 
-    @property
-    def names(self) -> list[str]:
-        """Of the coordinates that this arm has."""
-        return [name for name in _PRIOR if np.any(self.steps[name] != 0)]
+    @cached_property
+    def all(self) -> list[Coordinate]:
+        """The coordinates that this arm has."""
+        found = list[Coordinate]()
+        for name in _PRIOR:
+            if self.lacks_friction and name in _FRICTION:
+                found += [(name, j) for j in range(self.structure.n)]
+            elif np.any(self.steps[name] != 0):
+                found.append((name, -1))
+        return found
+
+    @cached_property
+    def without_friction(self) -> dict[Coordinate, float]:
+        """Coordinates of friction of an arm that has none, where the model file lacks it; else empty."""
+        if not self.lacks_friction:
+            return {}
+        least = dict(zip(self.all, self.bounds(), strict=True))
+        return {one: low if one[0] != "speed" else 0.0 for one, (low, _) in least.items() if one[0] in _FRICTION}
 
     def prior_sd(self, shapes: bool = True) -> Array:
         """Of the coordinates, and of the shapes of Stribeck's curve."""
-        return np.array([_PRIOR[name] for name in self.names] + [_SHAPE_PRIOR] * len(_SHAPES) * shapes)
+        return np.array([_PRIOR[name] for name, _ in self.all] + [_SHAPE_PRIOR] * len(_SHAPES) * shapes)
 
-    def values(self, theta: Mapping[str, float]) -> Array:
+    def _step(self, one: Coordinate) -> Array:
+        """Change by one unit, (n,)."""
+        name, joint = one
+        return self.steps[name] * (np.arange(self.structure.n) == joint if joint >= 0 else 1.0)
+
+    def values(self, theta: Mapping[Coordinate, float]) -> Array:
         """Parameter values at given coordinates, (n_p,)."""
         p, slots = self.reference.copy(), self.structure.slots
-        p[slots["stiffness"]] += theta.get("stiffness", 0.0) * self.steps["stiffness"]
-        p[slots["viscous_friction"]] += theta.get("viscous", 0.0) * self.steps["viscous"]
+        change = {name: np.zeros(self.structure.n) for name in _PRIOR}
+        for one, value in theta.items():
+            change[one[0]] = change[one[0]] + value * self._step(one)
+        p[slots["stiffness"]] += change["stiffness"]
+        p[slots["viscous_friction"]] += change["viscous"]
         coulomb, gain = self.reference[slots["coulomb_friction"]], self.reference[slots["stribeck_gain"]]
-        least = _LEAST * self.steps["coulomb"]
-        changed = np.maximum(coulomb + theta.get("coulomb", 0.0) * self.steps["coulomb"], least)
-        rise = np.maximum(coulomb * gain + theta.get("stribeck", 0.0) * self.steps["stribeck"], 0.0)
+        changed = np.maximum(coulomb + change["coulomb"], _LEAST * self.steps["coulomb"])
+        rise = np.maximum(coulomb * gain + change["stribeck"], 0.0)
         p[slots["coulomb_friction"]], p[slots["stribeck_gain"]] = changed, rise / changed
         p[slots["viscous_friction"]] = np.maximum(p[slots["viscous_friction"]], 0.0)
-        speed = self.reference[slots["stribeck_speed"]]
-        p[slots["stribeck_speed"]] = speed * (1 + np.clip(theta.get("speed", 0.0), *_SPEED))
+        p[slots["stribeck_speed"]] = self.reference[slots["stribeck_speed"]] * (1 + np.clip(change["speed"], *_SPEED))
         return p
 
     def bounds(self) -> list[tuple[float, float]]:
@@ -82,40 +114,49 @@ class Coordinates:
             "stiffness": p[slots["stiffness"]] * (1 - _LEAST), "viscous": p[slots["viscous_friction"]],
             "coulomb": coulomb - _LEAST * self.steps["coulomb"], "stribeck": coulomb * p[slots["stribeck_gain"]],
         }  # fmt: skip
-        least = {name: -float(np.min(here / self.steps[name])) for name, here in now.items() if name in self.names}
-        return [(least[name], np.inf) if name in least else _SPEED for name in self.names]
+        found = []
+        for name, joint in self.all:
+            if name not in now:
+                found.append(_SPEED)
+                continue
+            least = -now[name] / self.steps[name]
+            found.append((float(least[joint] if joint >= 0 else np.max(least)), np.inf))
+        return found
 
-    def columns(self, p: Array) -> list[tuple[str, Column]]:
-        """Torque per unit of each coordinate at parameter values p."""
-        found: list[tuple[str, Column]] = [(name, Slope(self._direction(name, p)[:, None])) for name in self.names]
+    def columns(self, p: Array) -> list[tuple[Coordinate | str, Column]]:
+        """Torque per unit of each coordinate at parameter values p, and of the shapes, which are named."""
+        found: list[tuple[Coordinate | str, Column]] = [
+            (one, Slope(self._direction(one, p)[:, None])) for one in self.all
+        ]
         return found + [(f"shape_{k}", Change({"stribeck_speed": factor})) for k, factor in enumerate(_SHAPES)]
 
-    def _direction(self, name: str, p: Array) -> Array:
-        slots, out = self.structure.slots, np.zeros(p.size)
+    def _direction(self, one: Coordinate, p: Array) -> Array:
+        slots, out, step = self.structure.slots, np.zeros(p.size), self._step(one)
         coulomb, gain = p[slots["coulomb_friction"]], p[slots["stribeck_gain"]]
-        if name == "stiffness":
-            out[slots["stiffness"]] = self.steps[name]
-        elif name == "viscous":
-            out[slots["viscous_friction"]] = self.steps[name]
-        elif name == "coulomb":  # what Stribeck's curve adds stays
-            out[slots["coulomb_friction"]] = self.steps[name]
-            out[slots["stribeck_gain"]] = -gain / coulomb * self.steps[name]
-        elif name == "stribeck":
-            out[slots["stribeck_gain"]] = self.steps[name] / coulomb
-        else:
-            out[slots["stribeck_speed"]] = self.reference[slots["stribeck_speed"]]
+        match one[0]:
+            case "stiffness":
+                out[slots["stiffness"]] = step
+            case "viscous":
+                out[slots["viscous_friction"]] = step
+            case "coulomb":  # what Stribeck's curve adds stays
+                out[slots["coulomb_friction"]] = step
+                out[slots["stribeck_gain"]] = -gain / coulomb * step
+            case "stribeck":
+                out[slots["stribeck_gain"]] = step / coulomb
+            case _:
+                out[slots["stribeck_speed"]] = step * self.reference[slots["stribeck_speed"]]
         return out
 
     @cached_property
     def covered(self) -> frozenset[str]:
         """Parameters whose change alike at all joints changes the torque as some of the coordinates do."""
         s, random = self.structure, np.random.default_rng(0)
-        rows = 8 * len(self.names)
+        rows = 8 * len(self.all)
         motion, u = random.normal(size=(rows, 3, s.n)), random.uniform(size=(rows, s.equations.n_inputs))
         given = packed(motion, u, motion[:, 1], self.reference)
         by_p = evaluate(s.equations.by_parameters, given, s.n * (1 + s.equations.n_p))[:, s.n :]
         by_p = by_p.reshape(rows, s.equations.n_p, s.n).transpose(0, 2, 1).reshape(-1, s.equations.n_p)
-        coordinates = by_p @ np.column_stack([self._direction(name, self.reference) for name in self.names])
+        coordinates = by_p @ np.column_stack([self._direction(one, self.reference) for one in self.all])
         found = []
         for name, slot in s.slots.items():
             alike = np.sum(by_p[:, slot], axis=1)
@@ -178,6 +219,7 @@ def coordinates(structure: Structure, runs: Sequence[Run]) -> Coordinates:
     torque = float(np.sqrt(np.median(np.mean(squares, axis=0))))
     rate = float(np.sqrt(np.median(np.mean(rates, axis=0))))
     p = structure.values.copy()
+    lacks_friction = not np.any([p[slots[name]] for name in ("viscous_friction", "coulomb_friction")])
     expected = FRICTION * torque
     steps = {
         "stiffness": p[slots["stiffness"]].copy(),
@@ -189,7 +231,7 @@ def coordinates(structure: Structure, runs: Sequence[Run]) -> Coordinates:
         (p[slots["stribeck_gain"]] > 0.1) & (p[slots["stribeck_gain"]] < _FAR), p[slots["stribeck_gain"]], 0.7
     )
     steps["stribeck"] = np.full(n, max(float(np.mean(steps["coulomb"])), expected))
-    return Coordinates(structure, p, torque, steps)
+    return Coordinates(structure, p, torque, steps, lacks_friction)
 
 
 def _reference(p: Array, slot: slice, expected: float) -> Array:

@@ -6,29 +6,47 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from continuum.discovery.coordinates import PARAMETER
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.problem import Problem, point_of
 from continuum.discovery.result import Estimate
 from continuum.discovery.unknowns import Unknown
+from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import PARAMETERS, Parameter
 
 _Z = 1.96
+_IN_PARAMETERS = ("viscous", "coulomb")  # kinds of coordinates that are a parameter's change
 _SHOWN = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
 
 
 def estimates_of(problem: Problem, fit: Fitted, hypothesis: Hypothesis) -> tuple[Estimate, ...]:
     """Values of one effect of a set."""
-    effect = next(e for e in problem.structure.offered if e.name == hypothesis.effect)
+    effect = effect_named(hypothesis.effect)
     out = list[Estimate]()
     for one, value, sd in zip(fit.unknowns.common, fit.values.common, fit.sd, strict=True):
-        if one.hypothesis is hypothesis:
+        if one.hypothesis is not hypothesis:
+            continue
+        if hypothesis.is_refit:
+            out += _lacking(problem, fit, one, float(sd))
+        else:
             out += _estimates(effect.parameters, one, float(value), float(sd))
     for run, those, values, own_sds in zip(problem.runs, fit.unknowns.own, fit.values.own, fit.own_sd, strict=True):
         for one, value, sd in zip(those, values, own_sds, strict=True):
             if one.hypothesis is hypothesis:
                 out += _estimates(effect.parameters, one, float(value), float(sd), run.name)
     return tuple(out)
+
+
+def _lacking(problem: Problem, fit: Fitted, one: Unknown, sd: float) -> list[Estimate]:
+    """Of a parameter that the model file has none of."""
+    ((_, kind, joint),) = one.places
+    name, step = PARAMETER[kind], float(problem.coordinates.steps[kind][joint])
+    if kind not in _IN_PARAMETERS:
+        return []
+    value = float(point_of(problem, fit.state).values[problem.structure.slots[name]][joint])
+    low, high = max(value - _Z * sd * step, 0.0), value + _Z * sd * step
+    return [Estimate(name, joint, "", value, low, high, PARAMETERS[name].unit, PARAMETERS[name].meaning)]
 
 
 def _estimates(spec: Mapping[str, Parameter], one: Unknown, value: float, sd: float, run: str = "") -> list[Estimate]:

@@ -26,6 +26,8 @@ GRID = (0.3, 1.0, 3.0)
 Gauss-Newton step to lead from one to the other."""
 ORDINARY = 0.5
 """Prior standard deviation of the coefficient of an effect with states at its ordinary size."""
+FRICTION = "joint_friction"
+"""What friction is called where a model file has none."""
 TOLERANCE = 2.5
 """Standard deviations beyond which a part is not an ordinary one: one in eighty is."""
 
@@ -79,6 +81,11 @@ class Hypothesis:
         return self.effect, self.joints
 
     @property
+    def is_refit(self) -> bool:
+        """Whether its sizes are coordinates of the baseline, as `friction_of_all`."""
+        return not self.columns and not self.local
+
+    @property
     def label(self) -> str:
         """For tables, joints from 1."""
         return self.effect + ("@" + ",".join(str(j + 1) for j in self.joints) if self.joints is not None else "")
@@ -89,6 +96,11 @@ class Hypothesis:
         for k, used in enumerate(self.columns):
             H[list(used), k] = self.weights[k] if self.weights else 1.0
         return H
+
+
+def friction_of_all(n: int) -> Hypothesis:
+    """Friction of an arm whose model file has none: its sizes are coordinates of the baseline, at each joint."""
+    return Hypothesis(FRICTION, tuple(range(n)), (), (), np.zeros(0), np.zeros(0))
 
 
 def sizes_and_shapes(effect: Effect) -> tuple[list[str], list[str]]:

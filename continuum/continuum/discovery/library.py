@@ -7,6 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.discovery.coordinates import Coordinate
 from continuum.discovery.hypotheses import (
     GRID,
     ORDINARY,
@@ -14,6 +15,7 @@ from continuum.discovery.hypotheses import (
     Coefficient,
     Hypothesis,
     fitted_parameters,
+    friction_of_all,
     grid,
     only,
     prior_sd,
@@ -23,7 +25,7 @@ from continuum.discovery.hypotheses import (
 )
 from continuum.dynamics.effect import Effect
 from continuum.estimation.columns import Column, Difference, LateInputs, SensorSlope, Slope, StatefulTorque
-from continuum.estimation.structure import Structure, absent_values, overrides
+from continuum.estimation.structure import Structure, absent_values, delay_of, overrides
 
 
 class Library:
@@ -33,9 +35,10 @@ class Library:
         structure: of the model.
         active: values of the effects with states that are in the model, and of those whose shape is fitted.
         ratio: by which their values are changed for differences.
-        baseline: columns that every hypothesis has, by name.
+        baseline: columns that every hypothesis has, by coordinate or name.
         covered: parameters that these change as well where they change alike at all joints.
         live: effects that have hypotheses; all without.
+        lacks_friction: whether friction is a hypothesis, as `friction_of_all`.
     """
 
     def __init__(
@@ -43,9 +46,10 @@ class Library:
         structure: Structure,
         active: Mapping[str, Mapping[str, Array]],
         ratio: float,
-        baseline: Sequence[tuple[str, Column]],
+        baseline: Sequence[tuple[Coordinate | str, Column]],
         covered: Collection[str],
         live: Collection[str] | None = None,
+        lacks_friction: bool = False,
     ) -> None:
         self.structure, self.active, self.ratio = structure, active, ratio
         self.columns, self.width = list[Column](), 0
@@ -56,19 +60,19 @@ class Library:
         self.ordinary: list[tuple[int, float]] = []  # columns by which parts of one batch differ, and by how much
         for name, column in baseline:
             at = self._add(column)
-            if isinstance(column, Slope):
-                self.at[("", name, -1)] = at
-            else:
+            if isinstance(name, str):
                 self.torque_only[name] = at
+            else:
+                self.at[("", *name)] = at
+        if lacks_friction:
+            self.hypotheses.append(friction_of_all(structure.n))
         self._baseline, self._live = list(range(self.width)), live
         self._covered = covered
         for effect in structure.offered:
             if live is not None and effect.name not in live and not any(p.ordinary for p in effect.parameters.values()):
                 continue
-            if overrides(effect, "measure"):
+            if overrides(effect, "measure", "late"):
                 self._sensor(effect)
-            elif overrides(effect, "late"):
-                self._late(effect)
             elif effect.n_states(structure.n):
                 self._stateful(effect)
             else:
@@ -181,19 +185,22 @@ class Library:
 
     def _sensor(self, effect: Effect) -> None:
         n = self.structure.n
+        late = delay_of(effect)
+        if late is not None:
+            self._late(effect, late)
+        of_readings = {name: spec for name, spec in effect.parameters.items() if name != late}
         at = {
             name: self._add(SensorSlope(effect.name, name, n if spec.per_joint else 1))
-            for name, spec in effect.parameters.items()
+            for name, spec in of_readings.items()
         }
-        for name, spec in effect.parameters.items():
+        for name, spec in of_readings.items():
             for j in range(n if spec.per_joint else 1):
                 self.at[(effect.name, name, j if spec.per_joint else -1)] = at[name] + j
         self._placed(effect, at, {})
 
-    def _late(self, effect: Effect) -> None:
-        (name,) = effect.parameters
+    def _late(self, effect: Effect, name: str) -> None:
         spec = effect.parameters[name]
-        if effect.name in self.active:
+        if self.active.get(effect.name):
             delay = float(self.active[effect.name][name][0])
             value = self._add(LateInputs(delay))
             self.held.append(value)

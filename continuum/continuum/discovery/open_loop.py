@@ -20,6 +20,7 @@ from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.dynamics.values import parameter_slots, parameter_vector, with_vector
+from continuum.estimation.structure import delay_of
 from continuum.recordings.recording import Recording
 
 _TOLERANCES = Tolerances(1e-3, 1e-4, 0.01, 2000)  # errors stay below a hundredth of a degree; what needs more diverges
@@ -101,7 +102,7 @@ class Simulators:
     def inputs(self, state: State, run: int) -> InputSignal:
         """What drives a run, as late as the state says."""
         s = self.problem.structure
-        delay = sum(float(own[name][0]) for e in s.late if (own := state.active.get(e.name)) for name in e.parameters)
+        delay = sum(float(np.sum(e.late(own))) for e in s.late if (own := state.active.get(e.name)))
         delay += lateness(s.given)
         inputs = self._recordings[run].inputs_for(s.given)
         return replace(inputs, held=self.problem.runs[run].held).later(delay)
@@ -124,7 +125,7 @@ class RunSimulation:
         self._simulator, self._inputs = simulators.of(self._model), simulators.inputs(state, run)
         s, self._own = problem.structure, sensors_at(problem, state, run)
         self._reads = s.reading_slopes(self._run, self._own)[: s.n]
-        sensors, late = {e.name for e in s.sensors}, {e.name for e in s.late}
+        sensors, late = {e.name for e in s.sensors}, {(e.name, delay_of(e)) for e in s.late}
         slots = parameter_slots(self._model)
         self._directions = np.zeros((parameter_vector(self._model).size, len(unknowns)))
         self._sensors: dict[int, Mapping[str, Mapping[str, Array]]] = {}
@@ -133,7 +134,7 @@ class RunSimulation:
         self._led: dict[int, tuple[Array, Array]] = {}
         for i, unknown in enumerate(unknowns):
             effects = {effect for effect, _, _ in unknown.places}
-            if effects & late:
+            if {(effect, name) for effect, name, _ in unknown.places} & late:
                 self._late[i] = simulators.inputs(shifted(state, unknown, run, _LATER), run)
             elif effects & sensors:
                 self._sensors[i] = sensors_at(problem, shifted(state, unknown, run), run)
@@ -268,9 +269,9 @@ def _direction(problem: Problem, state: State, slots: Mapping[str, slice], unkno
             at = slots[f"{effect}.{name}"].start + max(joint, 0)
             found[at] = float(state.active[effect][name][max(joint, 0)]) if unknown.is_log else factor
             continue
-        base = {key[1]: value for key, value in state.shared.items() if key[0] == ""}
-        values = problem.coordinates.values
-        moved = factor * (values(base | {name: base[name] + STEP}) - values(base)) / STEP
+        base = {key[1:]: value for key, value in state.shared.items() if key[0] == ""}
+        values, one = problem.coordinates.values, (name, joint)
+        moved = factor * (values(base | {one: base[one] + STEP}) - values(base)) / STEP
         for key, slot in problem.structure.slots.items():
             if "." not in key:
                 found |= zip(range(slots[key].start, slots[key].stop), moved[slot].tolist(), strict=True)

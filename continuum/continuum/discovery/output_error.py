@@ -106,7 +106,8 @@ class OutputError:
         if near and all(one.state.ways is not found.lin.state.ways for one in near):
             starts.insert(0, ({}, None))
         if not near:
-            starts = [(start, None) for start in (self._as_given(found), *map(_at_rest, _AT_REST))]
+            at_rest = [self._at_rest(found, rise) for rise in _AT_REST]
+            starts = [(start, None) for start in (self._as_given(found), *at_rest)]
         nearest = min((one.error for one in near), default=self.floor)
         best = self._optimum(self._begun(found, *starts[0]), _FIRST)
         for start in starts[1:]:
@@ -139,6 +140,14 @@ class OutputError:
     def _as_given(self, found: Found) -> Start:
         """The model file's own values."""
         return {one.key: 0.0 for one in Unknowns(self.problem, found, {}).common if one.hypothesis is None}
+
+    def _at_rest(self, found: Found, rise: float) -> Start:
+        """Friction near rest, Stribeck's torque by so much above the model file's."""
+        begin = {"stribeck": rise, "speed": 0.0}
+        unknowns = Unknowns(self.problem, found, {}).common
+        return {
+            one.key: begin[name] for one in unknowns for effect, name, _ in one.places if not effect and name in begin
+        }
 
     def _start(self, found: Found, fit: Fitted) -> tuple[Start, Sequence[Array] | None]:
         """Where another set's fit ended: common and own unknowns, and those of segments about the same trajectories.
@@ -240,8 +249,3 @@ class OutputError:
         sd = np.sqrt(np.diag(normal.covariance) * np.maximum(left.disagreement, 1.0))
         agreement = left.probability([i for i, one in enumerate(unknowns.common) if one.hypothesis is not None])
         return Fitted(state, unknowns, values, sd, normal.own_sd(), left.errors, found, agreement, at.settled)
-
-
-def _at_rest(rise: float) -> Start:
-    """Friction near rest, Stribeck's torque by so much above the model file's."""
-    return {(((("", name, -1), 1.0), False, None), None): value for name, value in (("stribeck", rise), ("speed", 0.0))}

@@ -100,7 +100,7 @@ class _Run:
 def point_of(problem: Problem, state: State) -> Point:
     """Values at a state."""
     s = problem.structure
-    base = {name: value for (effect, name, _), value in state.shared.items() if effect == ""}
+    base = {(name, joint): value for (effect, name, joint), value in state.shared.items() if effect == ""}
     values = problem.coordinates.values(base)
     _add(values, s, state.shared)
     by_run = []
@@ -154,6 +154,7 @@ def linearise(
     s, point = problem.structure, point_of(problem, state)
     library = Library(
         s, state.active, state.ratio, problem.coordinates.columns(point.values), problem.coordinates.covered, live,
+        problem.coordinates.lacks_friction,
     )  # fmt: skip
     theta = np.stack([_theta(library, state.shared, own, state.held) for own in state.own])
     runs = []

@@ -83,6 +83,6 @@ def _less(one: Segment, wide: Unknowns, fitted: Values, left: Hypothesis | None)
     if left is None:
         return one
     filled, every = padded(fitted, wide), [*wide.common, *wide.own[one.run]]
-    values = np.concatenate([filled.common, filled.own[one.run]])
+    values = np.concatenate([filled.common, filled.own[one.run]]) - [unknown.absent for unknown in every]
     gone = [k for k, unknown in enumerate(every) if unknown.hypothesis is left]
     return one.with_residuals(one.slopes[:, -1] - one.slopes[:, gone] @ values[gone])

@@ -59,11 +59,16 @@ class Found:
         """Effects of the set with their places."""
         return frozenset(h.key for h in self.chosen)
 
-    def with_only(self, one: Hypothesis) -> Found:
-        """A part of the set, about the same state without the other effects."""
-        state = self.lin.state
-        active = {effect: own for effect, own in state.active.items() if effect == one.effect}
-        return Found(replace(self.lin, state=replace(state, active=active)), (one,))
+    def without(self, left: Hypothesis) -> Found:
+        """A part of the set, about the same state without one effect."""
+        state, rest = self.lin.state, tuple(h for h in self.chosen if h is not left)
+        active = {effect: own for effect, own in state.active.items() if effect in {h.effect for h in rest}}
+        return Found(replace(self.lin, state=replace(state, active=active)), rest)
+
+    @property
+    def effects(self) -> int:
+        """Number of its effects; friction that a model file lacks is fitted to all other arms without being one."""
+        return sum(not h.is_refit for h in self.chosen)
 
     @property
     def level(self) -> int:

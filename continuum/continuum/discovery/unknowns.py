@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.hypotheses import PRIOR, TOLERANCE, Hypothesis
+from continuum.discovery.hypotheses import FRICTION, PRIOR, TOLERANCE, Hypothesis
 from continuum.discovery.library import Library
 from continuum.discovery.problem import Problem, State, ValueKey, Values
 from continuum.discovery.search import Found
@@ -33,6 +33,7 @@ class Unknown:
         places: values that it is added to, with factors; or whose logarithm it changes.
         is_log: which of these.
         start, mean, sd: where a fit begins, and its Gaussian prior.
+        absent: value where what it belongs to is absent.
         lower, upper: bounds.
         hypothesis: effect and place of the set that it belongs to; None for the baseline and ordinary differences.
         of_run: recording that it belongs to; None for all.
@@ -47,6 +48,7 @@ class Unknown:
     upper: float
     hypothesis: Hypothesis | None = None
     of_run: int | None = None
+    absent: float = 0.0
 
     @property
     def place(self) -> tuple[object, ...]:
@@ -111,7 +113,9 @@ class Unknowns:
 
     def state(self, common: Array, own: tuple[Array, ...]) -> State:
         """The state with values at these coordinates, (k,) and (m,) for each recording."""
-        shared: dict[ValueKey, float] = {}
+        free = {key for one in self.common for key in one.places}
+        absent = {("", *one): value for one, value in self._problem.coordinates.without_friction.items()}
+        shared: dict[ValueKey, float] = {key: value for key, value in absent.items() if key not in free}
         active = {effect: {n: np.array(v) for n, v in values.items()} for effect, values in self._state.active.items()}
         for unknown, value in zip(self.common, common, strict=True):
             for key, factor in unknown.places.items():
@@ -153,11 +157,16 @@ class Unknowns:
 
     def _baseline(self) -> list[Unknown]:
         coordinates, found = self._problem.coordinates, []
-        for name, sd, (low, high) in zip(
-            coordinates.names, coordinates.prior_sd(False), coordinates.bounds(), strict=True
+        friction = next((h for h in self._found.chosen if h.effect == FRICTION), None)
+        for one, sd, (low, high) in zip(
+            coordinates.all, coordinates.prior_sd(False), coordinates.bounds(), strict=True
         ):
-            start = float(np.clip(self._state.shared.get(("", name, -1), 0.0), low, high))
-            found.append(Unknown({("", name, -1): 1.0}, False, start, 0.0, float(sd), low, high))
+            key, absent = ("", *one), coordinates.without_friction.get(one)
+            start = float(np.clip(self._state.shared.get(key, 0.0), low, high))
+            if absent is None:
+                found.append(Unknown({key: 1.0}, False, start, 0.0, float(sd), low, high))
+            elif friction is not None:
+                found.append(Unknown({key: 1.0}, False, start, 0.0, float(sd), low, high, friction, None, absent))
         return found
 
     def _ordinary(self) -> list[Unknown]:

@@ -112,6 +112,8 @@ def _matters(causes: Sequence[Cause]) -> str:
 def _matter(cause: Cause) -> str:
     """What is the matter; which way, where all sizes are off the same way."""
     effect = effect_named(cause.effect)
+    if any("." not in one.name for one in cause.estimates):
+        return effect.in_words_if_lacking
     sizes = [one.value for one in cause.estimates if not effect.parameters[one.name.split(".")[1]].default]
     more, less = (bool(sizes) and all(sign * size > 0 for size in sizes) for sign in (1, -1))
     return effect.in_words_if_more * more or effect.in_words_if_less * less or effect.in_words

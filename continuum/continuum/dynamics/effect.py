@@ -33,6 +33,7 @@ class Effect:
         in_words: what is the matter with the arm, one sentence for a mechanic.
         in_words_if_more, in_words_if_less: the same where all its sizes are above or below none; empty where that makes
             no difference.
+        in_words_if_lacking: the same where the model has nothing of its kind; empty where that cannot be.
         looks_like: what it does to the data, one sentence.
         experiment: what to measure so that it stands out from what resembles it, one sentence.
         beware: what no effect here is and would look the same, one sentence; empty where nothing is known to.
@@ -41,6 +42,7 @@ class Effect:
         state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
             units; 0 where it is certain.
         uses_cables: whether it acts on cables: none of an arm that joint torques drive.
+        uses_drives: whether it acts on joints' drives: none of an arm that cables pull.
         needs_tension: whether only a cable that pulls can show it, or where there are none a torque that drives.
         within_friction: whether it moves joints that dry friction holds. A filter that takes these as resting is blind
             to that: open-loop simulations alone show it.
@@ -56,17 +58,28 @@ class Effect:
     in_words: ClassVar[str] = ""
     in_words_if_more: ClassVar[str] = ""
     in_words_if_less: ClassVar[str] = ""
+    in_words_if_lacking: ClassVar[str] = ""
     looks_like: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
     beware: ClassVar[str] = ""
     alike_in_all_runs: ClassVar[str] = ""
     state_spread: ClassVar[float] = 0.0
     uses_cables: ClassVar[bool] = False
+    uses_drives: ClassVar[bool] = False
     needs_tension: ClassVar[bool] = False
     within_friction: ClassVar[bool] = False
     shifts_time: ClassVar[bool] = False
     beginnings: ClassVar[Sequence[Mapping[str, float]]] = ()
     directions: ClassVar[Sequence[Mapping[str, float]]] = ()
+
+    def acts_on(self, p: Parameters) -> bool:
+        """Whether it can change anything: factors of what an arm has none of do not."""
+        if not self.parameters or type(self).change_parameters is Effect.change_parameters:
+            return True
+        sizes = {name: spec.array((spec.default or 0.0) + (spec.typical or 1.0), p.n_joints, name)
+                 for name, spec in self.parameters.items()}  # fmt: skip
+        before, after = p.named(), self.change_parameters(p, sizes).named()
+        return any(np.any(after[name] != before[name]) for name in before)
 
     def n_states(self, n_joints: int) -> int:
         """Number of states that the effect adds."""

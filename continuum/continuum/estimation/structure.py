@@ -33,6 +33,16 @@ def overrides(effect: Effect, *hooks: str) -> bool:
     return any(getattr(type(effect), hook) is not getattr(Effect, hook) for hook in hooks)
 
 
+def delay_of(effect: Effect) -> str | None:
+    """Which of an effect's parameters is the delay of all sensors."""
+    if not overrides(effect, "late"):
+        return None
+    for chosen in effect.parameters:
+        if np.any(np.asarray(effect.late({name: np.array([float(name == chosen)]) for name in effect.parameters}))):
+            return chosen
+    return None
+
+
 def absent_values(effect: Effect, n: int) -> dict[str, Array]:
     """The effect's parameters where it is absent, (n,) or (1,) each."""
     return {
@@ -57,7 +67,9 @@ class Structure:
         self.offered = [
             effect
             for effect in offered
-            if (with_tension or not effect.needs_tension) and not (drives and effect.uses_cables)
+            if (with_tension or not effect.needs_tension)
+            and not (effect.uses_cables if drives else effect.uses_drives)
+            and effect.acts_on(model.parameters)
         ]
         known = [*(active.effect for active in model.effects), *self.offered]
         values = {active.effect.name: dict(active.values) for active in model.effects}

@@ -1,0 +1,34 @@
+"""A drive's rotor that the model lacks: J_r + ratio (I_z + m c^2), reflected to the joint.
+
+A rotor turns faster than its joint by the gear ratio and counts with its square: a rotor of 0.6 kg cm2 behind a gear of
+6:1 is 0.002 kg m2 at the joint, as much as many a light link. Its size is given as a part of the link's inertia about
+its own joint, so that it means the same on a small and on a large arm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import ClassVar
+
+from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.parameters import Parameter, Parameters
+
+
+class RotorInertia(Effect):
+    """J_r in M of Eq. 12."""
+
+    name = "rotor_inertia"
+    parameters: ClassVar[Mapping[str, Parameter]] = {
+        "ratio": Parameter("e_J", "1", 0.0, 100.0, True, "missing inertia of a drive over its link's", 0.0, 0.3)
+    }
+    source = "Armstrong, Khatib and Burdick, IEEE ICRA 1986, 510-518 (drives' inertia of the PUMA 560)"
+    in_words = "The rotor of a joint's drive adds inertia that the model lacks."
+    looks_like = "A joint is slower to speed up and to brake, whatever the other joints do, and weighs no more."
+    experiment = "Swing the outer link alone, its drive disengaged and engaged, and compare the periods."
+    beware = "At the first joint a rotor and more inertia of the link are the same: its data sheet tells."
+    uses_drives = True
+
+    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+        of_link = p.inertia + p.mass * p.center_of_mass**2
+        return replace(p, rotor_inertia=p.rotor_inertia + own["ratio"] * of_link)
