@@ -237,14 +237,28 @@ class _Fits:
             self._keep(base.found, self.judge.further(base.found, best.fit, base.fit.error))
 
     def _settle(self) -> None:
-        """Fit parts of all sets that may be named."""
+        """Bring all sets that may be named to their optimum, then fit their parts."""
+        for one in self._nameable():
+            self._converge(one)
+        for one in self._nameable():
+            self._add_parts(one, missing=True)
+
+    def _nameable(self) -> list[Examined]:
+        """Sets that are as near as the nearest, and of which no effect is needless."""
         best = min(self.examined, key=_error)
         alike = ALIKE * log(self.examined[0].fit.error / best.fit.error)
-        for one in self.examined:
-            fitted = [other.candidate for other in self.examined[1:]]
-            is_named = not is_farther(one.candidate, best.candidate, alike)
-            if is_named and not is_needless(one.candidate, fitted, alike):
-                self._add_parts(one, missing=True)
+        fitted = [one.candidate for one in self.examined[1:]]
+        near = [one for one in self.examined[1:] if not is_farther(one.candidate, best.candidate, alike)]
+        return [one for one in near if not is_needless(one.candidate, fitted, alike)]
+
+    def _converge(self, one: Examined) -> None:
+        """Go on with a fit while it becomes nearer: a set that is not at its optimum makes others look as good."""
+        key = one.found.key
+        while self._is_unexplained(one := self._by_key[key]) and not one.fit.settled:
+            self._progress(f"simulating with {one.found.label}", 0.85)
+            self._keep(one.found, self.judge.further(one.found, one.fit))
+            if self._by_key[key] is one or log(one.fit.error / self._by_key[key].fit.error) < ALIKE:
+                return
 
     def _add_parts(self, whole: Examined, missing: bool = False) -> None:
         for part in (whole.found.without(h) for h in whole.found.chosen if len(whole.found.chosen) > 1):

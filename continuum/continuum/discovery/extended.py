@@ -21,7 +21,8 @@ _SOURCE = "fitted to recordings by a diagnosis"
 def model_of(problem: Problem, state: State, key: Key, model: Model) -> Model:
     """A model with the state's values.
 
-    Ordinary differences of parts become the model's own parameters; what each recording has for itself is left out.
+    Ordinary differences of parts become the model's own parameters. What each recording has for itself is left out, and
+    so is an effect that has nothing else: as a part of the model it would not be looked for again.
 
     Args:
         problem, state: where values come from.
@@ -49,7 +50,8 @@ def model_of(problem: Problem, state: State, key: Key, model: Model) -> Model:
                 if name == effect.name:
                     own[parameter][max(joint, 0)] += value
             own |= {name: np.asarray(value) for name, value in state.active.get(effect.name, {}).items()}
-            kept[effect.name] = ActiveEffect(effect, own)
+            if any(np.any(own[name] != value) for name, value in absent_values(effect, s.n).items()):
+                kept[effect.name] = ActiveEffect(effect, own)
     clipped = {name: _within(name, value) for name, value in p.named().items() if value is not None}
     found = replace(model, parameters=replace(p, **clipped), effects=tuple(kept.values()))
     given = model.values()

@@ -26,8 +26,12 @@ class Inertia(Effect):
             "e_I", "1", -0.95, 50.0, True, "own inertia of a link by its model's, less 1", 0.0, 0.5, ordinary=0.03
         ),
     }
-    # mass that is added at about one and a half radii of gyration, and mass that only lies further out
-    directions: ClassVar[Sequence[Mapping[str, float]]] = [{"mass": 1.0, "inertia": 2.0}, {"inertia": 1.0}]
+    # mass that is added at the centre, at about one and a half radii of gyration, and mass that only lies further out
+    directions: ClassVar[Sequence[Mapping[str, float]]] = [
+        {"mass": 1.0},
+        {"mass": 1.0, "inertia": 2.0},
+        {"inertia": 1.0},
+    ]
     source = "thesis, discussion of Fig. 9; Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119"
     in_words = "A link is heavier or lighter, or its mass lies further out, than in the drawings."
     in_words_if_more = "A link is heavier, or its mass lies further out, than in the drawings."
