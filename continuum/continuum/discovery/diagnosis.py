@@ -10,12 +10,14 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery.candidates import Examination, Examined, examine, silent
 from continuum.discovery.decision import Kind, Verdict, closed, decide, noise_in_segments
-from continuum.discovery.estimates import baseline_estimates, estimates_of
+from continuum.discovery.detectable import detectable
+from continuum.discovery.estimates import baseline_estimates, correlation_of, estimates_of
 from continuum.discovery.extended import model_of
 from continuum.discovery.missing_torque import missing_torque
+from continuum.discovery.power import Power, powers
 from continuum.discovery.problem import Problem
 from continuum.discovery.result import Cause, Diagnosis, Share, is_named
-from continuum.discovery.search import Progress
+from continuum.discovery.search import Progress, with_library
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
 from continuum.recordings.cable_sides import refuse_swapped_cables
@@ -85,8 +87,15 @@ def _answer(
         verdict, sets, share, (sigma, less_sigma), (torque, less_torque), baseline_estimates(problem, best.fit), before,
         after, model_of(problem, base.fit.state, (), model),
         model_of(problem, best.fit.state, best.candidate.effects, model), tuple(recordings),
+        detectable(problem, _powers(found, best)), (), correlation_of(best.fit),
         (*odd, *_notes(recordings, problem, best)), accepted, time.process_time() - began,
     )  # fmt: skip
+
+
+def _powers(found: Examination, best: Examined) -> list[Power]:
+    """About the best set, whose errors are taken for the noise."""
+    library = with_library(found.problem, best.found).lin.library
+    return powers(found.judge, best.fit, best.fit.errors, library, found.baseline.fit)
 
 
 def _share(found: Examination, one: Examined) -> Share:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.discovery.coordinates import PARAMETER
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import Hypothesis
@@ -46,12 +47,14 @@ def _lacking(problem: Problem, fit: Fitted, one: Unknown, sd: float) -> list[Est
         return []
     value = float(point_of(problem, fit.state).values[problem.structure.slots[name]][joint])
     low, high = max(value - _Z * sd * step, 0.0), value + _Z * sd * step
-    return [Estimate(name, joint, "", value, low, high, PARAMETERS[name].unit, PARAMETERS[name].meaning)]
+    spec = PARAMETERS[name]
+    return [Estimate(name, joint, "", value, low, high, spec.unit, spec.meaning, 0.0, spec.lower, spec.upper)]
 
 
 def _estimates(spec: Mapping[str, Parameter], one: Unknown, value: float, sd: float, run: str = "") -> list[Estimate]:
     """Of each parameter that an unknown moves; of one joint where it moves that of all joints alike."""
     found = []
+    effect = next(iter(one.places))[0]
     for name in dict.fromkeys(name for _, name, _ in one.places):
         joints = [joint for _, parameter, joint in one.places if parameter == name]
         factor = next(factor for (_, parameter, _), factor in one.places.items() if parameter == name)
@@ -59,18 +62,44 @@ def _estimates(spec: Mapping[str, Parameter], one: Unknown, value: float, sd: fl
         ends = [value - _Z * sd, value, value + _Z * sd]
         origin = spec[name].default or 0.0
         low, middle, high = np.exp(ends) if one.is_log else (origin + factor * end for end in ends)
-        label = f"{next(iter(one.places))[0]}.{name}"
-        found.append(Estimate(label, joint, run, middle, low, high, spec[name].unit, spec[name].meaning))
+        what = spec[name]
+        found.append(
+            Estimate(
+                f"{effect}.{name}", joint, run, middle, low, high, what.unit, what.meaning,
+                origin, what.lower, what.upper,
+            )
+        )  # fmt: skip
     return found
 
 
 def baseline_estimates(problem: Problem, fit: Fitted) -> tuple[Estimate, ...]:
     """The model's own springs and friction as fitted, the mean over joints."""
     values, slots = point_of(problem, fit.state).values, problem.structure.slots
-    return tuple(
-        Estimate(
-            name, None, "", float(np.mean(values[slots[name]])), np.nan, np.nan, PARAMETERS[name].unit,
-            PARAMETERS[name].meaning,
+    given, found = problem.structure.given.values(), list[Estimate]()
+    for name in _SHOWN:
+        spec, start = PARAMETERS[name], float(np.mean(given[name]))
+        value = float(np.mean(values[slots[name]]))
+        found.append(
+            Estimate(name, None, "", value, np.nan, np.nan, spec.unit, spec.meaning, start, spec.lower, spec.upper)
         )
-        for name in _SHOWN
-    )  # fmt: skip
+    return tuple(found)
+
+
+def correlation_of(fit: Fitted) -> tuple[tuple[str, ...], Array]:
+    """Names of a fit's values that all recordings have in common, and their posterior correlations, (k, k).
+
+    Ordinary differences of parts are left out.
+    """
+    used = [k for k, one in enumerate(fit.unknowns.common) if one.hypothesis is not None or _is_refit(one)]
+    return tuple(_name(fit.unknowns.common[k]) for k in used), fit.correlation[np.ix_(used, used)]
+
+
+def _is_refit(one: Unknown) -> bool:
+    return all(not effect for effect, _, _ in one.places)
+
+
+def _name(one: Unknown) -> str:
+    effect, name, _ = next(iter(one.places))
+    joints = [joint for _, _, joint in one.places if joint >= 0]
+    where = f"[{joints[0] + 1}]" if len(joints) == 1 else ""
+    return (f"{effect}.{name}" if effect else PARAMETER[name]) + where

@@ -40,6 +40,7 @@ class Fitted:
         state: with the fitted values.
         unknowns, values: what was fitted, and the result.
         sd: standard deviations of the common unknowns, larger where segments disagree, (k,).
+        correlation: of the common unknowns, (k, k).
         own_sd: standard deviations of each recording's own.
         errors: root mean square over rows and joints of each segment, with what the other segments say of all that
             recordings have in common, (segments,) [rad]; NaN where a simulation failed.
@@ -52,6 +53,7 @@ class Fitted:
     unknowns: Unknowns
     values: Values
     sd: Array
+    correlation: Array
     own_sd: tuple[Array, ...]
     errors: Array
     observations: float

@@ -20,7 +20,7 @@ from continuum.discovery.decision import ALIKE, is_worth
 from continuum.discovery.fitted import Fitted, OpenLoop
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values, prior_cost
 from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut
-from continuum.discovery.problem import Problem
+from continuum.discovery.problem import Problem, State
 from continuum.discovery.search import Found
 from continuum.discovery.unknowns import Start, Unknowns, linear_unknown
 from continuum.recordings.recording import Recording
@@ -137,6 +137,14 @@ class OutputError:
             number += len(self._cuts[r])
         return OpenLoop(tuple(found), self.floor, fit.error)
 
+    def readings(self, state: State, values: Values) -> list[Array]:
+        """Every segment at a state, beginning where some values say, (rows, n) each [rad]; NaN where it fails."""
+        local, found = iter(values.local), list[Array]()
+        for r, rows in enumerate(self._cuts):
+            simulation = RunSimulation(self._simulators, state, r)
+            found += [simulation.readings(one, next(local)) for one in rows]
+        return found
+
     def _as_given(self, found: Found) -> Start:
         """The model file's own values."""
         return {one.key: 0.0 for one in Unknowns(self.problem, found, {}).common if one.hypothesis is None}
@@ -242,10 +250,14 @@ class OutputError:
         if not at.completed:
             none = tuple(np.full(len(own), np.nan) for own in values.own)
             failed = np.full(len(at.segments), np.nan)
-            return Fitted(state, unknowns, values, np.full(k, np.nan), none, failed, 0.0, 1.0, True)
+            return Fitted(state, unknowns, values, np.full(k, np.nan), np.eye(k), none, failed, 0.0, 1.0, True)
         normal = self._normal(at)
         found = Scale(at.segments, self.floor).observations
         left = normal.without_each()
-        sd = np.sqrt(np.diag(normal.covariance) * np.maximum(left.disagreement, 1.0))
+        plain = np.sqrt(np.diag(normal.covariance))
+        sd = plain * np.sqrt(np.maximum(left.disagreement, 1.0))
         agreement = left.probability([i for i, one in enumerate(unknowns.common) if one.hypothesis is not None])
-        return Fitted(state, unknowns, values, sd, normal.own_sd(), left.errors, found, agreement, at.settled)
+        correlation = normal.covariance / np.outer(plain, plain)
+        return Fitted(
+            state, unknowns, values, sd, correlation, normal.own_sd(), left.errors, found, agreement, at.settled
+        )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -27,6 +28,8 @@ class Estimate:
         value, low, high: in its unit; the ends are NaN where no interval is known.
         unit: SI.
         meaning: one sentence.
+        start: what the model file has; NaN where it has none.
+        lower, upper: bounds within which it was sought.
     """
 
     name: str
@@ -37,6 +40,15 @@ class Estimate:
     high: float
     unit: str
     meaning: str
+    start: float = math.nan
+    lower: float = -math.inf
+    upper: float = math.inf
+
+    @property
+    def is_at_bound(self) -> bool:
+        """Whether a bound stopped it, so that it may be wrong."""
+        near = 1e-6 * max(abs(self.value), 1e-12)
+        return abs(self.value - self.lower) <= near or abs(self.value - self.upper) <= near
 
     def __str__(self) -> str:
         where = "" if self.joint is None else f"[{self.joint + 1}]"
@@ -78,6 +90,56 @@ class Cause:
 
 
 @dataclass(frozen=True)
+class Detectable:
+    """How small an effect may be that these recordings would have shown.
+
+    Attributes:
+        effect, joints: which, and where; joints are None where it belongs to the whole arm.
+        parameter: that says its size.
+        unit: of that, SI.
+        typical: size that it has where it matters [unit].
+        smallest: size from which it would have been named with a probability of 80 % [unit]; infinite where at no size.
+        reason: why it is not shown at its typical size, one sentence; empty where it is.
+    """
+
+    effect: str
+    joints: tuple[int, ...] | None
+    parameter: str
+    unit: str
+    typical: float
+    smallest: float
+    reason: str
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether its typical size would have been shown."""
+        return self.smallest <= self.typical
+
+    @property
+    def label(self) -> str:
+        """Effect and joints, from 1."""
+        return self.effect + ("" if self.joints is None else "@" + ",".join(str(j + 1) for j in self.joints))
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A run that would tell more.
+
+    Attributes:
+        name: a few words.
+        instruction: what to do, one or two sentences for a mechanic.
+        separates: expected difference in log-likelihood between the possible sets that are hardest to tell apart; NaN
+            where there is one set only.
+        shows: labels of effects that these recordings cannot show at their typical sizes and this run would.
+    """
+
+    name: str
+    instruction: str
+    separates: float
+    shows: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """The answer.
 
@@ -91,6 +153,9 @@ class Diagnosis:
         before, after: open-loop simulations of the refitted and of the extended model.
         refitted_model, extended_model: with their values.
         recordings: what was diagnosed.
+        power: smallest size of each effect that would have been shown, about the best set.
+        experiments: runs that would tell more, the best first.
+        correlation: names of the best set's values and their posterior correlations, (k, k).
         notes: on the data, one sentence each.
         tolerance: open-loop error up to which a model is adequate [rad].
         seconds: of processor time.
@@ -107,6 +172,9 @@ class Diagnosis:
     refitted_model: Model
     extended_model: Model
     recordings: tuple[Recording, ...]
+    power: tuple[Detectable, ...]
+    experiments: tuple[Experiment, ...]
+    correlation: tuple[tuple[str, ...], Array]
     notes: tuple[str, ...]
     tolerance: float
     seconds: float

@@ -57,6 +57,9 @@ class Structure:
         model: of the arm; effects that it has already stay as they are.
         effects: names of those that may be added; all that are installed without.
         with_tension: whether a cable ever pulls; else effects that need it are left out.
+
+    Attributes:
+        offered, left_out: effects that may be added, and those that only a tension would show.
     """
 
     def __init__(self, model: Model, effects: Sequence[str] | None = None, with_tension: bool = True) -> None:
@@ -70,6 +73,11 @@ class Structure:
             if (with_tension or not effect.needs_tension)
             and not (effect.uses_cables if drives else effect.uses_drives)
             and effect.acts_on(model.parameters)
+        ]
+        self.left_out = [
+            effect
+            for effect in offered
+            if effect.needs_tension and not with_tension and not (effect.uses_cables and drives)
         ]
         known = [*(active.effect for active in model.effects), *self.offered]
         values = {active.effect.name: dict(active.values) for active in model.effects}

@@ -1,0 +1,58 @@
+"""What recordings would have shown, effect by effect, in the effects' units and with a reason where they would not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from continuum.discovery.hypotheses import Hypothesis
+from continuum.discovery.power import Power
+from continuum.discovery.problem import Problem
+from continuum.discovery.result import Detectable
+
+_MOSTLY = 0.5
+"""Part of a change that counts as most of it."""
+
+
+def detectable(problem: Problem, powers: Sequence[Power]) -> tuple[Detectable, ...]:
+    """Of every effect of the library that may act on this arm, the smallest sizes first.
+
+    Args:
+        problem: whose recordings.
+        powers: about the best set.
+    """
+    offered = {effect.name: effect for effect in problem.structure.offered}
+    found = []
+    for one in powers:
+        h = one.hypothesis
+        name, spec = next((n, s) for n, s in offered[h.effect].parameters.items() if _is_size(n, h))
+        typical = spec.typical or 1.0
+        smallest = one.smallest
+        found.append(
+            Detectable(h.effect, h.joints, name, spec.unit, typical, smallest * typical, _reason(one, smallest))
+        )
+    for effect in problem.structure.left_out:
+        name, spec = next(iter(effect.parameters.items()))
+        found.append(
+            Detectable(
+                effect.name, None, name, spec.unit, spec.typical or 1.0, np.inf,
+                "Nothing pulls or drives the arm in these recordings.",
+            )
+        )  # fmt: skip
+    return tuple(sorted(found, key=lambda one: (one.smallest / one.typical, one.label)))
+
+
+def _is_size(name: str, h: Hypothesis) -> bool:
+    return not h.coefficients or name == h.coefficients[0].parameter
+
+
+def _reason(one: Power, smallest: float) -> str:
+    if smallest <= 1:
+        return ""
+    if one.changes < 1:
+        return f"Its typical size changes the readings by {one.changes:.2g} times their noise only."
+    if one.kept < _MOSTLY:
+        taken = 100 * (1 - one.kept)
+        return f"{taken:.0f} % of what it changes looks like other springs, friction, masses or sensors' zeros."
+    return "It changes the readings, but acts in too few of them."
