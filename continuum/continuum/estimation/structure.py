@@ -74,11 +74,8 @@ class Structure:
             and not (effect.uses_cables if drives else effect.uses_drives)
             and effect.acts_on(model.parameters)
         ]
-        self.left_out = [
-            effect
-            for effect in offered
-            if effect.needs_tension and not with_tension and not (effect.uses_cables and drives)
-        ]
+        unpulled = [effect for effect in offered if effect.needs_tension and not with_tension]
+        self.left_out = [effect for effect in unpulled if not (effect.uses_cables and drives)]
         known = [*(active.effect for active in model.effects), *self.offered]
         values = {active.effect.name: dict(active.values) for active in model.effects}
         plain = [e for e in known if e.n_states(n) == 0 and overrides(e, *_MECHANICAL)]
