@@ -1,4 +1,4 @@
-"""How far a link turned since its sensor was last heard, and how wrong that may be."""
+"""How far a link turned since its first reading or the one before, and how wrong that may be."""
 
 from __future__ import annotations
 
@@ -25,6 +25,12 @@ def turn_since(rate: Array, rate_before: Array, elapsed: Array, period: float, m
     """
     known = np.minimum(elapsed, period) if means else np.zeros_like(elapsed)
     return np.asarray(rate * known + (rate_before + rate) / 2 * (elapsed - known))
+
+
+def integrated(times: Array, rates: Array) -> Array:
+    """Angles since the first time, (n_times, n) [rad]; the rates (n_times, n) [rad/s] are linear between the times."""
+    steps = (rates[1:] + rates[:-1]) / 2 * np.diff(times)[:, None]
+    return np.concatenate([np.zeros((1, rates.shape[1])), np.cumsum(steps, axis=0)])
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError, MeasurementError
 from continuum.inertial.imu_recording import ImuRecording
+from continuum.inertial.integrated_rate import integrated
 
 LEAST_TURN = np.radians(5.0)
 """Of every link, for its axis to be found [rad]."""
@@ -40,7 +41,7 @@ def axes_of_motion(recording: ImuRecording, bias: Array, first_turn: int) -> Arr
     moments = np.einsum("tni,tnj->nij", rates, rates)
     sizes, directions = np.linalg.eigh(moments)
     axes = directions[:, :, -1]
-    angles = _summed(recording.times, np.einsum("tni,ni->tn", rates, axes))
+    angles = integrated(recording.times, np.einsum("tni,ni->tn", rates, axes))
     turns = np.ptp(angles, axis=0)
     off_axis = np.sqrt(np.maximum(sizes[:, 1], 0.0) / np.maximum(sizes[:, 2], np.finfo(float).tiny))  # eigh's rounding
     alike = _correlation(angles, angles[:, -1])
@@ -65,12 +66,6 @@ def _fault(sensor: int, turn: float, off_axis: float, alike: float) -> str:
     if alike < _ALIKE:
         return f"sensor {sensor} did not turn as the last one did (correlation {alike:.2f}): which side is which?"
     return ""
-
-
-def _summed(times: Array, rates: Array) -> Array:
-    """Angles since the first time, (n_times, n) [rad]."""
-    steps = (rates[1:] + rates[:-1]) / 2 * np.diff(times)[:, None]
-    return np.concatenate([np.zeros((1, rates.shape[1])), np.cumsum(steps, axis=0)])
 
 
 def _correlation(angles: Array, reference: Array) -> Array:
