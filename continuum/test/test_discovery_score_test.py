@@ -86,7 +86,7 @@ def test_what_is_larger_than_the_smallest_that_would_have_shown_is_worth_it(
     key = effect, (joint,) if effect_named(effect).parameters[parameter].per_joint else None
     smallest = next(
         one for one in powers(judge, fit, fit.errors, found.lin.library) if one.hypothesis.key == key
-    ).size * (effect_named(effect).parameters[parameter].typical or 1.0)
+    ).smallest * (effect_named(effect).parameters[parameter].typical or 1.0)
     judge, found, fit = fitted(effect, parameter, times_smallest * smallest, joint)
     hidden = next(one for one in promises(judge, fit, found.lin.library) if one.hypothesis.key == key)
     assert is_worth(hidden.gain, hidden.observations) == (times_smallest > 1)

@@ -26,16 +26,16 @@ from tools.bench_discovery.plans import Plan
 from tools.bench_discovery.result import Result, kept
 
 _LIMIT = 600  # of one diagnosis [s]
-_MAKERS: Final = {"mujoco": plant.make_case, "moreau": moreau.make_case}
+MAKERS: Final = {"mujoco": plant.make_case, "moreau": moreau.make_case}
 _TOLD = 1500  # characters of a failure
-_MODEL = "lamecc_prototype.yaml"
+MODEL = "lamecc_prototype.yaml"
 
 
 def diagnosed(files: Sequence[Path]) -> tuple[dict[str, Any], float]:
     """The verdict on files as `continuum diagnose --json` writes it, and processor time of the diagnosis alone [s]."""
-    recordings, model = [read_recording(str(path)) for path in files], load_model(_MODEL)
+    recordings, model = [read_recording(str(path)) for path in files], load_model(MODEL)
     began = time.process_time()
-    result = diagnose(recordings, model)
+    result = diagnose(recordings, model, with_power=False)
     seconds = time.process_time() - began
     return dict(json.loads(json.dumps(as_mapping(result)))), seconds
 
@@ -43,7 +43,7 @@ def diagnosed(files: Sequence[Path]) -> tuple[dict[str, Any], float]:
 def run_case(plan: Plan, digest: str) -> Result:
     """Make a case, hand its files to the diagnosis, keep the truth out of its sight."""
     verdict, failure, seconds = None, "", float("nan")
-    case = _MAKERS[plan.plant](plan.effects, plan.size, plan.recordings, plan.seed, plan.noise)
+    case = MAKERS[plan.plant](plan.effects, plan.size, plan.recordings, plan.seed, plan.noise)
     began = time.process_time()
     with tempfile.TemporaryDirectory() as folder:
         signal.signal(signal.SIGALRM, _too_late)

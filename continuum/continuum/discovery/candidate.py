@@ -15,9 +15,9 @@ type Key = tuple[tuple[str, tuple[int, ...] | None], ...]
 _EXACT = 1e-12  # rad: an error is no less, so that it has a logarithm
 
 
-def mean_error(errors: Array) -> float:
-    """Geometric mean over the segments [rad]; infinite where a simulation failed."""
-    return float(np.exp(np.mean(log_errors(errors)))) if np.all(np.isfinite(errors)) else np.inf
+def mean_error(errors: Array) -> Array:
+    """Geometric mean over the segments, the last axis [rad]; infinite where a simulation failed."""
+    return np.where(np.all(np.isfinite(errors), axis=-1), np.exp(np.mean(log_errors(errors), axis=-1)), np.inf)
 
 
 def log_errors(errors: Array) -> Array:
@@ -53,4 +53,4 @@ class Candidate:
     @property
     def error(self) -> float:
         """Geometric mean over the segments [rad]; infinite where a simulation failed."""
-        return mean_error(self.errors)
+        return float(mean_error(self.errors))

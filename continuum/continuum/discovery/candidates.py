@@ -83,14 +83,23 @@ def examine(
 ) -> Examination:
     """Search for sets of effects and simulate each open loop."""
     progress("compiling", 0.0)
-    dry = with_dry_friction(model)
-    structure = Structure(dry, effects, has_tension(recordings, dry))
-    problem = problem_of(structure, recordings)
+    problem = _problem(recordings, model, effects)
     progress("baseline", 0.1)
     fits = _Fits(*_baseline(problem, recordings), progress)
     fits.search()
     base, *others = fits.examined
     return Examination(fits.judge.problem, fits.judge, base, tuple(others), tuple(fits.log))
+
+
+def refitted(recordings: Sequence[Recording], model: Model) -> tuple[Examined, OutputError]:
+    """The refitted model, and what fitted it; with friction where the model file lacks it."""
+    start, judge, _ = _baseline(_problem(recordings, model, None), recordings)
+    return start, judge
+
+
+def _problem(recordings: Sequence[Recording], model: Model, effects: Sequence[str] | None) -> Problem:
+    dry = with_dry_friction(model)
+    return problem_of(Structure(dry, effects, has_tension(recordings, dry)), recordings)
 
 
 def _baseline(problem: Problem, recordings: Sequence[Recording]) -> tuple[Examined, OutputError, OutputError | None]:

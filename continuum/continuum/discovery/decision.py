@@ -120,7 +120,12 @@ def is_worth(gain: float, observations: float, effects: int = 1, occam: float = 
 
     Of so many independent residuals of unknown variance it is the gain in log-likelihood.
     """
-    return gain * observations > PRICE * effects + occam - log(CHANCE)
+    return gain * observations > price(effects, occam)
+
+
+def price(effects: int = 1, occam: float = 0.0) -> float:
+    """What effects and their own values cost and chance gives [log-likelihood]."""
+    return PRICE * effects + occam - log(CHANCE)
 
 
 def noise_in_segments(candidates: Sequence[Candidate], floor: float) -> Array:
@@ -158,14 +163,22 @@ def closed(baseline: Candidate, one: Candidate, noise: Array) -> tuple[float, fl
 
     A simulation that fails counts as one that is off by twice the baseline's error.
     """
-    gained: Array = np.where(np.isfinite(one.errors), baseline.errors - one.errors, -baseline.errors)
-    distance, n = baseline.errors - noise, len(gained)
-    whole = float(np.sum(distance))
-    if not whole > 0:
-        return 0.0, 0.0, 0.0
-    share = float(np.sum(gained)) / whole
+    share, low, high = closed_share(baseline.errors, one.errors, noise)
+    return float(share), float(low), float(high)
+
+
+def closed_share(before: Array, after: Array, noise: Array) -> tuple[Array, Array, Array]:
+    """The same of errors of segments, the last axis [rad]."""
+    gained = np.where(np.isfinite(after), before - after, -before)
+    distance, n = before - noise, gained.shape[-1]
+    whole, gain = np.sum(distance, axis=-1, keepdims=True), np.sum(gained, axis=-1, keepdims=True)
+    is_any = whole > 0
+    safe = np.where(is_any, whole, 1.0)
+    share = np.where(is_any, gain / safe, 0.0)[..., 0]
     if n == 1:
-        return share, -np.inf, np.inf
-    without = (np.sum(gained) - gained) / np.maximum(whole - distance, 1e-3 * whole)
-    half = float(stdtrit(n - 1, 0.975)) * float(np.sqrt((n - 1) / n * np.sum((without - without.mean()) ** 2)))
+        half = np.where(is_any[..., 0], np.inf, 0.0)
+    else:
+        without = (gain - gained) / np.maximum(safe - distance, 1e-3 * safe)
+        scatter = np.sum((without - np.mean(without, axis=-1, keepdims=True)) ** 2, axis=-1)
+        half = np.where(is_any[..., 0], float(stdtrit(n - 1, 0.975)) * np.sqrt((n - 1) / n * scatter), 0.0)
     return share, share - half, share + half

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -35,6 +36,7 @@ def diagnose(
     effects: Sequence[str] | None = None,
     tolerance: float | None = None,
     progress: Progress = silent,
+    with_power: bool = True,
 ) -> Diagnosis:
     """Diagnose a model by measured data.
 
@@ -43,7 +45,8 @@ def diagnose(
         model: with nominal values.
         effects: names of those to try; all that are installed without.
         tolerance: open-loop error up to which a model is adequate [rad]; TOLERANCE times the noise without.
-        progress: told what is done, and the part of all that is over.
+        progress: called with what is done, and the part of all that is over.
+        with_power: whether to work out what the recordings would have shown, and which run would tell more.
 
     Raises:
         InvalidValueError: no recording, another number of joints or kind of inputs than the model's, a recording twice.
@@ -51,8 +54,13 @@ def diagnose(
     began = time.process_time()
     _check(recordings, model, tolerance)
     found = examine(recordings, model, effects, progress)
-    progress("deciding", 0.9)
-    return _answer(found, recordings, model, tolerance, began)
+    progress("deciding", 0.85)
+    answer, best = _answer(found, recordings, model, tolerance)
+    if with_power:
+        progress("power of the recordings", 0.9)
+        known = _powers(found, best)
+        answer = replace(answer, power=detectable(found.problem, known))
+    return replace(answer, seconds=time.process_time() - began)
 
 
 def _answer(
@@ -60,8 +68,8 @@ def _answer(
     recordings: Sequence[Recording],
     model: Model,
     tolerance: float | None,
-    began: float,
-) -> Diagnosis:
+) -> tuple[Diagnosis, Examined]:
+    """The answer without power, and the best set."""
     problem, base = found.problem, found.baseline
     floor = found.judge.floor
     accepted = max(TOLERANCE * floor, float(np.max(problem.noise.slow))) if tolerance is None else tolerance
@@ -83,13 +91,13 @@ def _answer(
     if best is not base:
         less_sigma, less_torque = missing_torque(problem, best.found)
         after = found.judge.whole(best.fit)
-    return Diagnosis(
+    answer = Diagnosis(
         verdict, sets, share, (sigma, less_sigma), (torque, less_torque), baseline_estimates(problem, best.fit), before,
         after, model_of(problem, base.fit.state, (), model),
         model_of(problem, best.fit.state, best.candidate.effects, model), tuple(recordings),
-        detectable(problem, _powers(found, best)), (), correlation_of(best.fit),
-        (*odd, *_notes(recordings, problem, best)), accepted, time.process_time() - began,
+        (), (), correlation_of(best.fit), (*odd, *_notes(recordings, problem, best)), accepted, 0.0,
     )  # fmt: skip
+    return answer, best
 
 
 def _powers(found: Examination, best: Examined) -> list[Power]:

@@ -63,7 +63,7 @@ class Fitted:
     @property
     def error(self) -> float:
         """Geometric mean of the errors [rad]; infinite where a simulation failed."""
-        return mean_error(self.errors)
+        return float(mean_error(self.errors))
 
     @property
     def occam(self) -> float:

@@ -62,7 +62,7 @@ class _Iterate:
     @property
     def error(self) -> float:
         """Geometric mean over the segments [rad]; infinite where a simulation failed."""
-        return mean_error(np.array([one.error for one in self.segments]))
+        return float(mean_error(np.array([one.error for one in self.segments])))
 
 
 class OutputError:
