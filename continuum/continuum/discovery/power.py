@@ -32,6 +32,7 @@ POWER = 0.8
 """Probability of being named at the size that is stated (Cohen, Statistical Power Analysis, 1988)."""
 _SIZES = np.geomspace(1e-2, 30.0, 64)
 """Typical sizes that are tried, 14 % from one to the next; what only shows beyond is not tested by these recordings."""
+_REFITS = 2  # of the baseline to a change, each with the weights that the one before leaves
 _REPEATS = 100
 """Repeated experiments: 80 % is then known to 4 %."""
 
@@ -117,11 +118,18 @@ def powers(judge: OutputError, fit: Fitted, noise: Array, library: Library, abou
     if not sensitivities.completed:
         return []
     base = fit if about is None else about
-    exact = sensitivities.residuals_after(fit.unknowns, fit.values, sensitivities.without_residuals())
+    nothing = sensitivities.without_residuals()
 
     def power(h: Hypothesis, changed: Sequence[Segment]) -> Power:
-        after = sensitivities.residuals_after(fit.unknowns, fit.values, changed)
-        left = np.array([_size(one - other) for one, other in zip(after, exact, strict=True)]) / noise
+        """Residuals of a wrong model are alike from row to row and count less, as in a fit; by what stays, at last."""
+        scale = _with_noise(changed, sensitivities.segments)
+        for _ in range(_REFITS):
+            after = sensitivities.residuals_after(fit.unknowns, fit.values, changed, scale)
+            exact = sensitivities.residuals_after(fit.unknowns, fit.values, nothing, scale)
+            stays = [one - other for one, other in zip(after, exact, strict=True)]
+            both = zip(changed, stays, strict=True)
+            scale = _with_noise([one.with_residuals(r.ravel()) for one, r in both], sensitivities.segments)
+        left = np.array([_size(one) for one in stays]) / noise
         changes = _size(np.array([_size(one.slopes[:, -1]) for one in changed]) / noise)
         return Power(h, changes, left, noise, judge.floor, fit.observations, h.local_sd.size * len(fit.values.own))
 
@@ -137,6 +145,12 @@ def powers(judge: OutputError, fit: Fitted, noise: Array, library: Library, abou
             both = zip(sensitivities.segments, changes, strict=True)
             _keep(found, power(h, [one.with_residuals(-change) for one, change in both]))
     return list(found.values())
+
+
+def _with_noise(changed: Sequence[Segment], fitted: Sequence[Segment]) -> list[Segment]:
+    """Segments whose residuals are a change and what a fit left."""
+    both = zip(changed, fitted, strict=True)
+    return [one.with_residuals(one.slopes[:, -1] + other.slopes[:, -1]) for one, other in both]
 
 
 def _keep(found: dict[object, Power], one: Power) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 
@@ -47,16 +46,19 @@ class Sensitivities:
         """Whether the simulations did not fail."""
         return all(np.isfinite(one.square) for one in self.segments)
 
-    @cached_property
-    def _weights(self) -> list[float]:
-        return Scale(self.segments, self._judge.floor).weights([one.error for one in self.segments])
+    def _weights(self, segments: Sequence[Segment]) -> list[float]:
+        return Scale(segments, self._judge.floor).weights([one.error for one in segments])
 
     def with_effect(self, unknowns: Unknowns, h: Hypothesis) -> Unknowns:
         """Some unknowns, and those of a hypothesis."""
         return _joined(unknowns, *self._added[h])
 
     def residuals_after(
-        self, unknowns: Unknowns, values: Values, segments: Sequence[Segment] | None = None
+        self,
+        unknowns: Unknowns,
+        values: Values,
+        segments: Sequence[Segment] | None = None,
+        scaled_by: Sequence[Segment] | None = None,
     ) -> list[Array]:
         """Residuals of each segment after a step by some of the unknowns, (rows, n) each [rad].
 
@@ -64,11 +66,13 @@ class Sensitivities:
             unknowns: of the step.
             values: from which it begins; unknowns beyond these begin at 0.
             segments: with other residuals than the fit's.
+            scaled_by: segments whose residuals say how much these count; the fit's without.
         """
         local = len(self._judge.local_precision)
         chosen = [self._by(one, unknowns, local) for one in segments or self.segments]
         start = padded(values, unknowns)
-        normal = NormalEquations(unknowns, start, chosen, self._weights, self._judge.local_precision)
+        weights = self._weights(scaled_by or self.segments)
+        normal = NormalEquations(unknowns, start, chosen, weights, self._judge.local_precision)
         return normal.expected_residuals(normal.stepped(DAMPING))
 
     def _by(self, one: Segment, unknowns: Unknowns, local: int) -> Segment:
