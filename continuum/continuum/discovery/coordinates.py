@@ -30,6 +30,7 @@ _PRIOR = {"stiffness": 0.5, "viscous": 1.0, "coulomb": 0.6, "stribeck": 1.0, "sp
 _SHAPE_PRIOR = 0.33
 _FAR = 10.0  # times more or less than expected: such a value of a model file is not believed
 _LEAST = 0.02  # part of its reference below which no mass, inertia or spring is a body's
+_NONE = 1e-6  # part of its reference that counts as no Coulomb friction: Stribeck's torque is a multiple of it
 _SPEED = (-0.8, 4.0)  # least and largest relative change of Stribeck's rate: beyond, its curve is another term
 _ROUNDING = 1e-6  # part of a torque below which it is the rounding of a solution
 _RATES = (0.0, 0.5, 1.0, 2.0, 9.0)  # multiples of Stribeck's rate at which dry friction must not be negative
@@ -53,7 +54,7 @@ class Coordinates:
         reference: parameter values about which the coordinates count, (n_p,).
         torque: of the arm, root mean square [N m].
         steps: change of each kind's parameter by one unit, (n,) each.
-        lacks_friction: whether the model file has none at any joint.
+        lacks_friction: whether the model file has no dry friction at any joint.
     """
 
     structure: Structure
@@ -67,7 +68,7 @@ class Coordinates:
         """The coordinates that this arm has."""
         found = list[Coordinate]()
         for name in _PRIOR:
-            if self.lacks_friction and name in _FRICTION:
+            if self._is_lacking(name):
                 found += [(name, j) for j in range(self.structure.n)]
             elif np.any(self.steps[name] != 0):
                 found.append((name, -1))
@@ -78,8 +79,20 @@ class Coordinates:
         """Coordinates of friction of an arm that has none, where the model file lacks it; else empty."""
         if not self.lacks_friction:
             return {}
-        least = dict(zip(self.all, self.bounds(), strict=True))
-        return {one: low if one[0] != "speed" else 0.0 for one, (low, _) in least.items() if one[0] in _FRICTION}
+        p, slots = self.reference, self.structure.slots
+        rise = p[slots["coulomb_friction"]] * p[slots["stribeck_gain"]]
+        now = {"viscous": p[slots["viscous_friction"]], "coulomb": p[slots["coulomb_friction"]], "stribeck": rise}
+        return {
+            (name, joint): -float(now[name][joint] / self.steps[name][joint]) if name in now else 0.0
+            for name, joint in self.all
+            if self._is_lacking(name)
+        }
+
+    def _is_lacking(self, name: str) -> bool:
+        """Whether the model file has nothing of a kind."""
+        if not self.lacks_friction or name not in _FRICTION:
+            return False
+        return name != "viscous" or not np.any(self.structure.values[self.structure.slots["viscous_friction"]])
 
     def prior_sd(self, shapes: bool = True) -> Array:
         """Of the coordinates, and of the shapes of Stribeck's curve."""
@@ -99,7 +112,7 @@ class Coordinates:
         p[slots["stiffness"]] += change["stiffness"]
         p[slots["viscous_friction"]] += change["viscous"]
         coulomb, gain = self.reference[slots["coulomb_friction"]], self.reference[slots["stribeck_gain"]]
-        changed = np.maximum(coulomb + change["coulomb"], _LEAST * self.steps["coulomb"])
+        changed = np.maximum(coulomb + change["coulomb"], _NONE * self.steps["coulomb"])
         rise = np.maximum(coulomb * gain + change["stribeck"], 0.0)
         p[slots["coulomb_friction"]], p[slots["stribeck_gain"]] = changed, rise / changed
         p[slots["viscous_friction"]] = np.maximum(p[slots["viscous_friction"]], 0.0)
@@ -219,7 +232,7 @@ def coordinates(structure: Structure, runs: Sequence[Run]) -> Coordinates:
     torque = float(np.sqrt(np.median(np.mean(squares, axis=0))))
     rate = float(np.sqrt(np.median(np.mean(rates, axis=0))))
     p = structure.values.copy()
-    lacks_friction = not np.any([p[slots[name]] for name in ("viscous_friction", "coulomb_friction")])
+    lacks_friction = not np.any(p[slots["coulomb_friction"]])
     expected = FRICTION * torque
     steps = {
         "stiffness": p[slots["stiffness"]].copy(),
@@ -230,7 +243,7 @@ def coordinates(structure: Structure, runs: Sequence[Run]) -> Coordinates:
     p[slots["stribeck_gain"]] = np.where(
         (p[slots["stribeck_gain"]] > 0.1) & (p[slots["stribeck_gain"]] < _FAR), p[slots["stribeck_gain"]], 0.7
     )
-    steps["stribeck"] = np.full(n, max(float(np.mean(steps["coulomb"])), expected))
+    steps["stribeck"] = steps["coulomb"].copy()  # both bounded by none at all joints at once
     return Coordinates(structure, p, torque, steps, lacks_friction)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Key
+from continuum.discovery.coordinates import PARAMETER
 from continuum.discovery.hypotheses import FRICTION
 from continuum.discovery.problem import Problem, State, point_of
 from continuum.dynamics.model import ActiveEffect, Model
@@ -32,7 +33,8 @@ def model_of(problem: Problem, state: State, key: Key, model: Model) -> Model:
     s, named = problem.structure, {effect for effect, _ in key}
     base = with_vector(s.model, point_of(problem, state).values)
     if problem.coordinates.lacks_friction and FRICTION not in named:
-        base = base.with_values(dict.fromkeys(("viscous_friction", "coulomb_friction"), 0.0))
+        lacking = {PARAMETER[name] for name, _ in problem.coordinates.without_friction}
+        base = base.with_values(dict.fromkeys(lacking & {"viscous_friction", "coulomb_friction"}, 0.0))
     present = {active.effect.name for active in model.effects}
     p = base.parameters
     kept: dict[str, ActiveEffect] = {}
