@@ -152,5 +152,22 @@ def show(result: Diagnosis) -> None:
     print_pairs(errors_in_words(result))
     print(f"\nMissing torque, {models} model")
     print_pairs(sigma_in_words(result))
+    _show_power(result)
     for line in (*result.notes, *lookalikes(result)):
         print(line)
+
+
+def _show_power(result: Diagnosis) -> None:
+    """Print what the recordings would have shown, and which run would tell more."""
+    from continuum.discovery.power_words import experiment_in_words, power_in_words
+
+    shown, hidden = power_in_words(result)
+    if shown:
+        print("\nSmallest size that these recordings would have shown (in 80 of 100 cases)")
+        print_pairs(shown)
+    if hidden:
+        print("\nNot to be seen in them at its typical size")
+        print_pairs(hidden)
+    if text := experiment_in_words(result):
+        print(f"\nNext experiment: {text}")
+    print()

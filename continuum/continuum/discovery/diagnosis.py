@@ -13,6 +13,7 @@ from continuum.discovery.candidates import Examination, Examined, examine, silen
 from continuum.discovery.decision import Kind, Verdict, closed, decide, noise_in_segments
 from continuum.discovery.detectable import detectable
 from continuum.discovery.estimates import baseline_estimates, correlation_of, estimates_of
+from continuum.discovery.experiments import experiments
 from continuum.discovery.extended import model_of
 from continuum.discovery.missing_torque import missing_torque
 from continuum.discovery.power import Power, powers
@@ -59,7 +60,11 @@ def diagnose(
     if with_power:
         progress("power of the recordings", 0.9)
         known = _powers(found, best)
-        answer = replace(answer, power=detectable(found.problem, known))
+        power = detectable(found.problem, known)
+        progress("next experiment", 0.95)
+        by_key = {one.found.key: one for one in (found.baseline, *found.others)}
+        sets = [by_key[frozenset(key)] for key in answer.verdict.sets] or [best]
+        answer = replace(answer, power=power, experiments=experiments(found, sets, recordings, power))
     return replace(answer, seconds=time.process_time() - began)
 
 

@@ -19,6 +19,7 @@ from continuum.dynamics.measuring import lateness
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus
+from continuum.dynamics.trajectory import Trajectory as Motion
 from continuum.dynamics.values import parameter_slots, parameter_vector, with_vector
 from continuum.estimation.structure import delay_of
 from continuum.recordings.recording import Recording
@@ -86,10 +87,10 @@ class Simulators:
         self.problem, self._recordings, self._tolerances = problem, recordings, tolerances
         self._compiled: dict[tuple[str, ...], Simulator] = {}
 
-    def around(self, problem: Problem) -> Simulators:
-        """The same compiled equations for another problem of the same structure."""
+    def around(self, problem: Problem, recordings: tuple[Recording, ...] | None = None) -> Simulators:
+        """The same compiled equations for another problem of the same structure, of other recordings where given."""
         other = copy(self)
-        other.problem = problem
+        other.problem, other._recordings = problem, self._recordings if recordings is None else recordings
         return other
 
     def of(self, model: Model) -> Simulator:
@@ -182,12 +183,15 @@ class RunSimulation:
 
     def readings(self, rows: slice, local: Array) -> Array:
         """The same as `Segment.readings`, without derivatives, (rows, n) [rad]."""
-        n = self._problem.structure.n
-        x0, _ = self._beginning(rows.start, local)
-        found = self._simulator.run(x0, self._run.times[rows], self._inputs)
+        found, n = self.motion(rows, local), self._problem.structure.n
         if found.status is not SimulationStatus.COMPLETE:
             return np.full_like(found.theta, np.nan)
         return self._read(rows, found.theta, found.theta_rate, self._own) + local[2 * n :]
+
+    def motion(self, rows: slice, local: Array) -> Motion:
+        """The simulated motion of some rows."""
+        x0, _ = self._beginning(rows.start, local)
+        return self._simulator.run(x0, self._run.times[rows], self._inputs)
 
     def _beginning(self, row: int, local: Array) -> tuple[Array, Array]:
         """State at a row, (n_x,), and its derivative by all unknowns but the zeros, (n_x, k + 2 n)."""

@@ -23,6 +23,7 @@ from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cu
 from continuum.discovery.problem import Problem, State
 from continuum.discovery.search import Found
 from continuum.discovery.unknowns import Start, Unknowns, linear_unknown
+from continuum.dynamics.trajectory import Trajectory as Motion
 from continuum.recordings.recording import Recording
 
 SEGMENT = 0.5
@@ -87,6 +88,24 @@ class OutputError:
         other = copy(self)
         other.problem, other._simulators = problem, self._simulators.around(problem)
         return other
+
+    def along(self, problem: Problem, recordings: Sequence[Recording]) -> OutputError:
+        """The same of other recordings, all segments of them."""
+        other = copy(self)
+        other.problem, other._simulators = problem, self._simulators.around(problem, tuple(recordings))
+        other._cuts = [cut(run.times, SEGMENT) for run in problem.runs]
+        return other
+
+    @property
+    def segments(self) -> int:
+        """Number of segments."""
+        return sum(map(len, self._cuts))
+
+    def motion(self, state: State, run: int) -> tuple[Motion, Array]:
+        """A whole run simulated from where the state's trajectory begins, and its angles as they would be read."""
+        rows, none = slice(0, len(self.problem.runs[run].times)), np.zeros(len(self.local_precision))
+        simulation = RunSimulation(self._simulators, state, run)
+        return simulation.motion(rows, none), simulation.readings(rows, none)
 
     @cached_property
     def floor(self) -> float:

@@ -10,7 +10,7 @@ the open-loop sensitivity of an effect whose size enters linearly, and what its 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import log1p, sqrt
 from typing import NamedTuple
@@ -32,7 +32,9 @@ POWER = 0.8
 """Probability of being named at the size that is stated (Cohen, Statistical Power Analysis, 1988)."""
 _SIZES = np.geomspace(1e-2, 30.0, 64)
 """Typical sizes that are tried, 14 % from one to the next; what only shows beyond is not tested by these recordings."""
-_REFITS = 2  # of the baseline to a change, each with the weights that the one before leaves
+REFITS = 2  # of the baseline to a change, each with the weights that the one before leaves
+TRIED = (1.0, 4.0)
+"""Typical sizes for which the baseline is refitted."""
 _REPEATS = 100
 """Repeated experiments: 80 % is then known to 4 %."""
 
@@ -44,7 +46,7 @@ class Power:
     Attributes:
         hypothesis: which.
         changes: root mean square change of the readings by its typical size, in units of the noise.
-        left: what a refit leaves of that in each segment, (segments,) [noise].
+        left: what a refit leaves of a change by TRIED typical sizes, by that size, (2, segments) [noise].
         noise: in each segment, (segments,) [rad].
         floor: of an error, by the sensors' noise [rad].
         observations: residuals that are independent, their number.
@@ -62,14 +64,14 @@ class Power:
     @property
     def kept(self) -> float:
         """Part of what it changes that a refit of springs, friction and inertia leaves, 0 to 1."""
-        return _size(self.left) / self.changes if self.changes > 0 else 0.0
+        return _size(self.left[0]) / self.changes if self.changes > 0 else 0.0
 
     def probability(self, size: float) -> float:
         """Of being named at a size in typical ones."""
         chance = self._draws
-        x, each = size * self.left, self.observations / len(self.left)
-        with_effect = np.sqrt(chance.squares)
-        without = np.sqrt(np.maximum(chance.squares + x**2 + 2 * x * chance.products / sqrt(each), 0.0))
+        x, each = size * self._left_at(size), self.observations / len(self.noise)
+        with_effect = np.sqrt(np.maximum(chance.squares, 1e-12))
+        without = np.sqrt(np.maximum(chance.squares + x**2 + 2 * x * chance.products / sqrt(each), 1e-12))
         errors, baseline = self.noise * with_effect, self.noise * without
         gain = np.mean(np.log(without) - np.log(with_effect), axis=1)
         occam = self.values * 0.5 * log1p(PRIOR**2 * self.observations * float(np.mean(x**2)) / max(self.values, 1))
@@ -78,11 +80,16 @@ class Power:
         explains = closed_share(baseline, errors, noise)[1] > LEAST_SHARE
         return float(np.mean(worth & explains & (mean_error(baseline) > self.floor)))
 
+    def _left_at(self, size: float) -> Array:
+        """What a refit, which has bounds, leaves at a size, by that size, (segments,) [noise]."""
+        share = float(np.clip(np.log(size / TRIED[0]) / np.log(TRIED[1] / TRIED[0]), 0.0, 1.0))
+        return np.asarray((1 - share) * self.left[0] + share * self.left[1])
+
     @cached_property
     def _draws(self) -> _Draws:
         """Chance in repeated experiments, the same at all sizes."""
-        random, each = np.random.default_rng(0), self.observations / len(self.left)
-        shape = (_REPEATS, len(self.left))
+        random, each = np.random.default_rng(0), self.observations / len(self.noise)
+        shape = (_REPEATS, len(self.noise))
         return _Draws(random.chisquare(each, shape) / each, random.standard_normal(shape))
 
     @cached_property
@@ -104,7 +111,14 @@ class _Draws(NamedTuple):
     products: Array
 
 
-def powers(judge: OutputError, fit: Fitted, noise: Array, library: Library, about: Fitted | None = None) -> list[Power]:
+def powers(
+    judge: OutputError,
+    fit: Fitted,
+    noise: Array,
+    library: Library,
+    about: Fitted | None = None,
+    linear_only: bool = False,
+) -> list[Power]:
     """Of each hypothesis; of those at one place and of one effect, the one that shows most.
 
     Args:
@@ -113,30 +127,40 @@ def powers(judge: OutputError, fit: Fitted, noise: Array, library: Library, abou
         noise: in each segment [rad].
         library: with the hypotheses.
         about: fit of the baseline, from which what is not linear departs; the same without.
+        linear_only: whether to leave out effects whose size does not enter linearly, which takes simulations of each.
     """
     sensitivities = Sensitivities(judge, fit, library)
     if not sensitivities.completed:
         return []
     base = fit if about is None else about
-    nothing = sensitivities.without_residuals()
+    still = fit.unknowns.with_lists(
+        [replace(one, mean=float(v)) for one, v in zip(fit.unknowns.common, fit.values.common, strict=True)],
+        [[replace(one, mean=float(v)) for one, v in zip(those, values, strict=True)]
+         for those, values in zip(fit.unknowns.own, fit.values.own, strict=True)],
+    )  # fmt: skip
+    values = replace(fit.values, local=tuple(np.zeros_like(one) for one in fit.values.local))
+
+    def left(changed: Sequence[Segment]) -> Array:
+        """Of a change, root mean square by segment; residuals of a wrong model count less, as alike from row to row."""
+        scale = _with_noise(changed, sensitivities.segments)
+        for _ in range(REFITS):
+            after = sensitivities.residuals_after(still, values, changed, scale)
+            both = zip(changed, after, strict=True)
+            scale = _with_noise([one.with_residuals(r.ravel()) for one, r in both], sensitivities.segments)
+        return np.array([_size(one) for one in after]) / noise
 
     def power(h: Hypothesis, changed: Sequence[Segment]) -> Power:
-        """Residuals of a wrong model are alike from row to row and count less, as in a fit; by what stays, at last."""
-        scale = _with_noise(changed, sensitivities.segments)
-        for _ in range(_REFITS):
-            after = sensitivities.residuals_after(fit.unknowns, fit.values, changed, scale)
-            exact = sensitivities.residuals_after(fit.unknowns, fit.values, nothing, scale)
-            stays = [one - other for one, other in zip(after, exact, strict=True)]
-            both = zip(changed, stays, strict=True)
-            scale = _with_noise([one.with_residuals(r.ravel()) for one, r in both], sensitivities.segments)
-        left = np.array([_size(one) for one in stays]) / noise
+        sizes = [[one.with_residuals(size * one.slopes[:, -1]) for one in changed] for size in TRIED]
+        of_sizes = np.array([left(one) / size for size, one in zip(TRIED, sizes, strict=True)])
         changes = _size(np.array([_size(one.slopes[:, -1]) for one in changed]) / noise)
-        return Power(h, changes, left, noise, judge.floor, fit.observations, h.local_sd.size * len(fit.values.own))
+        return Power(h, changes, of_sizes, noise, judge.floor, fit.observations, h.local_sd.size * len(fit.values.own))
 
     found = dict[object, Power]()
     for h in sensitivities.hypotheses:
         if not h.is_refit:
             _keep(found, power(h, sensitivities.changes(h, h.sd / PRIOR, h.local_sd / PRIOR)))
+    if linear_only:
+        return list(found.values())
     here = judge.readings(base.state, base.values)
     for h, state in typical_states(judge.problem, base.state, library):
         there = judge.readings(state, base.values)

@@ -111,6 +111,12 @@ class Unknowns:
         other.common, other.own = list(common), tuple(list(those) for those in own)
         return other
 
+    def about(self, state: State, common: Sequence[Unknown], own: Sequence[Sequence[Unknown]]) -> Unknowns:
+        """Other unknowns about another state of the same set."""
+        other = self.with_lists(common, own)
+        other._state = state
+        return other
+
     def state(self, common: Array, own: tuple[Array, ...]) -> State:
         """The state with values at these coordinates, (k,) and (m,) for each recording."""
         free = {key for one in self.common for key in one.places}

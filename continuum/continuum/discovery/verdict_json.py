@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_named
+from continuum.discovery.result import Cause, Detectable, Diagnosis, Estimate, Experiment, Share, is_named
 from continuum.identification.nrmse import nrmse
 from continuum.whole_file import write_whole
 
@@ -55,6 +55,8 @@ def as_mapping(result: Diagnosis) -> dict[str, Any]:
             "runs": {run.name: _run(result, r) for r, run in enumerate(result.recordings)},
         },
         "parameters": [_estimate(one) for one in result.estimates],
+        "power": [_detectable(one) for one in result.power],
+        "experiments": [_experiment(one) for one in result.experiments],
         "notes": list(result.notes),
         "processor_seconds": result.seconds,
     }
@@ -89,6 +91,29 @@ def _estimate(one: Estimate) -> dict[str, Any]:
         "low": _number(one.low),
         "high": _number(one.high),
         "unit": one.unit,
+    }
+
+
+def _detectable(one: Detectable) -> dict[str, Any]:
+    joints = None if one.joints is None else [joint + 1 for joint in one.joints]
+    return {
+        "effect": one.effect,
+        "joints": joints,
+        "parameter": one.parameter,
+        "smallest": _number(one.smallest),
+        "typical": one.typical,
+        "unit": one.unit,
+        "shown": one.is_shown,
+        "reason": one.reason,
+    }
+
+
+def _experiment(one: Experiment) -> dict[str, Any]:
+    return {
+        "name": one.name,
+        "instruction": one.instruction,
+        "separates": _number(one.separates),
+        "shows": list(one.shows),
     }
 
 

@@ -1,0 +1,152 @@
+"""Runs that a laboratory can make: postures to be let go from, commands, and what is measured by hand besides.
+
+Amplitudes are those at which the arm was moved before, so that nothing is asked of it that it was not already given.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.input_signal import InputSignal
+from continuum.dynamics.joint_torques import JointTorques, no_torques
+from continuum.dynamics.model import Model
+from continuum.dynamics.pulled_posture import pulled_posture
+from continuum.dynamics.tensions import Tensions, slack
+from continuum.errors import InvalidValueError
+from continuum.recordings.recording import Recording
+
+RATE = 120.0  # readings a second, the prototype's
+_SECONDS = 3.0
+_STRAIGHT = 0.02  # rad, of the sum of joint angles, below which an arm hangs
+_SINES = np.geomspace(0.3, 3.5, 6)  # Hz, from slower to faster than an arm swings
+TIP_WEIGHT = 0.1
+"""Weight that is hung on the tip on purpose, as a part of the arm's mass."""
+
+
+@dataclass(frozen=True)
+class Design:
+    """A run.
+
+    Attributes:
+        name: a few words.
+        instruction: what to do, for a mechanic.
+        posture: where the arm rests at first, (n,) [rad].
+        times: of the readings, (n_times,) [s].
+        inputs: what drives it.
+        tip_weight: mass that hangs on the tip on purpose [kg].
+        zeroed: whether the sensors' zeros are measured by hand.
+    """
+
+    name: str
+    instruction: str
+    posture: Array
+    times: Array
+    inputs: InputSignal
+    tip_weight: float = 0.0
+    zeroed: bool = False
+
+
+def designs(model: Model, recordings: Sequence[Recording]) -> list[Design]:
+    """Runs for an arm that was recorded."""
+    hanging = np.zeros(model.n_joints)
+    times = np.arange(round(_SECONDS * RATE) + 1) / RATE
+    release = _release(model, recordings, times)
+    weight = TIP_WEIGHT * float(np.sum(model.parameters.mass))
+    found = [
+        release,
+        Design(
+            "release with a weight on the tip",
+            f"Fix a weight of {1e3 * weight:.0f} g to the tip, put it into the model, and let the arm go as before.",
+            release.posture, times, release.inputs, tip_weight=weight,
+        ),
+        Design(
+            "release with zeros by protractor",
+            "Measure the angle of each joint at rest with a protractor, set the sensors' zeros by it, then let the arm "
+            "go from a bend.",
+            release.posture, times, release.inputs, zeroed=True,
+        ),
+    ]  # fmt: skip
+    driven = _driven(model, recordings, times)
+    return found + [Design(name, text, hanging, times, inputs) for name, text, inputs in driven]
+
+
+def _release(model: Model, recordings: Sequence[Recording], times: Array) -> Design:
+    """From the side to which the arm was bent less, as far as it was on the other."""
+    bends = np.array([float(np.sum(one.theta[0])) for one in recordings])
+    far = max(float(np.max(np.abs(bends))), np.pi / 3)
+    side = -1.0 if np.sum(bends) > _STRAIGHT else 1.0
+    posture = np.full(model.n_joints, side * far / model.n_joints)
+    if model.inputs is InputKind.CABLES:
+        with contextlib.suppress(InvalidValueError):  # no cable holds it there, but hands do
+            posture = pulled_posture(model, side * far).theta
+    bend = f"Bend the arm by {np.degrees(far):.0f} degrees in all to the {_side(side)} side"
+    if model.inputs is InputKind.CABLES:
+        text = f"{bend} with one cable, and let it go."
+        return Design("release from the other side", text, posture, times, slack())
+    text = f"{bend} by hand, the drives off, and let it go."
+    return Design("release from the other side", text, posture, times, no_torques(model.n_joints))
+
+
+def _side(sign: float) -> str:
+    return "positive" if sign > 0 else "negative"
+
+
+def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iterator[tuple[str, str, InputSignal]]:
+    """Commands that hold from row to row."""
+    most, n = _largest(model, recordings), model.n_inputs
+    share = times / times[-1]
+    triangle = np.interp(share, [0, 0.25, 0.5, 0.75, 1], [0, 1, 0, -1, 0])
+    wave = np.sum(np.sin(2 * np.pi * np.outer(times, _SINES) + np.arange(_SINES.size) ** 2), axis=1)
+    wave *= np.minimum(1, times / 0.2) / np.max(np.abs(wave))
+    if model.inputs is InputKind.CABLES:
+        pair = np.column_stack([np.maximum(triangle, 0), np.maximum(-triangle, 0)])
+        yield (
+            "slow pull of one cable, then of the other",
+            f"Pull cable 1 slowly to {most:.0f} N and let it down again, then cable 2, {times[-1]:.0f} s in all.",
+            Tensions(times, most * pair, held=True),
+        )
+        both = most * np.interp(share, [0, 0.5, 1], [0.1, 1, 0.1])[:, None] + most / 3 * np.column_stack([wave, -wave])
+        yield (
+            "co-contraction",
+            f"Tighten both cables together to {most:.0f} N and back while their difference swings.",
+            Tensions(times, np.maximum(both, 0.0), held=True),
+        )
+        sines = most * np.column_stack([np.maximum(wave, 0), np.maximum(-wave, 0)])
+        yield (
+            "multisine",
+            f"Drive the cables in turn with a sum of sines from 0.3 to 3.5 Hz up to {most:.0f} N.",
+            Tensions(times, sines, held=True),
+        )
+        return
+    ramps, sines = np.zeros((times.size, n)), np.zeros((times.size, n))
+    for j in range(n):
+        ramps[:, j] = most * np.interp(n * share - j, [0, 0.25, 0.5, 0.75, 1], [0, 1, 0, -1, 0])
+        sines[:, j] = most * np.roll(wave, 7 * j)
+    yield (
+        "slow torque at one joint after the other",
+        f"Raise the torque of each joint slowly to {most:.2g} N m and back, to both sides, one joint after the other.",
+        JointTorques(times, ramps, held=True),
+    )
+    yield (
+        "multisine of all drives",
+        f"Drive all joints at once with sums of sines from 0.3 to 3.5 Hz up to {most:.2g} N m.",
+        JointTorques(times, sines, held=True),
+    )
+
+
+def _largest(model: Model, recordings: Sequence[Recording]) -> float:
+    """Largest input so far; where there was none, what the weight of the arm makes of it [N or N m]."""
+    most = max((float(np.max(one.inputs_for(model).values)) for one in recordings), default=0.0)
+    if most > 0:
+        return most
+    p = model.parameters
+    weight = float(np.sum(p.mass) * np.max(p.gravity))
+    lever = float(np.sum(p.joint_spacing)) / 2 if p.hole_radius is None else float(np.sum(p.joint_spacing) / 2)
+    torque = weight * lever / 2
+    return torque if p.hole_radius is None else torque / float(np.max(p.hole_radius))

@@ -1,0 +1,178 @@
+"""The next experiment: the run that separates the possible causes, or shows what these recordings cannot.
+
+Two sets of effects, each with the values that the recordings leave it, simulate a run that was not made. The one is
+refitted to the other's angles within what is known of its values. What it cannot follow, in units of the noise, is what
+the run would tell: the expected difference in log-likelihood (Box and Hill, Technometrics 9, 1967, 57-71).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from continuum.discovery.baseline import run_of
+from continuum.discovery.candidates import Examination, Examined
+from continuum.discovery.designs import Design, designs
+from continuum.discovery.fitted import Fitted
+from continuum.discovery.hypotheses import PRIOR
+from continuum.discovery.library import Library
+from continuum.discovery.normal_equations import NormalEquations, Scale, Values
+from continuum.discovery.output_error import DAMPING, OutputError
+from continuum.discovery.power import POWER, REFITS, powers
+from continuum.discovery.problem import Problem
+from continuum.discovery.result import Detectable, Experiment
+from continuum.discovery.search import with_library
+from continuum.discovery.unknowns import Unknown
+from continuum.dynamics.joint_torques import JointTorques
+from continuum.dynamics.tensions import Tensions
+from continuum.dynamics.trajectory import SimulationStatus
+from continuum.estimation.run import Run, Trajectory
+from continuum.recordings.recording import Recording
+
+_MOST = 3  # sets that are compared, the most probable
+_BY_HAND = np.deg2rad(0.3)  # rad, to which a protractor shows an angle
+
+
+def experiments(
+    found: Examination, sets: Sequence[Examined], recordings: Sequence[Recording], power: Sequence[Detectable]
+) -> tuple[Experiment, ...]:
+    """Runs that would tell more, the best first.
+
+    Args:
+        found: what was examined.
+        sets: possible ones, the best first.
+        recordings: that were made.
+        power: what they would have shown.
+    """
+    hidden, rivals, out = {one.label for one in power if not one.is_shown}, sets[:_MOST], list[Experiment]()
+    for design in designs(found.problem.structure.given, recordings):
+        problem = _with_weight(found.problem, design)
+        runs = [_simulated(found, problem, one.fit, design) for one in rivals]
+        if any(run is None for run in runs):
+            continue
+        made = [run for run in runs if run is not None]
+        tried = [
+            _Trial(found.judge, problem, one.fit, run, design)
+            for i, one in enumerate(rivals) for k, run in enumerate(made) if i != k
+        ]  # fmt: skip
+        separates = min((trial.distance for trial in tried), default=np.nan)
+        itself = _Trial(found.judge, problem, rivals[0].fit, made[0], design)
+        shows = tuple(sorted(hidden & itself.shown(with_library(found.problem, rivals[0].found).lin.library)))
+        out.append(Experiment(design.name, design.instruction, float(separates), shows))
+    return tuple(sorted(out, key=lambda one: (-np.nan_to_num(one.separates), -len(one.shows))))
+
+
+@dataclass(frozen=True)
+class _Run:
+    """A run that was not made.
+
+    Attributes:
+        run: rows whose readings are simulated, without noise.
+        way: the simulated motion.
+        recording: with the inputs.
+    """
+
+    run: Run
+    way: Trajectory
+    recording: Recording
+
+
+def _simulated(found: Examination, problem: Problem, fit: Fitted, design: Design) -> _Run | None:
+    """The run as a set simulates it; None where the simulation fails."""
+    s = problem.structure
+    still = np.tile(design.posture, (design.times.size, 1))
+    recording = Recording(
+        design.name, design.times, still, None, design.inputs if isinstance(design.inputs, Tensions) else None, (),
+        design.inputs if isinstance(design.inputs, JointTorques) else None,
+    )  # fmt: skip
+    run, way = run_of(recording, s.given, with_rates=False), Trajectory(still, 0 * still, 0 * still, 0 * still)
+    own = {key: (-1.0) ** k * _sd(problem, one, design) / PRIOR
+           for k, one in enumerate(fit.unknowns.own[0]) for key in one.places}  # fmt: skip
+    state = replace(fit.state, own=(own,), ways=(way,))
+    judge = found.judge.along(replace(problem, runs=(run,)), (recording,))
+    motion, readings = judge.motion(state, 0)
+    if motion.status is not SimulationStatus.COMPLETE:
+        return None
+    none = np.zeros_like(motion.theta)
+    return _Run(replace(run, readings=readings), Trajectory(motion.theta, motion.theta_rate, none, none), recording)
+
+
+class _Trial:
+    """A set refitted to a run that another set simulates.
+
+    Args:
+        judge: of the recordings.
+        problem: of the run.
+        fit: of the set to the recordings.
+        made: the run.
+        design: what it was made by.
+    """
+
+    def __init__(self, judge: OutputError, problem: Problem, fit: Fitted, made: _Run, design: Design) -> None:
+        self._judge = judge.along(replace(problem, runs=(made.run,)), (made.recording,))
+        common = [
+            replace(one, mean=float(value), sd=float(sd))
+            for one, value, sd in zip(fit.unknowns.common, fit.values.common, fit.sd, strict=True)
+        ]
+        own = [replace(one, mean=0.0, start=0.0, sd=_sd(problem, one, design)) for one in fit.unknowns.own[0]]
+        state = replace(fit.state, own=({},), ways=(made.way,))
+        none = np.zeros(len(self._judge.local_precision))
+        values = Values(fit.values.common, (np.zeros(len(own)),), (none,) * self._judge.segments)
+        total = made.run.readings.size
+        independent = fit.observations / sum(run.readings[:, : run.n].size for run in judge.problem.runs)
+        self._fit = replace(
+            fit, state=state, unknowns=fit.unknowns.about(state, common, [own]), values=values,
+            errors=np.full(self._judge.segments, self._judge.floor), observations=min(1.0, independent) * total,
+        )  # fmt: skip
+
+    @property
+    def distance(self) -> float:
+        """Expected difference in log-likelihood; infinite where the set cannot simulate the run."""
+        fit, judge = self._fit, self._judge
+        segments = judge.simulated(fit.unknowns, fit.values)
+        if not all(np.isfinite(one.square) for one in segments):
+            return np.inf
+        random, noisy = np.random.default_rng(0), segments
+        for _ in range(REFITS):
+            noise = [random.normal(0.0, judge.floor, one.readings.size) for one in noisy]
+            scale = [one.with_residuals(one.slopes[:, -1] + e) for one, e in zip(noisy, noise, strict=True)]
+            weights = Scale(scale, judge.floor).weights([one.error for one in scale])
+            normal = NormalEquations(fit.unknowns, fit.values, segments, weights, judge.local_precision)
+            left = normal.expected_residuals(normal.stepped(DAMPING))
+            noisy = [one.with_residuals(r.ravel()) for one, r in zip(segments, left, strict=True)]
+        squares = np.array([np.mean(r**2) for r in left]) / judge.floor**2
+        return 0.5 * fit.observations * float(np.mean(np.log1p(squares)))
+
+    def shown(self, library: Library) -> set[str]:
+        """Labels of effects that the run would show at their typical sizes, of those whose size enters linearly."""
+        found = powers(self._judge, self._fit, self._fit.errors, library, linear_only=True)
+        return {one.hypothesis.label for one in found if one.probability(1.0) >= POWER}
+
+
+def _sd(problem: Problem, one: Unknown, design: Design) -> float:
+    """Prior standard deviation of a value that the run has for itself; by hand a sensor's zero is known better."""
+    effects = {effect for effect, _, _ in one.places}
+    if not design.zeroed or not effects <= {sensor.name for sensor in problem.structure.sensors}:
+        return one.sd
+    specs = [sensor.parameters[name] for effect, name, _ in one.places
+             for sensor in problem.structure.sensors if sensor.name == effect]  # fmt: skip
+    duration = float(design.times[-1] - design.times[0])
+    by_hand = _BY_HAND / duration if any(spec.unit == "rad/s" for spec in specs) else _BY_HAND
+    return float(min(one.sd, by_hand))
+
+
+def _with_weight(problem: Problem, design: Design) -> Problem:
+    """The problem with a weight at the tip, whose mass is known: parallel axes."""
+    if not design.tip_weight:
+        return problem
+    p, slots = problem.coordinates.reference.copy(), problem.structure.slots
+    last = {name: slots[name].stop - 1 for name in ("mass", "center_of_mass", "inertia")}
+    m, c, inertia = (float(p[last[name]]) for name in ("mass", "center_of_mass", "inertia"))
+    weight, tip = design.tip_weight, float(problem.structure.given.parameters.tip[-1])
+    both = m + weight
+    center = (m * c + weight * tip) / both
+    p[last["mass"]], p[last["center_of_mass"]] = both, center
+    p[last["inertia"]] = inertia + m * (c - center) ** 2 + weight * (tip - center) ** 2
+    return replace(problem, coordinates=replace(problem.coordinates, reference=p))

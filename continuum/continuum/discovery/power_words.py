@@ -1,0 +1,51 @@
+"""In words: what recordings would have shown, and which run would tell more."""
+
+from __future__ import annotations
+
+import math
+
+from continuum.discovery.result import Detectable, Diagnosis, is_named
+
+
+def power_in_words(result: Diagnosis) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
+    """Two tables by effect: the smallest size that would have been shown, and why none would."""
+    by_effect: dict[str, list[Detectable]] = {}
+    for one in result.power:
+        by_effect.setdefault(one.effect, []).append(one)
+    shown, hidden = [], []
+    for effect, places in by_effect.items():
+        seen = [one for one in places if one.is_shown]
+        if seen:
+            best = min(seen, key=lambda one: one.smallest)
+            missing = [joint for one in places if not one.is_shown and one.joints for joint in one.joints]
+            rest = f"; not at joint {', '.join(str(j + 1) for j in sorted(set(missing)))}" if missing else ""
+            shown.append((effect, f"{_size_in_words(best)}{_at(best)}{rest}"))
+        else:
+            best = min(places, key=lambda one: one.smallest)
+            size = "" if math.isinf(best.smallest) else f" Seen from {_size_in_words(best)}{_at(best)} on."
+            hidden.append((effect, f"{best.reason}{size}"))
+    return shown, hidden
+
+
+def experiment_in_words(result: Diagnosis) -> str:
+    """The run that tells most, and what it tells; empty where none was worked out."""
+    if not result.experiments:
+        return ""
+    best = result.experiments[0]
+    if len(result.sets) > 1 and is_named(result.verdict.kind):
+        return f"{best.name}. {best.instruction} It should tell the possible causes apart."
+    if not best.shows:
+        return f"{best.name}. {best.instruction}"
+    return f"{best.name}. {best.instruction} It would show {', '.join(best.shows)}, which these recordings cannot."
+
+
+def _size_in_words(one: Detectable) -> str:
+    if one.unit == "rad":
+        return f"{math.degrees(one.smallest):.2g} degrees"
+    return f"{one.smallest:.2g}" + f" {one.unit}" * (one.unit != "1")
+
+
+def _at(one: Detectable) -> str:
+    if one.joints is None:
+        return ""
+    return f" at joint{'s' * (len(one.joints) > 1)} {', '.join(str(j + 1) for j in one.joints)}"
