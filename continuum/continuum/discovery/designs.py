@@ -25,8 +25,6 @@ RATE = 120.0  # readings a second, the prototype's
 _SECONDS = 3.0
 _STRAIGHT = 0.02  # rad, of the sum of joint angles, below which an arm hangs
 _SINES = np.geomspace(0.3, 3.5, 6)  # Hz, from slower to faster than an arm swings
-TIP_WEIGHT = 0.1
-"""Weight that is hung on the tip on purpose, as a part of the arm's mass."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +37,6 @@ class Design:
         posture: where the arm rests at first, (n,) [rad].
         times: of the readings, (n_times,) [s].
         inputs: what drives it.
-        tip_weight: mass that hangs on the tip on purpose [kg].
         zeroed: whether the sensors' zeros are measured by hand.
     """
 
@@ -48,7 +45,6 @@ class Design:
     posture: Array
     times: Array
     inputs: InputSignal
-    tip_weight: float = 0.0
     zeroed: bool = False
 
 
@@ -57,14 +53,8 @@ def designs(model: Model, recordings: Sequence[Recording]) -> list[Design]:
     hanging = np.zeros(model.n_joints)
     times = np.arange(round(_SECONDS * RATE) + 1) / RATE
     release = _release(model, recordings, times)
-    weight = TIP_WEIGHT * float(np.sum(model.parameters.mass))
     found = [
         release,
-        Design(
-            "release with a weight on the tip",
-            f"Fix a weight of {1e3 * weight:.0f} g to the tip, put it into the model, and let the arm go as before.",
-            release.posture, times, release.inputs, tip_weight=weight,
-        ),
         Design(
             "release with zeros by protractor",
             "Measure the angle of each joint at rest with a protractor, set the sensors' zeros by it, then let the arm "

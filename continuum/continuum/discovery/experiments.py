@@ -48,17 +48,16 @@ def experiments(
     """
     hidden, rivals, out = {one.label for one in power if not one.is_shown}, sets[:_MOST], list[Experiment]()
     for design in designs(found.problem.structure.given, recordings):
-        problem = _with_weight(found.problem, design)
-        runs = [_simulated(found, problem, one.fit, design) for one in rivals]
+        runs = [_simulated(found, one.fit, design) for one in rivals]
         if any(run is None for run in runs):
             continue
         made = [run for run in runs if run is not None]
         tried = [
-            _Trial(found.judge, problem, one.fit, run, design)
+            _Trial(found.judge, one.fit, run, design)
             for i, one in enumerate(rivals) for k, run in enumerate(made) if i != k
         ]  # fmt: skip
         separates = min((trial.distance for trial in tried), default=np.nan)
-        itself = _Trial(found.judge, problem, rivals[0].fit, made[0], design)
+        itself = _Trial(found.judge, rivals[0].fit, made[0], design)
         shows = tuple(sorted(hidden & itself.shown(with_library(found.problem, rivals[0].found).lin.library)))
         out.append(Experiment(design.name, design.instruction, float(separates), shows))
     return tuple(sorted(out, key=lambda one: (-np.nan_to_num(one.separates), -len(one.shows))))
@@ -79,9 +78,9 @@ class _Run:
     recording: Recording
 
 
-def _simulated(found: Examination, problem: Problem, fit: Fitted, design: Design) -> _Run | None:
+def _simulated(found: Examination, fit: Fitted, design: Design) -> _Run | None:
     """The run as a set simulates it; None where the simulation fails."""
-    s = problem.structure
+    problem, s = found.problem, found.problem.structure
     still = np.tile(design.posture, (design.times.size, 1))
     recording = Recording(
         design.name, design.times, still, None, design.inputs if isinstance(design.inputs, Tensions) else None, (),
@@ -104,13 +103,13 @@ class _Trial:
 
     Args:
         judge: of the recordings.
-        problem: of the run.
         fit: of the set to the recordings.
         made: the run.
         design: what it was made by.
     """
 
-    def __init__(self, judge: OutputError, problem: Problem, fit: Fitted, made: _Run, design: Design) -> None:
+    def __init__(self, judge: OutputError, fit: Fitted, made: _Run, design: Design) -> None:
+        problem = judge.problem
         self._judge = judge.along(replace(problem, runs=(made.run,)), (made.recording,))
         common = [
             replace(one, mean=float(value), sd=float(sd))
@@ -161,18 +160,3 @@ def _sd(problem: Problem, one: Unknown, design: Design) -> float:
     duration = float(design.times[-1] - design.times[0])
     by_hand = _BY_HAND / duration if any(spec.unit == "rad/s" for spec in specs) else _BY_HAND
     return float(min(one.sd, by_hand))
-
-
-def _with_weight(problem: Problem, design: Design) -> Problem:
-    """The problem with a weight at the tip, whose mass is known: parallel axes."""
-    if not design.tip_weight:
-        return problem
-    p, slots = problem.coordinates.reference.copy(), problem.structure.slots
-    last = {name: slots[name].stop - 1 for name in ("mass", "center_of_mass", "inertia")}
-    m, c, inertia = (float(p[last[name]]) for name in ("mass", "center_of_mass", "inertia"))
-    weight, tip = design.tip_weight, float(problem.structure.given.parameters.tip[-1])
-    both = m + weight
-    center = (m * c + weight * tip) / both
-    p[last["mass"]], p[last["center_of_mass"]] = both, center
-    p[last["inertia"]] = inertia + m * (c - center) ** 2 + weight * (tip - center) ** 2
-    return replace(problem, coordinates=replace(problem.coordinates, reference=p))

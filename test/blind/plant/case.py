@@ -150,7 +150,7 @@ def make_case(
         reading = Reading(JOINTS, chosen, sensing)
         name = f"run_{number}.csv"
         clean[name] = reading.take(run.motion, Noise(), np.random.default_rng(0))[0]
-        files[name] = _file(run, *reading.take(run.motion, level, noisy), rates, tensions)
+        files[name] = file_of(run, *reading.take(run.motion, level, noisy), rates, tensions)
         of_file[name] = regime
     named = size if isinstance(size, str) else f"{size:g} x medium"
     truth = Truth(
@@ -233,7 +233,7 @@ def _sides(regimes: Sequence[str], rng: np.random.Generator) -> list[int]:
     return [int(next(sides)) if regime == RELEASE else 1 for regime in regimes]
 
 
-def _file(run: Run, angle: np.ndarray, rate: np.ndarray, rates: bool, tensions: bool) -> bytes:
+def file_of(run: Run, angle: np.ndarray, rate: np.ndarray, rates: bool, tensions: bool) -> bytes:
     columns = {"t_s": np.arange(run.motion.rows) / RATE}
     columns |= {f"q{i + 1}_deg": np.degrees(angle[:, i]) for i in range(JOINTS)}
     if rates:

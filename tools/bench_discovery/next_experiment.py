@@ -1,0 +1,117 @@
+"""The next experiment that a diagnosis proposes, made in simulation: does it separate the possible causes?
+
+    python3 -m tools.bench_discovery.next_experiment OUT.jsonl [CASES]
+
+Cases are those of the benchmark that were ambiguous.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from blind import moreau, plant
+from blind.plant.further import Wanted, further_run
+
+from continuum.cli.diagnose import read_recording
+from continuum.discovery import diagnose
+from continuum.discovery.designs import Design, designs
+from continuum.discovery.result import Diagnosis
+from continuum.discovery.verdict_json import as_mapping
+from continuum.dynamics.model_file import load_model
+from continuum.dynamics.tensions import LET_GO
+from tools.bench_discovery.answer import is_exactly
+from tools.bench_discovery.cases import MAKERS, MODEL
+from tools.bench_discovery.plans import Plan
+from tools.bench_discovery.result import load
+
+RESULTS = Path("data/discovery_benchmark.jsonl")
+
+
+@dataclass(frozen=True)
+class Separation:
+    """Of one case.
+
+    Attributes:
+        plan: of the case.
+        before, after: verdict and labels of its sets.
+        experiment: that was proposed and made; empty where none was.
+        expected: of it, in log-likelihood.
+        separated: whether the two likeliest sets are no longer both possible.
+        kept: whether the true set, where it was possible, still is, or is named.
+    """
+
+    plan: str
+    before: list[str]
+    after: list[str]
+    experiment: str
+    expected: float
+    separated: bool
+    kept: bool
+
+
+def separation(plan: Plan) -> Separation | None:
+    """Diagnose, make the proposed run, diagnose again; None where the first diagnosis is not ambiguous."""
+    case = MAKERS[plan.plant](plan.effects, plan.size, plan.recordings, plan.seed, plan.noise)
+    model, hidden = load_model(MODEL), list(case.truth.plain()["effects"])  # type: ignore[call-overload]
+    with tempfile.TemporaryDirectory() as folder:
+        files = plant.write_case(case, Path(folder) / "data")
+        recordings = [read_recording(str(path)) for path in files]
+        first = diagnose(recordings, model)
+        if len(first.sets) < 2 or first.verdict.kind.value != "ambiguous" or not first.experiments:
+            return None
+        best = first.experiments[0]
+        design = next(one for one in designs(model, recordings) if one.name == best.name)
+        further = Path(folder) / "data" / "further.csv"
+        further.write_bytes(_made(plan, case.truth, design))
+        second = diagnose([*recordings, read_recording(str(further))], model, with_power=False)
+    before, after = _labels(first), _labels(second)
+    both = set(before[:2]) <= set(after)
+    return Separation(
+        str(plan), before, after, best.name, best.separates, not both and bool(second.verdict.sets),
+        not _holds(first, hidden) or _holds(second, hidden),
+    )  # fmt: skip
+
+
+def _made(plan: Plan, truth: plant.case.Truth, design: Design) -> bytes:
+    driven = bool((design.inputs.values > 0).any())
+    bend = None if driven else float(design.posture.sum())
+    wanted = Wanted(bend, design.inputs.values.clip(min=max(0.0, LET_GO)) if driven else None, design.zeroed)
+    if plan.plant == "moreau":
+        noises, steps = moreau.case.NOISES, moreau.machine.STEPS
+        return further_run(truth, wanted, 1, moreau.Machine, noises, rates=False, steps=steps)
+    return further_run(truth, wanted, 1)
+
+
+def _labels(result: Diagnosis) -> list[str]:
+    return [" + ".join(cause.label for cause in causes) for causes in result.sets]
+
+
+def _holds(result: Diagnosis, hidden: list[dict[str, object]]) -> bool:
+    return any(is_exactly(hidden, one["effects"]) for one in as_mapping(result)["sets"])
+
+
+def main(out: Path, cases: int) -> None:
+    plans = {one.plan.seed: one.plan for one in load(RESULTS) if one.verdict and one.verdict["verdict"] == "ambiguous"}
+    found = list[Separation]()
+    for plan in plans.values():
+        if len(found) == cases:
+            break
+        if (one := separation(plan)) is not None:
+            found.append(one)
+            with out.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(asdict(one)) + "\n")
+            print(
+                f"{len(found)}. {'separated' if one.separated else 'NOT'} {'' if one.kept else 'LOST'} {one}",
+                flush=True,
+            )
+    print(
+        f"separated: {sum(one.separated for one in found)} of {len(found)}; true set kept: {sum(one.kept for one in found)}"
+    )
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 30)
