@@ -14,7 +14,6 @@ ELSEWHERE = {
     "continuum/continuum/whole_file.py": "the writer",
     "continuum/continuum/compiled_code.py": "an empty file that is locked, in a temporary folder",
     "continuum/continuum/output_files.py": "opened and left as it was",
-    "continuum/continuum/discovery/pictures.py": "into memory",
     "continuum/continuum/dynamics/compiled/machine_code.py": "in a temporary folder, then renamed",
     "continuum_hw_imu/continuum_hw_imu/emulator/growing_file.py": "read while it grows",
     "tools/bench_demo/command.py": "a log of processes",

@@ -3,7 +3,8 @@
 Half of all cases are for development, and may be looked at; the others (--half held-out) are answered when a version
 is finished, and nothing is mended on them. Every result is one line of data/discovery_benchmark.jsonl; a further call
 goes on where this one was stopped, by --minutes, --cases or Ctrl-C. The page is made from the results of the present
-sources: from the held-out half where there is any, else from the other.
+sources: from the held-out half where there is any, else from the other. From the held-out half alone is made what the
+page of a diagnosis says of how often such a verdict is right.
 """
 
 from __future__ import annotations
@@ -22,10 +23,12 @@ from tools.bench_discovery.cases import compile_first, run_campaign
 from tools.bench_discovery.page import page
 from tools.bench_discovery.plans import CHOICES, HALVES, campaign, narrowed
 from tools.bench_discovery.result import Result, append, digest_of_sources, load
+from tools.bench_discovery.track_record import write_track_record
 from tools.one_line import in_one_line
 
 PAGE = Path("docs/discovery-benchmark.md")
 RESULTS = Path("data/discovery_benchmark.jsonl")
+RECORD = Path("continuum/continuum/discovery/track_record.json")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -38,6 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--page-only", action="store_true", help="run no case")
     parser.add_argument("--results", type=Path, default=RESULTS, help="default %(default)s")
     parser.add_argument("--out", type=Path, default=PAGE, help="the page, which is overwritten; default %(default)s")
+    parser.add_argument("--record", type=Path, default=RECORD, help="how often verdicts are right; default %(default)s")
     options = parser.parse_args(arguments)
     digest, everything = digest_of_sources(), load(options.results)
     results = [result for result in everything if result.digest == digest]
@@ -48,6 +52,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         earlier = {one.digest for one in everything if one.digest != digest and one.plan.half == HALVES[1]}
         write_whole(options.out, page(results, len(earlier)))
         print(f"written: {options.out}")
+    if write_track_record(results, options.record):
+        print(f"written: {options.record}")
 
 
 def _go_on(options: argparse.Namespace, digest: str, results: list[Result]) -> None:

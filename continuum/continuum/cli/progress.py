@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import math
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn, TimeElapsedColumn
+from rich.table import Column
+from rich.text import Text
+
+_ENOUGH = 0.1
+"""Part that has to be over before the time that is left is stated: of less it says little."""
+
+_BAR = 16  # characters, so that a name has room beside it on 80 columns
 
 
 @contextmanager
@@ -16,20 +25,50 @@ def told() -> Iterator[Callable[[str, float], None]]:
     if not sys.stderr.isatty():
         yield _lines()
         return
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+    columns = (
+        TextColumn("{task.description}", markup=False, table_column=Column(ratio=1, no_wrap=True)),
+        BarColumn(_BAR, table_column=Column(min_width=_BAR)),
+        TimeElapsedColumn(table_column=Column(min_width=len("0:00:00"))),
+        _Left(Column(min_width=len("at least 10 min 00 s left"))),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True, expand=True) as progress:
         task = progress.add_task("", total=1.0)
         yield lambda what, part: progress.update(task, description=what, completed=part)
 
 
+def left_in_words(part: float, elapsed: float) -> str:
+    """At least how long it will take yet; empty where that is not known or less than a second.
+
+    A search goes on where an effect helps, and takes longer then than the part that is over tells.
+
+    Args:
+        part: of all that is over, 0 to 1.
+        elapsed: since the beginning [s].
+    """
+    if not _ENOUGH < part <= 1:
+        return ""
+    left = math.floor(elapsed * (1 - part) / part)
+    if left < 1:
+        return ""
+    return f"at least {left} s left" if left < 60 else f"at least {left // 60} min {left % 60:02d} s left"
+
+
+class _Left(ProgressColumn):
+    """The time that is left."""
+
+    def render(self, task: Task) -> Text:
+        return Text(left_in_words(task.completed, task.elapsed or 0.0), style="progress.remaining")
+
+
 def _lines() -> Callable[[str, float], None]:
     """Tells each stage once, as it begins."""
-    told_last = ""
+    told_last, began = "", time.monotonic()
 
-    def tell(what: str, _part: float) -> None:
+    def tell(what: str, part: float) -> None:
         nonlocal told_last
         if what != told_last:
-            print(f"continuum: {what}", file=sys.stderr, flush=True)
+            left = left_in_words(part, time.monotonic() - began)
+            print(f"continuum: {what}" + f" ({left})" * bool(left), file=sys.stderr, flush=True)
             told_last = what
 
     return tell

@@ -161,14 +161,19 @@ class Coordinates:
         return out
 
     @cached_property
-    def covered(self) -> frozenset[str]:
-        """Parameters whose change alike at all joints changes the torque as some of the coordinates do."""
+    def by_parameters(self) -> Array:
+        """Derivatives of the torque by all parameters in motions drawn at random, (rows, n_p)."""
         s, random = self.structure, np.random.default_rng(0)
         rows = 8 * len(self.all)
         motion, u = random.normal(size=(rows, 3, s.n)), random.uniform(size=(rows, s.equations.n_inputs))
         given = packed(motion, u, motion[:, 1], self.reference)
         by_p = evaluate(s.equations.by_parameters, given, s.n * (1 + s.equations.n_p))[:, s.n :]
-        by_p = by_p.reshape(rows, s.equations.n_p, s.n).transpose(0, 2, 1).reshape(-1, s.equations.n_p)
+        return by_p.reshape(rows, s.equations.n_p, s.n).transpose(0, 2, 1).reshape(-1, s.equations.n_p)
+
+    @cached_property
+    def covered(self) -> frozenset[str]:
+        """Parameters whose change alike at all joints changes the torque as some of the coordinates do."""
+        s, by_p = self.structure, self.by_parameters
         coordinates = by_p @ np.column_stack([self._direction(one, self.reference) for one in self.all])
         found = []
         for name, slot in s.slots.items():

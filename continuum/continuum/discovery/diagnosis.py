@@ -17,7 +17,6 @@ from continuum.discovery.experiments import experiments
 from continuum.discovery.extended import model_of
 from continuum.discovery.missing_torque import missing_torque
 from continuum.discovery.power import Power, powers
-from continuum.discovery.problem import Problem
 from continuum.discovery.result import Cause, Diagnosis, Share, is_named
 from continuum.discovery.search import Progress, with_library
 from continuum.dynamics.model import Model
@@ -29,6 +28,8 @@ from continuum.recordings.recording import Recording
 TOLERANCE = 3.0
 """Open-loop error up to which a model is adequate, where no other is asked for, in units of the angles' noise: an error
 that no single reading shows. What sensors may be off by slowly is accepted in any case."""
+
+_SEARCH = 0.65  # part of a diagnosis's time that the search takes, where power is worked out too
 
 
 def diagnose(
@@ -54,14 +55,14 @@ def diagnose(
     """
     began = time.process_time()
     _check(recordings, model, tolerance)
-    found = examine(recordings, model, effects, progress)
-    progress("deciding", 0.85)
+    found = examine(recordings, model, effects, lambda what, part: progress(what, _SEARCH * part))
+    progress("deciding", _SEARCH)
     answer, best = _answer(found, recordings, model, tolerance)
     if with_power:
-        progress("power of the recordings", 0.9)
+        progress("power of the recordings", 0.7)
         known = _powers(found, best)
         power = detectable(found.problem, known)
-        progress("next experiment", 0.95)
+        progress("next experiment", 0.85)
         by_key = {one.found.key: one for one in (found.baseline, *found.others)}
         sets = [by_key[frozenset(key)] for key in answer.verdict.sets] or [best]
         answer = replace(answer, power=power, experiments=experiments(found, sets, recordings, power))
@@ -100,7 +101,7 @@ def _answer(
         verdict, sets, share, (sigma, less_sigma), (torque, less_torque), baseline_estimates(problem, best.fit), before,
         after, model_of(problem, base.fit.state, (), model),
         model_of(problem, best.fit.state, best.candidate.effects, model), tuple(recordings),
-        (), (), correlation_of(best.fit), (*odd, *_notes(recordings, problem, best)), accepted, 0.0,
+        (), (), correlation_of(best.fit), (*odd, *_notes(recordings, found, best)), accepted, 0.0,
     )  # fmt: skip
     return answer, best
 
@@ -138,10 +139,10 @@ def _causes(found: Examination, one: Examined) -> tuple[Cause, ...]:
     )
 
 
-def _notes(recordings: Sequence[Recording], problem: Problem, best: Examined) -> tuple[str, ...]:
+def _notes(recordings: Sequence[Recording], found: Examination, best: Examined) -> tuple[str, ...]:
     notes = [f"{recording.name}: {note}" for recording in recordings for note in recording.notes]
     if any(run.is_driven for run in recordings):
-        held = all(run.held for run in problem.runs)
+        held = all(run.held for run in found.problem.runs)
         notes.append(
             "inputs are taken " + ("to hold until their next row" if held else "to change linearly from row to row")
         )
@@ -150,6 +151,9 @@ def _notes(recordings: Sequence[Recording], problem: Problem, best: Examined) ->
     local = sorted({h.effect for h in best.found.chosen if h.local})
     if local:
         notes.append(f"{', '.join(local)}: each recording has its own value, which a model file leaves at zero")
+    for h in best.found.chosen:
+        if others := found.baseline.found.lin.library.same.get(h.label):
+            notes.append(f"{h.label}: to any recording the same as {' or '.join(others)}")
     return tuple(notes)
 
 

@@ -1,31 +1,25 @@
-"""The answer as one self-contained page."""
+"""The answer as one self-contained page: for a mechanic first, then for engineers."""
 
 from __future__ import annotations
 
-import base64
-from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import jinja2
-from matplotlib.figure import Figure
 
+from continuum.discovery import report_figures as figures
+from continuum.discovery import report_power as power
+from continuum.discovery import report_steps as steps
+from continuum.discovery import report_tables as tables
+from continuum.discovery import report_values as values
+from continuum.discovery import report_words as words
 from continuum.discovery.decision import Kind
-from continuum.discovery.pictures import angles, png, torques
-from continuum.discovery.result import Cause, Diagnosis, Estimate
-from continuum.discovery.words import (
-    errors_in_words,
-    estimate_in_words,
-    lookalikes,
-    shares_in_words,
-    sigma_in_words,
-    verdict_in_words,
-)
+from continuum.discovery.names import capital, with_names
+from continuum.discovery.quantities import tenths
+from continuum.discovery.result import Diagnosis
+from continuum.printable import one_line
+from continuum.recordings.rate_ratio import odd_rates
 from continuum.whole_file import write_whole
-
-_TITLES = {
-    Kind.ADEQUATE: "The simulation agrees with the recordings",
-    Kind.UNKNOWN: "The simulation misses something, and what is unknown",
-}
 
 
 def write_report(result: Diagnosis, path: str | Path, made: str) -> None:
@@ -40,46 +34,62 @@ def write_report(result: Diagnosis, path: str | Path, made: str) -> None:
         FileError: the file cannot be written.
     """
     template = _environment().get_template("report.html")
-    page = template.render(
-        kind=result.verdict.kind.value,
-        title=_title(result),
-        runs=", ".join(run.name for run in result.recordings),
-        verdict=verdict_in_words(result),
-        beware=lookalikes(result),
-        notes=result.notes,
-        extended=result.is_extended,
-        label=_label(result.causes),
-        shares=shares_in_words(result),
-        errors=errors_in_words(result),
-        sigma=sigma_in_words(result),
-        estimates=_rows([*(one for cause in result.causes for one in cause.estimates), *result.estimates]),
-        alternatives=[(_label(c), _rows([one for cause in c for one in cause.estimates])) for c in result.sets[1:]],
-        angles=_image(angles(result)),
-        torques=_image(torques(result)),
-        made=made,
-    )
-    write_whole(path, page + "\n")
+    write_whole(path, template.render(_first(result), **_details(result), made=made) + "\n")
 
 
 def _environment() -> jinja2.Environment:
+    """Escapes all that is put into the page; names of recordings, of which any character may be part, stay one line."""
     return jinja2.Environment(
-        loader=jinja2.PackageLoader(__package__), autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined
+        loader=jinja2.PackageLoader(__package__),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+        finalize=lambda value: one_line(value) if type(value) is str else value,
     )
 
 
-def _title(result: Diagnosis) -> str:
-    if (title := _TITLES.get(result.verdict.kind)) is not None:
-        return title
-    return "What the simulation misses: " + " or ".join(_label(causes) for causes in result.sets)
+def _first(result: Diagnosis) -> dict[str, Any]:
+    """What everybody reads."""
+    contradictions = odd_rates(result.recordings)
+    worst, kind = figures.worst_place(result), result.verdict.kind
+    return {
+        "kind": kind.value,
+        "title": words.title(result, contradictions),
+        "verdict": words.verdict_sentence(result, contradictions),
+        "reliability": words.reliability(result),
+        "warnings": words.warnings(result, contradictions),
+        "extended": result.is_extended,
+        "what": words.extension(result),
+        "charts": figures.first_charts(result),
+        "joint": worst.joint + 1,
+        "run": result.recordings[worst.run].name,
+        "sets": tables.set_rows(result) if kind is Kind.AMBIGUOUS else [],
+        "weights": [tenths(p) for p in result.verdict.probabilities],
+        "shares": tables.share_rows(result) if result.is_extended else [],
+        "steps": steps.next_steps(result),
+        "power_sentence": words.power_sentence(result),
+    }
 
 
-def _label(causes: Sequence[Cause]) -> str:
-    return " and ".join(cause.label for cause in causes) or "nothing"
-
-
-def _rows(estimates: Sequence[Estimate]) -> list[tuple[str, str, str]]:
-    return [(str(one), estimate_in_words(one), one.meaning) for one in estimates]
-
-
-def _image(figure: Figure) -> str:
-    return "data:image/png;base64," + base64.b64encode(png(figure)).decode()
+def _details(result: Diagnosis) -> dict[str, Any]:
+    """What engineers read."""
+    return {
+        "runs": [(row, figures.charts_of_run(result, r)) for r, row in enumerate(tables.error_rows(result))],
+        "joints": tables.joint_rows(result),
+        "over_angle": figures.torques_over_angle(result),
+        "noise": f"{figures.noise_band(result):.2g}",
+        "values": values.value_rows(result, result.causes),
+        "model_values": values.model_rows(result),
+        "alternatives": [
+            (name, values.value_rows(result, causes))
+            for name, causes in zip(tables.names_of_sets(result)[1:], result.sets[1:], strict=True)
+        ],
+        "correlation": values.correlation_rows(result),
+        "power": power.power_rows(result),
+        "hidden": power.hidden_effects(result),
+        "enough": f"{steps.ENOUGH:.0f}",
+        "experiments": steps.experiment_rows(result),
+        "beware": words.lookalikes(result),
+        "notes": [capital(with_names(note)).rstrip(".") + "." for note in result.notes],
+    }

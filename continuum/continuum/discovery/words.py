@@ -12,9 +12,9 @@ from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_nam
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.identification.nrmse import nrmse
 
-_MORE_RUNS = "Record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
+MORE_RUNS = "Record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
 
-_UNSTEADY = " Pieces of the recordings disagree about sizes: something else acts too, or in its place."
+UNSTEADY = "Pieces of the recordings disagree about sizes: something else acts too, or in its place."
 _NOTHING_MORE = "Nothing in them calls for a further effect."
 _WITHIN_TOLERANCE = "An effect of the library would help, but what is missing is within the tolerance."
 
@@ -25,8 +25,7 @@ def verdict_in_words(result: Diagnosis) -> str:
     match verdict.kind:
         case Kind.ADEQUATE:
             return (
-                "With springs and friction refitted, the simulation agrees with these recordings. "
-                f"{_error(result)} {_NOTHING_MORE if verdict.complete else _WITHIN_TOLERANCE}"
+                f"With springs and friction refitted, the simulation agrees with these recordings. {adequate(result)}"
             )
         case Kind.CAUSE:
             return f"{_matters(result.causes)} {_closes(result)} {_rest(result)}"
@@ -34,22 +33,27 @@ def verdict_in_words(result: Diagnosis) -> str:
             names = "; or ".join(" and ".join(map(in_full, causes)) or "nothing" for causes in result.sets)
             return (
                 f"Something is missing, but these recordings cannot tell which of these it is: {names}. "
-                f"To tell them apart: {_experiment(result)}{_UNSTEADY * (not verdict.steady)}"
+                f"To tell them apart: {_experiment(result)}{_unsteady(result)}"
             )
         case Kind.UNKNOWN if result.causes:
             helps = " with ".join(in_full(cause) for cause in result.causes)
             return (
                 "The simulation misses something that no effect of the library explains. "
-                f"{helps} helps most, but much stays unexplained: do not take it for the cause. {_MORE_RUNS}"
+                f"{helps} helps most, but much stays unexplained: do not take it for the cause. {MORE_RUNS}"
             )
         case _:
-            return f"The simulation misses something, and no effect of the library even helps. {_MORE_RUNS}"
+            return f"The simulation misses something, and no effect of the library even helps. {MORE_RUNS}"
+
+
+def adequate(result: Diagnosis) -> str:
+    """How near the refitted model comes, and whether anything would help."""
+    return f"{_error(result)} {_NOTHING_MORE if result.verdict.complete else _WITHIN_TOLERANCE}"
 
 
 def in_full(cause: Cause) -> str:
     """An effect's name, where it acts, and in brackets what that means."""
     where = f" at {places(cause)}" if places(cause) else ""
-    return f"{cause.effect}{where} ({_matter(cause).rstrip('.')})"
+    return f"{cause.effect}{where} ({matter_in_words(cause).rstrip('.')})"
 
 
 def places(cause: Cause) -> str:
@@ -57,6 +61,16 @@ def places(cause: Cause) -> str:
     if cause.joints is None:
         return ""
     return f"joint{'s' if len(cause.joints) > 1 else ''} {', '.join(str(joint + 1) for joint in cause.joints)}"
+
+
+def matter_in_words(cause: Cause) -> str:
+    """What is the matter; which way, where all sizes are off the same way."""
+    effect = effect_named(cause.effect)
+    if any("." not in one.name for one in cause.estimates):
+        return effect.in_words_if_lacking
+    sizes = [one.value for one in cause.estimates if not effect.parameters[one.name.split(".")[1]].default]
+    more, less = (bool(sizes) and all(sign * size > 0 for size in sizes) for sign in (1, -1))
+    return effect.in_words_if_more * more or effect.in_words_if_less * less or effect.in_words
 
 
 def share_in_words(share: Share) -> str:
@@ -106,17 +120,9 @@ def lookalikes(result: Diagnosis) -> list[str]:
 
 
 def _matters(causes: Sequence[Cause]) -> str:
-    return " Besides: ".join(_matter(cause) + (f" ({places(cause)})" if places(cause) else "") for cause in causes)
-
-
-def _matter(cause: Cause) -> str:
-    """What is the matter; which way, where all sizes are off the same way."""
-    effect = effect_named(cause.effect)
-    if any("." not in one.name for one in cause.estimates):
-        return effect.in_words_if_lacking
-    sizes = [one.value for one in cause.estimates if not effect.parameters[one.name.split(".")[1]].default]
-    more, less = (bool(sizes) and all(sign * size > 0 for size in sizes) for sign in (1, -1))
-    return effect.in_words_if_more * more or effect.in_words_if_less * less or effect.in_words
+    return " Besides: ".join(
+        matter_in_words(cause) + (f" ({places(cause)})" if places(cause) else "") for cause in causes
+    )
 
 
 def _closes(result: Diagnosis) -> str:
@@ -129,7 +135,11 @@ def _closes(result: Diagnosis) -> str:
 def _rest(result: Diagnosis) -> str:
     if result.verdict.complete:
         return "No further torque is missing beyond what any model leaves."
-    return "A remainder stays, and its cause is unknown." + _UNSTEADY * (not result.verdict.steady)
+    return "A remainder stays, and its cause is unknown." + _unsteady(result)
+
+
+def _unsteady(result: Diagnosis) -> str:
+    return "" if result.verdict.steady else f" {UNSTEADY}"
 
 
 def _error(result: Diagnosis) -> str:

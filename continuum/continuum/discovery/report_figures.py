@@ -1,0 +1,116 @@
+"""Charts of the page of a diagnosis: measured and simulated angles, residuals, missing torque."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.chart import Axes, Chart, Line, chart, shared
+from continuum.discovery.fitted import OpenLoop
+from continuum.discovery.result import Diagnosis
+
+BEFORE, AFTER, MEASURED = "before", "after", "measured"
+"""Classes of the page's style sheet."""
+NOISE_SIGMAS: Final = 1.96
+"""Half-width of the band that holds 95 % of the sensors' noise, in standard deviations."""
+_TIME = "time [s]"
+_FIRST = (400.0, 230.0)  # width and height [px]: two beside each other on a screen, one below the other on a phone
+_SMALL = (320.0, 130.0)
+
+
+class Place(NamedTuple):
+    """A recording and a joint, from 0."""
+
+    run: int
+    joint: int
+
+
+class JointCharts(NamedTuple):
+    """Of one joint in one recording: angles, residuals, missing torque; the same scales at all joints."""
+
+    angles: Chart
+    residuals: Chart
+    torques: Chart
+
+
+def noise_band(result: Diagnosis) -> float:
+    """Half-width of the band around zero in which 95 % of the angles' noise are [degrees]."""
+    return NOISE_SIGMAS * float(np.degrees(result.before.floor))
+
+
+def worst_place(result: Diagnosis) -> Place:
+    """The joint that lacks most torque, in the recording whose simulation errs most there before the extension."""
+    joint = int(np.nanargmax(result.sigma[0]))
+    errors = [_rms(result.before, result, r, joint) for r in range(len(result.recordings))]
+    return Place(int(np.nanargmax(errors)) if np.any(np.isfinite(errors)) else 0, joint)
+
+
+def first_charts(result: Diagnosis) -> tuple[Chart, Chart]:
+    """Angles, measured and simulated, and the missing torque, both at the worst place."""
+    place = worst_place(result)
+    return chart(_angles(result, place), *_FIRST), chart(_torques(result, place), *_FIRST)
+
+
+def charts_of_run(result: Diagnosis, run: int) -> list[JointCharts]:
+    """All joints of a recording."""
+    places = [Place(run, joint) for joint in range(result.recordings[run].n_joints)]
+    kinds = ([kind(result, place) for place in places] for kind in (_angles, _residuals, _torques))
+    return [JointCharts(*(chart(one, *_SMALL) for one in three)) for three in zip(*map(shared, kinds), strict=True)]
+
+
+def torques_over_angle(result: Diagnosis) -> list[Chart]:
+    """Missing torque at each joint over its angle, of all recordings."""
+    n = result.recordings[0].n_joints
+    axes = [Axes(f"joint {j + 1}: missing torque [mN m]", "angle [°]", tuple(_over_angle(result, j))) for j in range(n)]
+    return [chart(one, *_SMALL) for one in shared(axes)]
+
+
+def _over_angle(result: Diagnosis, joint: int) -> list[Line]:
+    return [
+        Line(style, np.degrees(run.theta[:, joint]), 1e3 * torque[:, joint])
+        for style, courses in _courses(result)
+        for run, torque in zip(result.recordings, courses, strict=True)
+    ]
+
+
+def _angles(result: Diagnosis, place: Place) -> Axes:
+    measured = result.recordings[place.run].theta
+    curves = [(MEASURED, measured), *((style, loop.angles[place.run]) for style, loop in _loops(result))]
+    return _over_time(result, place, "angle [°]", [(style, np.degrees(angle)) for style, angle in curves])
+
+
+def _residuals(result: Diagnosis, place: Place) -> Axes:
+    """Simulated less measured."""
+    measured = result.recordings[place.run].theta
+    curves = [(style, np.degrees(loop.angles[place.run] - measured)) for style, loop in _loops(result)]
+    return _over_time(result, place, "residual [°]", curves, noise_band(result))
+
+
+def _torques(result: Diagnosis, place: Place) -> Axes:
+    curves = [(style, 1e3 * courses[place.run]) for style, courses in _courses(result)]
+    return _over_time(result, place, "missing torque [mN m]", curves)
+
+
+def _over_time(
+    result: Diagnosis, place: Place, what: str, curves: Sequence[tuple[str, Array]], band: float = 0.0
+) -> Axes:
+    times = result.recordings[place.run].times
+    lines = tuple(Line(style, times, values[:, place.joint]) for style, values in curves)
+    return Axes(f"joint {place.joint + 1}: {what}", _TIME, lines, band, (float(times[0]), float(times[-1])))
+
+
+def _loops(result: Diagnosis) -> list[tuple[str, OpenLoop]]:
+    return [(BEFORE, result.before), *([(AFTER, result.after)] if result.is_extended else [])]
+
+
+def _courses(result: Diagnosis) -> list[tuple[str, tuple[Array, ...]]]:
+    before, after = result.missing
+    return [(BEFORE, before), *([(AFTER, after)] if result.is_extended else [])]
+
+
+def _rms(loop: OpenLoop, result: Diagnosis, run: int, joint: int) -> float:
+    residual = loop.angles[run][:, joint] - result.recordings[run].theta[:, joint]
+    return float(np.sqrt(np.mean(residual**2)))

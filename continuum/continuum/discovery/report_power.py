@@ -1,0 +1,103 @@
+"""What the recordings would have shown: of every effect its smallest size, joint by joint, and why not where not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Final, NamedTuple
+
+from continuum.discovery.names import capital, effect_in_words, listed
+from continuum.discovery.quantities import Scale, meaning_in_words, number, scale_of
+from continuum.discovery.result import Detectable, Diagnosis
+from continuum.dynamics.effect_lookup import effect_named
+
+_DIGITS: Final = 2
+
+
+class Cell(NamedTuple):
+    """Smallest size that would have been named; whether that is no more than the typical one."""
+
+    text: str
+    is_shown: bool
+
+
+class PowerRow(NamedTuple):
+    """An effect by one of its sizes.
+
+    Attributes:
+        name, id, meaning, unit, typical: of it.
+        whole: where it acts on the whole arm, or at several joints at once; None where that was not asked.
+        joints: at each joint; None where that was not asked.
+    """
+
+    name: str
+    id: str
+    meaning: str
+    unit: str
+    typical: str
+    whole: Cell | None
+    joints: tuple[Cell | None, ...]
+
+
+class Hidden(NamedTuple):
+    """Effects that would not have been shown at their typical sizes for one reason."""
+
+    names: str
+    reason: str
+
+
+def power_rows(result: Diagnosis) -> list[PowerRow]:
+    """Of every effect that is not in the best set, in the order in which they show."""
+    groups = dict[tuple[str, str], list[Detectable]]()
+    for one in _asked(result):
+        groups.setdefault((one.effect, one.parameter), []).append(one)
+    n = result.recordings[0].n_joints
+    return [_row(effect, parameter, found, n) for (effect, parameter), found in groups.items()]
+
+
+def hidden_effects(result: Diagnosis) -> list[Hidden]:
+    """By reason, with the places where it holds."""
+    places = dict[str, dict[str, list[Detectable]]]()
+    for one in _asked(result):
+        if not one.is_shown:
+            places.setdefault(one.reason, {}).setdefault(one.effect, []).append(one)
+    n = result.recordings[0].n_joints
+    return [
+        Hidden(capital(listed([name for ones in effects.values() for name in _names(ones, n)])), reason)
+        for reason, effects in places.items()
+    ]
+
+
+def counts(result: Diagnosis) -> tuple[int, int]:
+    """Of how many effects the typical size would have been shown wherever it acts, and how many were asked about."""
+    shown = dict[str, bool]()
+    for one in _asked(result):
+        shown[one.effect] = shown.get(one.effect, True) and one.is_shown
+    return sum(shown.values()), len(shown)
+
+
+def _asked(result: Diagnosis) -> list[Detectable]:
+    named = {cause.label for cause in result.causes}
+    return [one for one in result.power if one.label not in named]
+
+
+def _names(ones: Sequence[Detectable], n: int) -> list[str]:
+    single = [one.joints[0] for one in ones if one.joints is not None and len(one.joints) == 1]
+    if any(one.joints is None or len(one.joints) > 1 for one in ones) or not single:
+        return [effect_in_words(ones[0].effect)]
+    return [effect_in_words(ones[0].effect, sorted(single), n)]
+
+
+def _row(effect: str, parameter: str, found: Sequence[Detectable], n: int) -> PowerRow:
+    meaning, first = effect_named(effect).parameters[parameter].meaning, found[0]
+    scale = scale_of(first.unit, meaning, parameter)
+    at = {one.joints[0]: _cell(one, scale) for one in found if one.joints is not None and len(one.joints) == 1}
+    whole = next((_cell(one, scale) for one in found if one.joints is None or len(one.joints) > 1), None)
+    return PowerRow(
+        capital(effect_in_words(effect)), f"{effect}.{parameter}", meaning_in_words(meaning), scale.unit,
+        number(scale(first.typical), _DIGITS), whole, tuple(at.get(joint) for joint in range(n)),
+    )  # fmt: skip
+
+
+def _cell(one: Detectable, scale: Scale) -> Cell:
+    return Cell(number(scale(one.smallest), _DIGITS) if math.isfinite(one.smallest) else "none", one.is_shown)

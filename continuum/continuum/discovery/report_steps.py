@@ -1,0 +1,99 @@
+"""What to do next: by hand, or a run that would tell more."""
+
+from __future__ import annotations
+
+import math
+from typing import Final, NamedTuple
+
+from continuum.discovery.decision import CHANCE, Kind, is_worth
+from continuum.discovery.names import capital, effect_in_words, label_in_words, listed
+from continuum.discovery.quantities import number
+from continuum.discovery.result import Cause, Diagnosis, Experiment
+from continuum.discovery.words import MORE_RUNS
+from continuum.dynamics.effect_lookup import effect_named
+
+ENOUGH: Final = -math.log(CHANCE)
+"""Difference in log-likelihood from which an experiment separates explanations: more than chance gives."""
+
+
+_LISTED: Final = 4
+"""Effects that the first screen lists."""
+
+
+class Step(NamedTuple):
+    """Something to do, and a sentence that says what for, which may be empty."""
+
+    instruction: str
+    purpose: str
+
+
+class ExperimentRow(NamedTuple):
+    """An experiment, by how much log-likelihood it separates the explanations, and what else it shows."""
+
+    name: str
+    instruction: str
+    separates: str
+    shows: str
+
+
+def next_steps(result: Diagnosis) -> list[Step]:
+    """What to do next, the best first."""
+    by_hand = [
+        Step(effect_named(c.effect).experiment, f"Tests: {label_in_words(c.label, _joints(result))}.")
+        for c in _in_doubt(result)
+    ]
+    steps = [Step(one.instruction, would_show(result, one, _LISTED)) for one in result.experiments]
+    telling = [step for step in steps if step.purpose]
+    match result.verdict.kind:
+        case Kind.ADEQUATE:
+            return telling[:1]
+        case Kind.CAUSE:
+            return by_hand
+        case Kind.AMBIGUOUS:
+            separating = [one for one in result.experiments if is_worth(one.separates, 1.0, effects=0)]
+            return [Step(one.instruction, "Tells the explanations apart.") for one in separating[:1]] + by_hand
+        case _:
+            return [Step(MORE_RUNS, ""), *telling[:1]]
+
+
+def would_show(result: Diagnosis, one: Experiment, most: int | None = None) -> str:
+    """What an experiment would show that these recordings cannot; empty where nothing.
+
+    Args:
+        result: the answer; effects of its sets are shown already.
+        one: the experiment.
+        most: effects that are listed; all without.
+    """
+    named, places = {cause.label for causes in result.sets for cause in causes}, dict[str, set[int]]()
+    for label in one.shows:
+        effect, _, where = label.partition("@")
+        if label not in named:
+            places.setdefault(effect, set()).update(int(joint) - 1 for joint in where.split(",") if joint)
+    names = [effect_in_words(effect, sorted(at) or None, _joints(result)) for effect, at in places.items()]
+    left = len(names[most:]) if most else 0
+    shown = [*names[:most], f"{left} more"] if left else names
+    return f"It would show: {listed(shown)}." if names else ""
+
+
+def experiment_rows(result: Diagnosis) -> list[ExperimentRow]:
+    """All experiments, the best first."""
+    return [
+        ExperimentRow(capital(one.name), one.instruction, _separates(one), would_show(result, one))
+        for one in result.experiments
+    ]
+
+
+def _separates(one: Experiment) -> str:
+    return "beyond measure" if math.isinf(one.separates) else number(one.separates, 2)
+
+
+def _in_doubt(result: Diagnosis) -> list[Cause]:
+    """Effects of any set that not all sets have; those of the only set."""
+    sets = [{cause.label for cause in causes} for causes in result.sets]
+    common = set.intersection(*sets) if len(sets) > 1 else set[str]()
+    every = [cause for causes in result.sets for cause in causes if cause.label not in common]
+    return list({cause.effect: cause for cause in reversed(every)}.values())[::-1]
+
+
+def _joints(result: Diagnosis) -> int:
+    return result.recordings[0].n_joints

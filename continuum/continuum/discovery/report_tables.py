@@ -1,0 +1,134 @@
+"""Tables of the page of a diagnosis: shares and errors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.discovery.fitted import OpenLoop
+from continuum.discovery.names import capital, label_in_words, sets_in_words
+from continuum.discovery.quantities import percent, percent_interval, with_decimals
+from continuum.discovery.result import Cause, Diagnosis, Share
+from continuum.identification.nrmse import nrmse
+
+
+class ShareRow(NamedTuple):
+    """An effect, a set of them or the rest, with the part of the error that it closes in percent, and a bar's width."""
+
+    name: str
+    id: str
+    percent: str
+    interval: str
+    width: float
+
+
+class Pair(NamedTuple):
+    """A figure of the refitted and of the extended model."""
+
+    before: str
+    after: str
+
+
+class ErrorRow(NamedTuple):
+    """Errors of a recording, simulated whole: root mean square [degrees], fit [%], Eq. 19; whether it gets worse."""
+
+    name: str
+    rms: Pair
+    fit: Pair
+    eq19: Pair
+    is_worse: bool
+
+
+class JointRow(NamedTuple):
+    """Root mean square error [degrees] and missing torque [mN m] of a joint; whether its error gets worse."""
+
+    name: str
+    rms: Pair
+    torque: Pair
+    is_worse: bool
+
+
+def share_rows(result: Diagnosis) -> list[ShareRow]:
+    """What each effect of the best set closes of the open-loop error, and what stays unknown."""
+    rows = [_share(capital(label_in_words(c.label, _joints(result))), c.label, c.share) for c in result.causes]
+    return [*rows, _share("Stays unexplained", "", result.shares["unknown"])]
+
+
+def set_rows(result: Diagnosis) -> list[ShareRow]:
+    """What each possible set closes."""
+    rows = []
+    for causes, name in zip(result.sets, names_of_sets(result), strict=True):
+        shares = [cause.share for cause in causes]
+        whole = Share(*(math.fsum(getattr(s, end) for s in shares) for end in ("value", "low", "high")))
+        rows.append(_share(capital(name), ids(causes), whole))
+    return rows
+
+
+def names_of_sets(result: Diagnosis) -> list[str]:
+    """Names of each set's effects, those that are in all sets at the end."""
+    names, common = sets_in_words([[cause.label for cause in causes] for causes in result.sets], _joints(result))
+    return [name + f" with {common}" * bool(common) for name in names]
+
+
+def ids(causes: Sequence[Cause]) -> str:
+    """As docs and model files call them."""
+    return " + ".join(cause.label for cause in causes)
+
+
+def error_rows(result: Diagnosis) -> list[ErrorRow]:
+    """Of each recording."""
+    rows = []
+    for r, run in enumerate(result.recordings):
+        models = (result.before, result.after)
+        rms = [one.error(r, run.theta) for one in models]
+        scores = [nrmse(one.angles[r], run.theta) for one in models]
+        rows.append(
+            ErrorRow(
+                run.name, _pair(np.degrees(rms), 2), _pair([100 * (1 - score) for score in scores], 1),
+                _pair(scores, 3), is_worse(result, *rms),
+            )
+        )  # fmt: skip
+    return rows
+
+
+def joint_rows(result: Diagnosis) -> list[JointRow]:
+    """Of each joint, over all recordings."""
+    errors = [_by_joint(result, one) for one in (result.before, result.after)]
+    return [
+        JointRow(
+            f"joint {joint + 1}", _pair(np.degrees([before, after]), 2),
+            _pair([1e3 * sigma[joint] for sigma in result.sigma], 1), is_worse(result, before, after),
+        )
+        for joint, (before, after) in enumerate(zip(*errors, strict=True))
+    ]  # fmt: skip
+
+
+def is_worse(result: Diagnosis, before: float, after: float) -> bool:
+    """Whether errors [rad] rise by more than the sensors' noise: less than that no reading shows."""
+    if not result.is_extended:
+        return False
+    return not math.isfinite(after) or after**2 - before**2 > result.before.floor**2
+
+
+def _joints(result: Diagnosis) -> int:
+    return result.recordings[0].n_joints
+
+
+def _share(name: str, label: str, share: Share) -> ShareRow:
+    width = 100 * min(max(share.value, 0.0), 1.0) if math.isfinite(share.value) else 0.0
+    return ShareRow(name, label, percent(share.value), percent_interval(share.low, share.high), round(width, 1))
+
+
+def _pair(values: Iterable[float], decimals: int) -> Pair:
+    """Without decimals from 100 on."""
+    return Pair(*(with_decimals(float(v), decimals * (abs(v) < 100)) if math.isfinite(v) else "–" for v in values))
+
+
+def _by_joint(result: Diagnosis, loop: OpenLoop) -> Array:
+    """Root mean square over the rows of all recordings, (n_joints,) [rad]."""
+    residuals = [angles - run.theta for angles, run in zip(loop.angles, result.recordings, strict=True)]
+    return np.asarray(np.sqrt(np.mean(np.concatenate(residuals) ** 2, axis=0)))

@@ -1,0 +1,67 @@
+"""Tables of values on the page of a diagnosis: from start to estimate, bounds, correlations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+from continuum.discovery.names import capital, effect_in_words, value_in_words
+from continuum.discovery.quantities import bound, meaning_in_words, number, scale_of, with_decimals, with_interval
+from continuum.discovery.result import Cause, Diagnosis, Estimate
+
+
+class ValueRow(NamedTuple):
+    """A value of the model or of an effect."""
+
+    name: str
+    id: str
+    meaning: str
+    start: str
+    value: str
+    interval: str
+    unit: str
+    bounds: str
+    is_at_bound: bool
+
+
+class CorrelationRow(NamedTuple):
+    """A value with its posterior correlations as text and number."""
+
+    name: str
+    id: str
+    cells: list[tuple[str, float]]
+
+
+def value_rows(result: Diagnosis, causes: Sequence[Cause]) -> list[ValueRow]:
+    """Values of some effects."""
+    return [_value(one, result, cause) for cause in causes for one in cause.estimates]
+
+
+def model_rows(result: Diagnosis) -> list[ValueRow]:
+    """Values of the model's own."""
+    return [_value(one, result, None) for one in result.estimates]
+
+
+def correlation_rows(result: Diagnosis) -> list[CorrelationRow]:
+    """Of the best set's values."""
+    return [
+        CorrelationRow(value_in_words(name), name, [(with_decimals(float(r), 2), float(r)) for r in row])
+        for name, row in zip(*result.correlation, strict=True)
+    ]
+
+
+def _value(one: Estimate, result: Diagnosis, cause: Cause | None) -> ValueRow:
+    scale = scale_of(one.unit, one.meaning, one.name)
+    value, interval = with_interval(scale(one.value), scale(one.low), scale(one.high))
+    if cause is None:
+        name = one.name.replace("_", " ") + (f" of joint {one.joint + 1}" if one.joint is not None else "")
+    else:
+        joints = cause.joints if one.joint is None else (one.joint,)
+        name = effect_in_words(cause.effect, joints, result.recordings[0].n_joints)
+    bounds = [bound(scale(end)) for end in (one.lower, one.upper)]
+    return ValueRow(
+        capital(name) + (f", in {one.recording}" if one.recording else ""), str(replace(one, recording="")),
+        meaning_in_words(one.meaning), number(scale(one.start)), value, interval, scale.unit, " to ".join(bounds),
+        bool(one.is_at_bound) and one.value != one.start,
+    )  # fmt: skip

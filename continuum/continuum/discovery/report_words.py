@@ -1,0 +1,153 @@
+"""Sentences of the page of a diagnosis: title, verdict, warnings, how often that is right."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from continuum.discovery.decision import Kind
+from continuum.discovery.names import capital, effect_in_words, label_in_words, listed, sets_in_words, small
+from continuum.discovery.quantities import percent, percent_interval, scale_of, with_interval
+from continuum.discovery.report_power import counts
+from continuum.discovery.report_tables import error_rows, joint_rows
+from continuum.discovery.result import Cause, Diagnosis, is_named
+from continuum.discovery.track_record import track_record
+from continuum.discovery.words import UNSTEADY, adequate, matter_in_words, places
+from continuum.dynamics.effect_lookup import effect_named
+
+_RIGHT: Final = {
+    Kind.ADEQUATE: "nothing was wrong with {} arms; in the others a fault was hidden that did not show",
+    Kind.CAUSE: "{} named only what was really there",
+    Kind.AMBIGUOUS: "{} listed exactly what was there as one of the possibilities",
+    Kind.UNKNOWN: "{} were about a fault that the library lacks; the others were false alarms, or faults that it has",
+}
+_IN_A_TITLE: Final = 3
+"""Explanations that a title lists."""
+
+
+def title(result: Diagnosis, contradictions: Sequence[str]) -> str:
+    """The verdict in a few words.
+
+    Args:
+        result: the answer.
+        contradictions: `odd_rates` of its recordings.
+    """
+    match result.verdict.kind:
+        case Kind.ADEQUATE:
+            return "The simulation agrees with the recordings"
+        case Kind.CAUSE:
+            return f"Cause: {extension(result)}"
+        case Kind.AMBIGUOUS if len(result.sets) <= _IN_A_TITLE:
+            names, common = sets_in_words(
+                [[cause.label for cause in causes] for causes in result.sets], _joints(result)
+            )
+            return f"Not decided: {', or '.join(names)}" + f"; in any case {common}" * bool(common)
+        case Kind.AMBIGUOUS:
+            return f"Not decided: {len(result.sets)} explanations fit"
+        case _ if contradictions:
+            return "The recordings contradict themselves"
+        case _:
+            return "Something is missing, and its cause is unknown"
+
+
+def verdict_sentence(result: Diagnosis, contradictions: Sequence[str]) -> str:
+    """The verdict in one sentence; arguments as of `title`."""
+    match result.verdict.kind:
+        case Kind.ADEQUATE:
+            return f"With springs and friction refitted, {small(adequate(result))}"
+        case Kind.CAUSE:
+            matters = capital("; ".join(small(_matter(cause)) for cause in result.causes))
+            rest = "nothing more is missing" if result.verdict.complete else "the cause of the rest is unknown"
+            return f"{matters}; adding this to the simulation removes {_closed(result)}, and {rest}."
+        case Kind.AMBIGUOUS:
+            return "Something is missing, and these recordings cannot tell which of the explanations below is right."
+        case _ if contradictions:
+            return "Angles and rates in these recordings are not of one motion, so that no cause can be named."
+        case _ if result.causes:
+            return (
+                "The simulation misses something that no effect of the library explains; what helps most "
+                f"({extension(result)}) is not to be taken for the cause."
+            )
+        case _:
+            return "The simulation misses something, and no effect of the library even helps."
+
+
+def reliability(result: Diagnosis) -> str:
+    """How often such a verdict is right, one sentence; empty where nobody knows."""
+    record = track_record(result.verdict.kind)
+    if record is None:
+        return ""
+    interval = percent_interval(record.low, record.high)
+    right = _RIGHT[result.verdict.kind].format(record.right)
+    return (
+        f"How far to trust this: of {record.n} verdicts of this kind on simulated arms whose faults are known, {right} "
+        f"({percent(record.right / record.n)} %, 95 % interval {interval} %)."
+    )
+
+
+def power_sentence(result: Diagnosis) -> str:
+    """How much of the library these recordings can show."""
+    shown, asked = counts(result)
+    if not asked:
+        return ""
+    found = f"{shown or 'none'} would have been found at their typical sizes"
+    return f"Of {asked} further effects that were looked for, {found}."
+
+
+def warnings(result: Diagnosis, contradictions: Sequence[str]) -> list[str]:
+    """What speaks against the verdict or the extended model, a sentence each; arguments as of `title`."""
+    runs, joints = ([row.name for row in rows if row.is_worse] for rows in (error_rows(result), joint_rows(result)))
+    worse = [
+        f"The extended model is farther from the measured angles than the refitted one {where} {listed(names)}."
+        for where, names in (("in", runs), ("at", joints))
+        if names
+    ]
+    unsteady = [UNSTEADY] * (is_named(result.verdict.kind) and not result.verdict.steady)
+    return [*(capital(sentence) + "." for sentence in contradictions), *unsteady, *worse]
+
+
+def extension(result: Diagnosis) -> str:
+    """What the extended model has that the refitted one has not; empty where it is none."""
+    return listed([_name(result, cause) for cause in result.causes])
+
+
+def lookalikes(result: Diagnosis) -> list[str]:
+    """What is no effect of the library and would look like those that are named."""
+    if not is_named(result.verdict.kind):
+        return []
+    named = dict.fromkeys(cause.effect for causes in result.sets for cause in causes)
+    warned = {effect_in_words(effect): effect_named(effect).beware for effect in named}
+    return [f"{capital(name)}: {small(beware)}" for name, beware in warned.items() if beware]
+
+
+def _matter(cause: Cause) -> str:
+    """What is the matter, where, and how large it is if one number says that."""
+    where = f" at {places(cause)}" if places(cause) else ""
+    value = _value(cause)
+    details = ", ".join(filter(None, [where.strip(), value]))
+    return matter_in_words(cause).rstrip(".") + (f" ({details})" if details else "")
+
+
+def _value(cause: Cause) -> str:
+    if len(cause.estimates) != 1:
+        return ""
+    (one,) = cause.estimates
+    scale = scale_of(one.unit, one.meaning, one.name)
+    value, interval = with_interval(scale(one.value), scale(one.low), scale(one.high), digits=1)
+    unit = scale.unit if scale.unit.startswith("°") or not scale.unit else f" {scale.unit}"
+    what = "" if scale.unit else f"{one.meaning}: "
+    return f"{what}{value}{unit}" + (f", 95 % interval {interval}{unit}" if interval != "–" else "")
+
+
+def _closed(result: Diagnosis) -> str:
+    interval = percent_interval(result.closed.low, result.closed.high)
+    more = "" if interval in ("–", percent(result.closed.value)) else f" (95 % interval {interval} %)"
+    return f"{percent(result.closed.value)} %{more} of its error above the sensors' noise"
+
+
+def _name(result: Diagnosis, cause: Cause) -> str:
+    return label_in_words(cause.label, _joints(result))
+
+
+def _joints(result: Diagnosis) -> int:
+    return result.recordings[0].n_joints
