@@ -39,7 +39,8 @@ class Separation:
         plan: of the case.
         before, after: verdict and labels of its sets.
         experiment: that was proposed and made; empty where none was.
-        expected: of it, in log-likelihood.
+        runs: of it that were proposed, 0 where it is not expected to separate; one is made then.
+        expected: difference in the logarithm of the error.
         separated: whether the two likeliest sets are no longer both possible.
         kept: whether the true set, where it was possible, still is, or is named.
     """
@@ -48,6 +49,7 @@ class Separation:
     before: list[str]
     after: list[str]
     experiment: str
+    runs: int
     expected: float
     separated: bool
     kept: bool
@@ -65,25 +67,27 @@ def separation(plan: Plan) -> Separation | None:
             return None
         best = first.experiments[0]
         design = next(one for one in designs(model, recordings) if one.name == best.name)
-        further = Path(folder) / "data" / "further.csv"
-        further.write_bytes(_made(plan, case.truth, design))
-        second = diagnose([*recordings, read_recording(str(further))], model, with_power=False)
+        for number in range(max(best.runs, 1)):
+            further = Path(folder) / "data" / f"further_{number + 1}.csv"
+            further.write_bytes(_made(plan, case.truth, design, number))
+            recordings.append(read_recording(str(further)))
+        second = diagnose(recordings, model, with_power=False)
     before, after = _labels(first), _labels(second)
     both = set(before[:2]) <= set(after)
     return Separation(
-        str(plan), before, after, best.name, best.separates, not both and bool(second.verdict.sets),
+        str(plan), before, after, best.name, best.runs, best.separates, not both and bool(second.verdict.sets),
         not _holds(first, hidden) or _holds(second, hidden),
     )  # fmt: skip
 
 
-def _made(plan: Plan, truth: plant.case.Truth, design: Design) -> bytes:
+def _made(plan: Plan, truth: plant.case.Truth, design: Design, number: int) -> bytes:
     driven = bool((design.inputs.values > 0).any())
     bend = None if driven else float(design.posture.sum())
     wanted = Wanted(bend, design.inputs.values.clip(min=max(0.0, LET_GO)) if driven else None, design.zeroed)
     if plan.plant == "moreau":
         noises, steps = moreau.case.NOISES, moreau.machine.STEPS
-        return further_run(truth, wanted, 1, moreau.Machine, noises, rates=False, steps=steps)
-    return further_run(truth, wanted, 1)
+        return further_run(truth, wanted, number, moreau.Machine, noises, rates=False, steps=steps)
+    return further_run(truth, wanted, number)
 
 
 def _labels(result: Diagnosis) -> list[str]:

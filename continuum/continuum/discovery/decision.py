@@ -151,11 +151,16 @@ def is_farther(one: Candidate, other: Candidate, by: float) -> bool:
     """
     if not (one.completed and other.completed):
         return other.completed
-    fallen, n = log_errors(one.errors) - log_errors(other.errors), len(one.errors)
+    return is_farther_by(log_errors(one.errors) - log_errors(other.errors), by)
+
+
+def is_farther_by(excess: Array, by: float) -> bool:
+    """The same of the differences in each segment, (segments,)."""
+    n = len(excess)
     if n == 1:
         return False
-    half = float(stdtrit(n - 1, 1 - CHANCE)) * np.std(fallen, ddof=1) / np.sqrt(n)
-    return bool(np.mean(fallen) - half > by)
+    half = float(stdtrit(n - 1, 1 - CHANCE)) * np.std(excess, ddof=1) / np.sqrt(n)
+    return bool(np.mean(excess) - half > by)
 
 
 def closed(baseline: Candidate, one: Candidate, noise: Array) -> tuple[float, float, float]:

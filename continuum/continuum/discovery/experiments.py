@@ -1,8 +1,8 @@
 """The next experiment: the run that separates the possible causes, or shows what these recordings cannot.
 
 Two sets of effects, each with the values that the recordings leave it, simulate a run that was not made. The one is
-refitted to the other's angles within what is known of its values. What it cannot follow, in units of the noise, is what
-the run would tell: the expected difference in log-likelihood (Box and Hill, Technometrics 9, 1967, 57-71).
+refitted to the other's angles within what is known of its values. What it cannot follow is what the run would tell
+(Box and Hill, Technometrics 9, 1967, 57-71); from it follows how often the run has to be made for the decision.
 """
 
 from __future__ import annotations
@@ -12,14 +12,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.discovery.baseline import run_of
 from continuum.discovery.candidates import Examination, Examined
+from continuum.discovery.decision import ALIKE, is_farther_by
 from continuum.discovery.designs import Design, designs
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import PRIOR
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values
-from continuum.discovery.output_error import DAMPING, OutputError
+from continuum.discovery.output_error import DAMPING, ENOUGH, OutputError
 from continuum.discovery.power import POWER, REFITS, powers
 from continuum.discovery.problem import Problem
 from continuum.discovery.result import Detectable, Experiment
@@ -31,7 +33,8 @@ from continuum.dynamics.trajectory import SimulationStatus
 from continuum.estimation.run import Run, Trajectory
 from continuum.recordings.recording import Recording
 
-_MOST = 3  # sets that are compared, the most probable
+_RIVALS = 2  # sets that are compared, the most probable
+_MOST_RUNS = 6  # that anybody repeats
 _BY_HAND = np.deg2rad(0.3)  # rad, to which a protractor shows an angle
 
 
@@ -46,21 +49,40 @@ def experiments(
         recordings: that were made.
         power: what they would have shown.
     """
-    hidden, rivals, out = {one.label for one in power if not one.is_shown}, sets[:_MOST], list[Experiment]()
+    hidden, rivals, out = {one.label for one in power if not one.is_shown}, sets[:_RIVALS], list[Experiment]()
+    gained = float(np.log(found.baseline.fit.error / rivals[0].fit.error))
+    library = with_library(found.problem, rivals[0].found).lin.library
     for design in designs(found.problem.structure.given, recordings):
         runs = [_simulated(found, one.fit, design) for one in rivals]
-        if any(run is None for run in runs):
-            continue
         made = [run for run in runs if run is not None]
-        tried = [
-            _Trial(found.judge, one.fit, run, design)
+        if len(made) < len(rivals):
+            continue
+        apart = [
+            _Trial(found.judge, one.fit, run, design).excess
             for i, one in enumerate(rivals) for k, run in enumerate(made) if i != k
         ]  # fmt: skip
-        separates = min((trial.distance for trial in tried), default=np.nan)
+        needed = [_runs_needed(one, len(recordings), ALIKE * gained) for one in apart]
         itself = _Trial(found.judge, rivals[0].fit, made[0], design)
-        shows = tuple(sorted(hidden & itself.shown(with_library(found.problem, rivals[0].found).lin.library)))
-        out.append(Experiment(design.name, design.instruction, float(separates), shows))
-    return tuple(sorted(out, key=lambda one: (-np.nan_to_num(one.separates), -len(one.shows))))
+        shows = tuple(sorted(hidden & itself.shown(library)))
+        separates = min((float(np.mean(one)) for one in apart), default=np.nan)
+        out.append(
+            Experiment(design.name, design.instruction, separates, max(needed) if all(needed) and needed else 0, shows)
+        )
+    return tuple(sorted(out, key=lambda one: (one.runs or np.inf, -np.nan_to_num(one.separates), -len(one.shows))))
+
+
+def _runs_needed(excess: Array, recordings: int, alike: float) -> int:
+    """Runs after which the decision excludes a set that errs by so much more in each segment of one; 0 for none.
+
+    The same t test, on as many segments as a diagnosis simulates, spread over all recordings; in those that were made
+    the sets err alike.
+    """
+    for count in range(1, _MOST_RUNS + 1):
+        new = round(ENOUGH * count / (recordings + count))
+        after = np.concatenate([np.zeros(ENOUGH - new), np.resize(excess, new)])
+        if is_farther_by(after, alike):
+            return count
+    return 0
 
 
 @dataclass(frozen=True)
@@ -127,12 +149,12 @@ class _Trial:
         )  # fmt: skip
 
     @property
-    def distance(self) -> float:
-        """Expected difference in log-likelihood; infinite where the set cannot simulate the run."""
+    def excess(self) -> Array:
+        """By how much the logarithm of the error in each segment is above the noise's, (segments,)."""
         fit, judge = self._fit, self._judge
         segments = judge.simulated(fit.unknowns, fit.values)
         if not all(np.isfinite(one.square) for one in segments):
-            return np.inf
+            return np.full(len(segments), np.inf)
         random, noisy = np.random.default_rng(0), segments
         for _ in range(REFITS):
             noise = [random.normal(0.0, judge.floor, one.readings.size) for one in noisy]
@@ -141,8 +163,7 @@ class _Trial:
             normal = NormalEquations(fit.unknowns, fit.values, segments, weights, judge.local_precision)
             left = normal.expected_residuals(normal.stepped(DAMPING))
             noisy = [one.with_residuals(r.ravel()) for one, r in zip(segments, left, strict=True)]
-        squares = np.array([np.mean(r**2) for r in left]) / judge.floor**2
-        return 0.5 * fit.observations * float(np.mean(np.log1p(squares)))
+        return 0.5 * np.log1p(np.array([np.mean(r**2) for r in left]) / judge.floor**2)
 
     def shown(self, library: Library) -> set[str]:
         """Labels of effects that the run would show at their typical sizes, of those whose size enters linearly."""

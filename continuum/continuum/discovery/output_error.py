@@ -29,7 +29,7 @@ from continuum.recordings.recording import Recording
 SEGMENT = 0.5
 """Length of a segment [s]: about a swing of an arm's slowest mode. What is wrong with the equations shows within it;
 in 2 s segments fits ended 1.5 to 4 times above the noise, by joints that came to rest elsewhere."""
-_ENOUGH = 16
+ENOUGH = 16
 """Segments that are simulated, spread evenly over all recordings, or two of each where these are many: the time of a
 fit does not grow with their length. What is a recording's own is tried on another of its segments."""
 _AT_REST = (-0.2, 0.3)
@@ -80,7 +80,7 @@ class OutputError:
         sd = np.concatenate([np.repeat(_BEGINNING, n), problem.noise.slow])
         self.local_precision = sd**-2.0
         cuts = [cut(run.times, SEGMENT) for run in problem.runs]
-        apart = max(1, round(sum(map(len, cuts)) / _ENOUGH))
+        apart = max(1, round(sum(map(len, cuts)) / ENOUGH))
         self._cuts = [rows[:: min(apart, max(1, len(rows) - 1))] for rows in cuts]  # two of each recording at least
 
     def around(self, problem: Problem) -> OutputError:

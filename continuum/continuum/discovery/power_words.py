@@ -33,7 +33,10 @@ def experiment_in_words(result: Diagnosis) -> str:
         return ""
     best = result.experiments[0]
     if len(result.sets) > 1 and is_named(result.verdict.kind):
-        return f"{best.name}. {best.instruction} It should tell the possible causes apart."
+        if not best.runs:
+            return "none of the usual runs tells the possible causes apart; do what is said above."
+        times = "" if best.runs == 1 else f" Do this {best.runs} times."
+        return f"{best.name}. {best.instruction}{times} It should tell the possible causes apart."
     if not best.shows:
         return f"{best.name}. {best.instruction}"
     return f"{best.name}. {best.instruction} It would show {', '.join(best.shows)}, which these recordings cannot."

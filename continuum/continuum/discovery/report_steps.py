@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from typing import Final, NamedTuple
 
-from continuum.discovery.decision import CHANCE, Kind, is_worth
+from continuum.discovery.decision import Kind
 from continuum.discovery.names import capital, effect_in_words, label_in_words, listed
-from continuum.discovery.quantities import number
 from continuum.discovery.result import Cause, Diagnosis, Experiment
 from continuum.discovery.words import MORE_RUNS
 from continuum.dynamics.effect_lookup import effect_named
-
-ENOUGH: Final = -math.log(CHANCE)
-"""Difference in log-likelihood from which an experiment separates explanations: more than chance gives."""
-
 
 _LISTED: Final = 4
 """Effects that the first screen lists."""
@@ -28,7 +22,7 @@ class Step(NamedTuple):
 
 
 class ExperimentRow(NamedTuple):
-    """An experiment, by how much log-likelihood it separates the explanations, and what else it shows."""
+    """An experiment, whether it separates the explanations, and what else it shows."""
 
     name: str
     instruction: str
@@ -50,8 +44,8 @@ def next_steps(result: Diagnosis) -> list[Step]:
         case Kind.CAUSE:
             return by_hand
         case Kind.AMBIGUOUS:
-            separating = [one for one in result.experiments if is_worth(one.separates, 1.0, effects=0)]
-            return [Step(one.instruction, "Tells the explanations apart.") for one in separating[:1]] + by_hand
+            separating = [one for one in result.experiments if one.runs]
+            return [Step(repeated(one), "Tells the explanations apart.") for one in separating[:1]] + by_hand
         case _:
             return [Step(MORE_RUNS, ""), *telling[:1]]
 
@@ -84,7 +78,12 @@ def experiment_rows(result: Diagnosis) -> list[ExperimentRow]:
 
 
 def _separates(one: Experiment) -> str:
-    return "beyond measure" if math.isinf(one.separates) else number(one.separates, 2)
+    return f"after {one.runs} run{'s' * (one.runs > 1)}" if one.runs else "no"
+
+
+def repeated(one: Experiment) -> str:
+    """The instruction, and how often."""
+    return one.instruction + (f" Do this {one.runs} times." if one.runs > 1 else "")
 
 
 def _in_doubt(result: Diagnosis) -> list[Cause]:

@@ -128,14 +128,16 @@ class Experiment:
     Attributes:
         name: a few words.
         instruction: what to do, one or two sentences for a mechanic.
-        separates: expected difference in log-likelihood between the possible sets that are hardest to tell apart; NaN
-            where there is one set only.
+        separates: expected difference in the logarithm of the open-loop error between the two likeliest sets; NaN where
+            there is one set only.
+        runs: such runs after which only one of them is expected to be possible; 0 where no number of runs does that.
         shows: labels of effects that these recordings cannot show at their typical sizes and this run would.
     """
 
     name: str
     instruction: str
     separates: float
+    runs: int
     shows: tuple[str, ...]
 
 

@@ -113,6 +113,7 @@ def _experiment(one: Experiment) -> dict[str, Any]:
         "name": one.name,
         "instruction": one.instruction,
         "separates": _number(one.separates),
+        "runs": one.runs or None,
         "shows": list(one.shows),
     }
 
