@@ -159,7 +159,7 @@ def test_a_mechanic_reads_no_ids(effect: str, kind: Kind, tmp_path: Path) -> Non
 def test_an_arm_that_lacks_a_name_for_an_effect_still_gets_words(tmp_path: Path) -> None:
     """Effects of other packages are shown without underscores."""
     result = diagnosis(Kind.ADEQUATE)
-    more = replace(result, experiments=(Experiment("foam", "Take the sleeve off.", np.nan, ("foam_sleeve@1,2",)),))
+    more = replace(result, experiments=(Experiment("foam", "Take the sleeve off.", np.nan, 0, ("foam_sleeve@1,2",)),))
     assert "foam sleeve at joints 1 and 2" in page_of(more, tmp_path).text("main.first")
 
 
@@ -247,8 +247,8 @@ def test_values_stand_with_start_unit_and_bounds(tmp_path: Path) -> None:
 
 
 def test_the_best_experiments_come_first(tmp_path: Path) -> None:
-    level = Experiment("long", "Hold the arm level and let go.", 12.0, ("joint_stiffness@1", "base_tilt"))
-    pull = Experiment("short", "Pull slowly.", 9.0, ())
+    level = Experiment("long", "Hold the arm level and let go.", 0.4, 1, ("joint_stiffness@1", "base_tilt"))
+    pull = Experiment("short", "Pull slowly.", 0.2, 3, ())
     page = page_of(replace(SETS["ambiguous"], experiments=(level, pull)), tmp_path)
     assert "Hold the arm level" in page.text("main.first")
     assert "Pull slowly" not in page.text("main.first")
@@ -260,7 +260,7 @@ def test_the_best_experiments_come_first(tmp_path: Path) -> None:
 
 def test_a_run_that_separates_nothing_is_not_asked_for(tmp_path: Path) -> None:
     """Two explanations that simulate alike are told apart by hand."""
-    in_vain = Experiment("vain", "Hold the arm level and let go.", 0.1, ())
+    in_vain = Experiment("vain", "Hold the arm level and let go.", 0.1, 0, ())
     text = page_of(replace(SETS["ambiguous"], experiments=(in_vain,)), tmp_path).text("main.first")
     assert "Hold the arm level" not in text
     assert effect_named("tip_payload").experiment in text

@@ -108,13 +108,9 @@ def main(out: Path, cases: int) -> None:
             found.append(one)
             with out.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(asdict(one)) + "\n")
-            print(
-                f"{len(found)}. {'separated' if one.separated else 'NOT'} {'' if one.kept else 'LOST'} {one}",
-                flush=True,
-            )
-    print(
-        f"separated: {sum(one.separated for one in found)} of {len(found)}; true set kept: {sum(one.kept for one in found)}"
-    )
+            print(f"{len(found)}. {'separated' if one.separated else 'not separated'}: {one}", flush=True)
+    separated, kept = sum(one.separated for one in found), sum(one.kept for one in found)
+    print(f"separated: {separated} of {len(found)}; true set kept: {kept}")
 
 
 if __name__ == "__main__":

@@ -88,7 +88,6 @@ def _details(result: Diagnosis) -> dict[str, Any]:
         "correlation": values.correlation_rows(result),
         "power": power.power_rows(result),
         "hidden": power.hidden_effects(result),
-        "enough": f"{steps.ENOUGH:.0f}",
         "experiments": steps.experiment_rows(result),
         "beware": words.lookalikes(result),
         "notes": [capital(with_names(note)).rstrip(".") + "." for note in result.notes],
