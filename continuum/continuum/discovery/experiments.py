@@ -23,7 +23,7 @@ from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values
 from continuum.discovery.output_error import DAMPING, ENOUGH, OutputError
 from continuum.discovery.power import POWER, REFITS, powers
-from continuum.discovery.problem import Problem
+from continuum.discovery.problem import Problem, ValueKey
 from continuum.discovery.result import Detectable, Experiment
 from continuum.discovery.search import with_library
 from continuum.discovery.unknowns import Unknown
@@ -111,7 +111,8 @@ def _simulated(found: Examination, fit: Fitted, design: Design) -> _Run | None:
     run, way = run_of(recording, s.given, with_rates=False), Trajectory(still, 0 * still, 0 * still, 0 * still)
     own = {key: (-1.0) ** k * _sd(problem, one, design) / PRIOR
            for k, one in enumerate(fit.unknowns.own[0]) for key in one.places}  # fmt: skip
-    state = replace(fit.state, own=(own,), ways=(way,))
+    shared = {key: value for key, value in fit.state.shared.items() if not _is_zeroed(problem, key, design)}
+    state = replace(fit.state, shared=shared, own=(own,), ways=(way,))
     judge = found.judge.along(replace(problem, runs=(run,)), (recording,))
     motion, readings = judge.motion(state, 0)
     if motion.status is not SimulationStatus.COMPLETE:
@@ -133,18 +134,21 @@ class _Trial:
     def __init__(self, judge: OutputError, fit: Fitted, made: _Run, design: Design) -> None:
         problem = judge.problem
         self._judge = judge.along(replace(problem, runs=(made.run,)), (made.recording,))
-        common = [
-            replace(one, mean=float(value), sd=float(sd))
-            for one, value, sd in zip(fit.unknowns.common, fit.values.common, fit.sd, strict=True)
-        ]
+        measured = np.array(
+            [any(_is_zeroed(problem, key, design) for key in one.places) for one in fit.unknowns.common]
+        )
+        values = np.where(measured, 0.0, fit.values.common)
+        sds = np.where(measured, [_sd(problem, one, design) for one in fit.unknowns.common], fit.sd)
+        known = zip(fit.unknowns.common, values, sds, strict=True)
+        common = [replace(one, mean=float(value), sd=float(sd)) for one, value, sd in known]
         own = [replace(one, mean=0.0, start=0.0, sd=_sd(problem, one, design)) for one in fit.unknowns.own[0]]
         state = replace(fit.state, own=({},), ways=(made.way,))
         none = np.zeros(len(self._judge.local_precision))
-        values = Values(fit.values.common, (np.zeros(len(own)),), (none,) * self._judge.segments)
+        start = Values(values, (np.zeros(len(own)),), (none,) * self._judge.segments)
         total = made.run.readings.size
         independent = fit.observations / sum(run.readings[:, : run.n].size for run in judge.problem.runs)
         self._fit = replace(
-            fit, state=state, unknowns=fit.unknowns.about(state, common, [own]), values=values,
+            fit, state=state, unknowns=fit.unknowns.about(state, common, [own]), values=start,
             errors=np.full(self._judge.segments, self._judge.floor), observations=min(1.0, independent) * total,
         )  # fmt: skip
 
@@ -171,13 +175,18 @@ class _Trial:
         return {one.hypothesis.label for one in found if one.probability(1.0) >= POWER}
 
 
+def _is_zeroed(problem: Problem, key: ValueKey, design: Design) -> bool:
+    """Whether a value is a zero or a drift of a sensor, and these are measured by hand."""
+    effect, name, _ = key
+    sensors = {one.name: one.parameters for one in problem.structure.sensors}
+    return design.zeroed and effect in sensors and sensors[effect][name].per_recording
+
+
 def _sd(problem: Problem, one: Unknown, design: Design) -> float:
     """Prior standard deviation of a value that the run has for itself; by hand a sensor's zero is known better."""
-    effects = {effect for effect, _, _ in one.places}
-    if not design.zeroed or not effects <= {sensor.name for sensor in problem.structure.sensors}:
-        return one.sd
-    specs = [sensor.parameters[name] for effect, name, _ in one.places
-             for sensor in problem.structure.sensors if sensor.name == effect]  # fmt: skip
+    if not any(_is_zeroed(problem, key, design) for key in one.places):
+        return float(one.sd)
+    effects = {effect.name: effect.parameters for effect in problem.structure.sensors}
+    is_drift = any(effects[effect][name].unit == "rad/s" for effect, name, _ in one.places)
     duration = float(design.times[-1] - design.times[0])
-    by_hand = _BY_HAND / duration if any(spec.unit == "rad/s" for spec in specs) else _BY_HAND
-    return float(min(one.sd, by_hand))
+    return float(min(one.sd, _BY_HAND / duration if is_drift else _BY_HAND))
