@@ -6,7 +6,7 @@ IN_WORKSPACE := source install/setup.bash &&
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-discovery \
-  bench-inertial bench-link bench-viewer fuzz prototype figures api check check-old format lock clean seeded-faults
+  bench-inertial bench-link bench-viewer fuzz prototype exams figures api check check-old format lock clean seeded-faults
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -72,6 +72,9 @@ bench-viewer: setup ## processor time of the viewer, latency of others beside it
 
 prototype: setup ## diagnose the real arm; overwrites docs/prototype.md unless ARGS="--out FOLDER"
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.prototype $(ARGS)
+
+exams: setup ## arms that nobody of this project made (3 minutes); overwrites docs/exams.md unless ARGS="--out FILE"
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.exams $(ARGS)
 
 figures: reproduction prototype ## make every picture of docs/pictures again, and with two of them their pages (5 minutes)
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.figures $(ARGS)

@@ -1,12 +1,14 @@
 """Recordings of the DFKI's double pendulum (../shared/data/double_pendulum) in the columns that `diagnose` reads.
 
     python3 -m tools.double_pendulum_csv run_00.csv pendulum_00.csv
+    python3 -m tools.double_pendulum_csv run_00.csv pendulum_00.csv --torque measured commanded
 
 Its tables have the time, angles and rates as they are read here, and two torques of each joint: ``tau_commanded_1_Nm``
 .. and ``tau_measured_1_Nm`` .., of the motors' currents. One of them becomes ``tau1_Nm`` .., unchanged, by default the
-measured one. It has the sign of the command, positive towards positive angles, and lags behind it by some 20 ms at
-joint 2. Its scale is that of newton metres: fitted to 0.4 s windows of run_00.csv with a scale of each torque free, the
-chain wants 0.97 of both, with Coulomb friction of 0.15 and 0.12 N m, which are its makers' 0.16 and 0.12.
+measured one; ``--torque`` names one for both joints, or one for each. The measured torque has the sign of the command,
+positive towards positive angles, and lags behind it by some 20 ms at joint 2. Its scale is that of newton metres:
+fitted to 0.4 s windows of run_00.csv with a scale of each torque free, the chain wants 0.97 of both, with Coulomb
+friction of 0.15 and 0.12 N m, which are its makers' 0.16 and 0.12.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from continuum.errors import ContinuumError, FileError
+from continuum.errors import ContinuumError, FileError, InvalidValueError
 from continuum.output_files import check_apart
 from continuum.recordings.motion_columns import TIME, torque_column
 from continuum.whole_file import write_table
@@ -27,14 +29,24 @@ KEPT = (TIME, "q1_rad", "q2_rad", "dq1_rad_s", "dq2_rad_s")
 TORQUES = ("measured", "commanded")
 
 
-def convert(source: Path, target: Path, torque: str = TORQUES[0]) -> None:
-    """Write the table ``source`` as a recording, with the ``measured`` or the ``commanded`` torques.
+def convert(source: Path, target: Path, torques: Sequence[str] = TORQUES[:1]) -> None:
+    """Write the table ``source`` as a recording.
+
+    Args:
+        source, target: files.
+        torques: ``measured`` or ``commanded``, one for both joints or one for each.
 
     Raises:
+        InvalidValueError: other torques, or as many as fit no joints.
         FileError: the source cannot be read or lacks a column, or the target cannot be written.
     """
+    if len(torques) not in (1, len(JOINTS)) or not set(torques) <= set(TORQUES):
+        allowed = f"{' or '.join(TORQUES)}, one for both joints or one for each"
+        raise InvalidValueError("torque", " ".join(torques), allowed)
     check_apart([target], [source])
-    names = dict(zip(KEPT, KEPT, strict=True)) | {f"tau_{torque}_{j}_Nm": torque_column(j) for j in JOINTS}
+    of_joints = torques if len(torques) > 1 else [*torques] * len(JOINTS)
+    names = dict(zip(KEPT, KEPT, strict=True))
+    names |= {f"tau_{torque}_{j}_Nm": torque_column(j) for j, torque in zip(JOINTS, of_joints, strict=True)}
     try:
         with source.open(newline="", encoding="utf-8-sig") as file:
             rows = list(csv.DictReader(file))
@@ -53,7 +65,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
     parser.add_argument("source", type=Path, help="table of the double pendulum")
     parser.add_argument("target", type=Path, help="recording to be written")
-    parser.add_argument("--torque", choices=TORQUES, default=TORQUES[0], help="which torques; default %(default)s")
+    parser.add_argument(
+        "--torque", choices=TORQUES, default=TORQUES[:1], nargs="+",
+        help=f"which torques, one for both joints or one for each; default {TORQUES[0]}",
+    )  # fmt: skip
     options = parser.parse_args(arguments)
     try:
         convert(options.source, options.target, options.torque)

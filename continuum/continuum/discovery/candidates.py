@@ -169,6 +169,7 @@ class _Fits:
             best = self.nearest
             self._refit_baseline()
             if best is self.nearest:
+                self._add_parts(best, missing=True)
                 self._exchange(best)
         self._settle()
 

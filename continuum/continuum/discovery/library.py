@@ -55,8 +55,7 @@ class Library:
         lacks_friction: bool = False,
     ) -> None:
         self.structure, self.active, self.ratio = structure, active, ratio
-        self.columns, self.width = list[Column](), 0
-        self.hypotheses: list[Hypothesis] = []
+        self.columns, self.width, self.hypotheses = list[Column](), 0, list[Hypothesis]()
         self.at: dict[tuple[str, str, int], int] = {}  # columns of values, by effect, parameter and joint
         self.torque_only: dict[str, int] = {}  # columns of torque that no value holds, by name
         self.held: list[int] = []  # columns of effects with states that are in the nominal motion
