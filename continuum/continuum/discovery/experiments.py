@@ -33,7 +33,6 @@ from continuum.dynamics.trajectory import SimulationStatus
 from continuum.estimation.run import Run, Trajectory
 from continuum.recordings.recording import Recording
 
-_RIVALS = 2  # sets that are compared, the most probable
 _MOST_RUNS = 6  # that anybody repeats
 _BY_HAND = np.deg2rad(0.3)  # rad, to which a protractor shows an angle
 
@@ -49,7 +48,7 @@ def experiments(
         recordings: that were made.
         power: what they would have shown.
     """
-    hidden, rivals, out = {one.label for one in power if not one.is_shown}, sets[:_RIVALS], list[Experiment]()
+    hidden, rivals, out = {one.label for one in power if not one.is_shown}, _rivals(sets), list[Experiment]()
     gained = float(np.log(found.baseline.fit.error / rivals[0].fit.error))
     library = with_library(found.problem, rivals[0].found).lin.library
     for design in designs(found.problem.structure.given, recordings):
@@ -69,6 +68,13 @@ def experiments(
             Experiment(design.name, design.instruction, separates, max(needed) if all(needed) and needed else 0, shows)
         )
     return tuple(sorted(out, key=lambda one: (one.runs or np.inf, -np.nan_to_num(one.separates), -len(one.shows))))
+
+
+def _rivals(sets: Sequence[Examined]) -> Sequence[Examined]:
+    """The likeliest set, and the likeliest of other effects than its: where an effect acts matters less than which."""
+    best, *others = sets
+    effects = {h.effect for h in best.found.chosen}
+    return [best, *sorted(others, key=lambda one: {h.effect for h in one.found.chosen} == effects)[:1]]
 
 
 def _runs_needed(excess: Array, recordings: int, alike: float) -> int:
