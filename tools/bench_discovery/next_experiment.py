@@ -41,7 +41,7 @@ class Separation:
         experiment: that was proposed and made; empty where none was.
         runs: of it that were proposed, 0 where it is not expected to separate; one is made then.
         expected: difference in the logarithm of the error.
-        separated: whether the two likeliest sets are no longer both possible.
+        separated: whether the likeliest set and its rival are no longer both possible.
         kept: whether the true set, where it was possible, still is, or is named.
     """
 
@@ -73,7 +73,7 @@ def separation(plan: Plan) -> Separation | None:
             recordings.append(read_recording(str(further)))
         second = diagnose(recordings, model, with_power=False)
     before, after = _labels(first), _labels(second)
-    both = set(before[:2]) <= set(after)
+    both = set(_rivals(first)) <= set(after)
     return Separation(
         str(plan), before, after, best.name, best.runs, best.separates, not both and bool(second.verdict.sets),
         not _holds(first, hidden) or _holds(second, hidden),
@@ -88,6 +88,14 @@ def _made(plan: Plan, truth: plant.case.Truth, design: Design, number: int) -> b
         noises, steps = moreau.case.NOISES, moreau.machine.STEPS
         return further_run(truth, wanted, number, moreau.Machine, noises, rates=False, steps=steps)
     return further_run(truth, wanted, number)
+
+
+def _rivals(result: Diagnosis) -> list[str]:
+    """Labels of the likeliest set and of the likeliest of other effects, which an experiment is to separate."""
+    effects = [{cause.effect for cause in causes} for causes in result.sets]
+    other = next((k for k, names in enumerate(effects) if names != effects[0]), 1)
+    labels = _labels(result)
+    return [labels[0], labels[other]]
 
 
 def _labels(result: Diagnosis) -> list[str]:
