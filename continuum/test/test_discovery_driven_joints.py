@@ -91,3 +91,40 @@ def test_one_late_sensor_is_named_at_its_joint() -> None:
     result, values = answer(swings(model, late=0.01), model, "angle_offset", "gyro_drift", "sensor_delay")
     assert labels(result) == [["sensor_delay@2"]]
     assert values["sensor_delay.lag[2]"] == pytest.approx(0.01, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"coulomb_friction": [0.16, 0.0], "viscous_friction": [0.02, 0.0]},
+        {"coulomb_friction": 0.0, "viscous_friction": [0.03, 0.0]},
+        {"stiffness": [0.0, 0.5], **RUBBING},
+    ],
+    ids=["friction at one joint", "viscous friction at one joint", "a spring at one joint"],
+)
+def test_a_file_that_is_right_is_adequate_whatever_its_joints_lack(values: dict[str, object]) -> None:
+    model = pendulum(**values)
+    result, _ = answer(swings(model), model, "inertia", "sensor_cable", "joint_friction")
+    assert result.verdict.kind.value == "adequate"
+
+
+def test_of_two_joints_one_rubs_more_or_the_other_less() -> None:
+    """After releases of two joints, common friction three times as large with a third at joint 1 is the same."""
+    given = pendulum(coulomb_friction=[0.04, 0.04], viscous_friction=[0.01, 0.01])
+    stiff = given.with_values({"coulomb_friction": [0.04, 0.12], "viscous_friction": [0.01, 0.03]})
+    random, recordings = np.random.default_rng(3), list[Recording]()
+    for number, start in enumerate(([0.9, 0.3], [-0.5, 0.8], [0.4, -1.0])):
+        moved = Simulator(stiff).run(np.array(start), TIMES)
+        recordings.append(Recording(f"run {number}", TIMES, moved.theta + NOISE * random.standard_normal((360, 2))))
+    result, _ = answer(recordings, given, "joint_friction", "inertia")
+    assert sorted(labels(result)) == [["joint_friction@1"], ["joint_friction@2"]]
+
+
+def test_a_last_link_that_is_a_lighter_point_mass_is_named() -> None:
+    """A weight at its tip would be the same, but weighs more than nothing."""
+    given = pendulum(mass=[0.5, 0.3], center_of_mass=[0.3, 0.2], inertia=[1e-4, 0.0], **RUBBING)
+    result, values = answer(
+        swings(given.with_values({"mass": [0.5, 0.24]})), given, "inertia", "tip_payload", "rotor_inertia"
+    )
+    assert ["inertia@2"] in labels(result)
+    assert values["inertia.mass[2]"] == pytest.approx(-0.2, abs=0.03)

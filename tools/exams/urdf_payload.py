@@ -139,7 +139,7 @@ def section(seeds: Sequence[int] = SEEDS) -> str:
             f"The payload is named in {right} of {len(answers)} cases, alone in {alone}. The 95 % interval holds the",
             f"true mass in {held} of {len(masses)}. In {more} of {len(answers)} the diagnosis says that something",
             "more is missing (last column but one), though nothing else is hidden. The last row is the arm of",
-            "the first seed without a payload. Times are the processor's; the first includes what is compiled or loaded",
+            "the first seed without a payload. Times are the processor's; the first has what is compiled or loaded",
             "once. Errors are those of open-loop simulations of half a second, of the refitted and the extended model.",
         ),
         table(

@@ -137,7 +137,9 @@ def show(result: Diagnosis) -> None:
     print(f"{result.verdict.kind.value.upper()}\n\n{verdict_in_words(result)}\n")
     if result.verdict.kind is Kind.AMBIGUOUS:
         for causes, p in zip(result.sets, result.verdict.probabilities, strict=True):
-            print(f"may be: {' and '.join(cause.label for cause in causes) or 'nothing'}   probability {p:.2f}")
+            print(
+                f"may be: {' and '.join(cause.label for cause in causes) or 'nothing'}   relative fit {100 * p:.0f} %"
+            )
         print()
     estimates = [*(one for cause in result.causes for one in cause.estimates), *result.estimates]
     print_pairs([("parameter", "value, 95 % interval"), *((str(one), estimate_in_words(one)) for one in estimates)])

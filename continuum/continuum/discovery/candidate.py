@@ -35,6 +35,7 @@ class Candidate:
         observations: residuals that are independent of each other, their number.
         occam: what values that each recording has for itself cost, as `Fitted.occam`.
         values: what its effects change; another's whose effects change less of these is nested in it.
+        departure: minus the logarithm of the prior density of the common values, less a constant.
         agreement: probability that segments disagree as much about the effects' sizes, where these are constant.
     """
 
@@ -44,6 +45,7 @@ class Candidate:
     occam: float = 0.0
     values: frozenset[object] = frozenset()
     agreement: float = 1.0
+    departure: float = 0.0
 
     @property
     def completed(self) -> bool:

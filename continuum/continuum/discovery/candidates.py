@@ -12,6 +12,7 @@ from continuum.discovery.baseline import fitted_baseline, has_tension, problem_o
 from continuum.discovery.candidate import Candidate
 from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_needless, is_probable, is_worth
 from continuum.discovery.fitted import Fitted
+from continuum.discovery.mirrored import mirrored
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem, linearise
 from continuum.discovery.score_test import Promise, promises
@@ -36,6 +37,9 @@ def silent(_what: str, _share: float) -> None:
     """Tell nobody of progress."""
 
 
+_TWO = 2  # joints, of which neither is the ordinary one
+
+
 @dataclass(frozen=True)
 class Examined:
     """A candidate with where the search left it.
@@ -53,7 +57,7 @@ class Examined:
         """For the decision."""
         fit = self.fit
         effects = tuple(h.key for h in self.found.chosen)
-        return Candidate(effects, fit.errors, fit.observations, fit.occam, fit.of_effects, fit.agreement)
+        return Candidate(effects, fit.errors, fit.observations, fit.occam, fit.of_effects, fit.agreement, fit.departure)
 
 
 @dataclass(frozen=True)
@@ -170,6 +174,7 @@ class _Fits:
             self._refit_baseline()
             if best is self.nearest:
                 self._add_parts(best, missing=True)
+                self._mirror(best)
                 self._exchange(best)
         self._settle()
 
@@ -201,6 +206,14 @@ class _Fits:
         for one in with_unseen(self._problem, found) if stays else []:
             self._progress(f"simulating with {one.label}", 0.7)
             self._try(one, about)
+
+    def _mirror(self, best: Examined) -> None:
+        """Of two joints, fit the other one: that one rubs less is that the other rubs more than all others."""
+        for one in best.found.chosen if self._problem.structure.n == _TWO else ():
+            twin = mirrored(best.fit, one, best.found.lin.library, self._problem.coordinates)
+            if twin is not None:
+                found = Found(best.found.lin, (*(h for h in best.found.chosen if h is not one), twin[0]))
+                self._keep(found, self.judge.fit(found, [twin[1]]))
 
     def _exchange(self, best: Examined) -> None:
         """Fit sets in which another effect stands for one of the best set's, by sensitivities about that set."""

@@ -30,6 +30,7 @@ _PRIOR = {"stiffness": 0.5, "viscous": 1.0, "coulomb": 0.6, "stribeck": 1.0, "sp
 _SHAPE_PRIOR = 0.33
 _FAR = 10.0  # times more or less than expected: such a value of a model file is not believed
 _LEAST = 0.02  # part of its reference below which no mass, inertia or spring is a body's
+_ALMOST_NONE = 1e-3  # part of the mean friction that a joint has at least, so that it can be divided by
 _NONE = 1e-6  # part of its reference that counts as no Coulomb friction: Stribeck's torque is a multiple of it
 _SPEED = (-0.8, 4.0)  # least and largest relative change of Stribeck's rate: beyond, its curve is another term
 _ROUNDING = 1e-6  # part of a torque below which it is the rounding of a solution
@@ -132,7 +133,8 @@ class Coordinates:
             if name not in now:
                 found.append(_SPEED)
                 continue
-            least = -now[name] / self.steps[name]
+            moved = self.steps[name] > 0
+            least = np.where(moved, -now[name] / np.where(moved, self.steps[name], 1.0), -np.inf)
             found.append((float(least[joint] if joint >= 0 else np.max(least)), np.inf))
         return found
 
@@ -161,19 +163,14 @@ class Coordinates:
         return out
 
     @cached_property
-    def by_parameters(self) -> Array:
-        """Derivatives of the torque by all parameters in motions drawn at random, (rows, n_p)."""
+    def covered(self) -> frozenset[str]:
+        """Parameters whose change alike at all joints changes the torque as some of the coordinates do."""
         s, random = self.structure, np.random.default_rng(0)
         rows = 8 * len(self.all)
         motion, u = random.normal(size=(rows, 3, s.n)), random.uniform(size=(rows, s.equations.n_inputs))
         given = packed(motion, u, motion[:, 1], self.reference)
         by_p = evaluate(s.equations.by_parameters, given, s.n * (1 + s.equations.n_p))[:, s.n :]
-        return by_p.reshape(rows, s.equations.n_p, s.n).transpose(0, 2, 1).reshape(-1, s.equations.n_p)
-
-    @cached_property
-    def covered(self) -> frozenset[str]:
-        """Parameters whose change alike at all joints changes the torque as some of the coordinates do."""
-        s, by_p = self.structure, self.by_parameters
+        by_p = by_p.reshape(rows, s.equations.n_p, s.n).transpose(0, 2, 1).reshape(-1, s.equations.n_p)
         coordinates = by_p @ np.column_stack([self._direction(one, self.reference) for one in self.all])
         found = []
         for name, slot in s.slots.items():
@@ -255,7 +252,8 @@ def coordinates(structure: Structure, runs: Sequence[Run]) -> Coordinates:
 def _reference(p: Array, slot: slice, expected: float) -> Array:
     """Put plausible values into p; the change by one unit, in the same pattern over the joints."""
     mean = float(np.mean(p[slot]))
-    if not expected / _FAR < mean < expected * _FAR or np.any(p[slot] <= 0):
+    if not expected / _FAR < mean < expected * _FAR:
         p[slot] = expected
+    p[slot] = np.maximum(p[slot], _ALMOST_NONE * np.mean(p[slot]))
     pattern = p[slot] / np.mean(p[slot])
     return np.asarray(pattern * max(float(np.mean(p[slot])), expected))

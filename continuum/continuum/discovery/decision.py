@@ -44,7 +44,8 @@ class Verdict:
 
     Attributes:
         kind: of the verdict.
-        sets: of effects that the data leave possible, the best first; empty where unknown.
+        sets: of effects that the data leave possible, the nearest first, of ties what is more usual; empty where
+            unknown.
         probabilities: of these among each other.
         complete: whether nothing that matters stays unknown.
         steady: whether segments agree about the sizes of the first set's effects.
@@ -95,8 +96,11 @@ def decide(
         return Verdict(Kind.UNKNOWN, (), (), False, helps=probable[0].effects if probable else ())
     best = possible[0]
     sets = [one for one in probable if one is best or not is_farther(one, best, alike)]
-    weights = np.array([exp(-max(log_error(one) - log_error(best), 0.0) / max(alike, 1e-9)) for one in sets])
+    farther = {id(one): max(log_error(one) - log_error(best), 0.0) / max(alike, 1e-9) for one in sets}
+    sets.sort(key=lambda one: (round(farther[id(one)], 1), one.departure))  # of those that tie, what is more usual
+    weights = np.array([exp(-farther[id(one)]) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
+    best = sets[0]
     steady = best.agreement > CHANCE
     complete = best.error < (1 + ALIKE) * floor and steady
     kind = Kind.AMBIGUOUS if len(sets) > 1 else Kind.CAUSE

@@ -17,13 +17,12 @@ from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.joint_torques import JointTorques, no_torques
 from continuum.dynamics.model import Model
 from continuum.dynamics.pulled_posture import pulled_posture
-from continuum.dynamics.tensions import Tensions, slack
+from continuum.dynamics.tensions import LET_GO, Tensions, slack
 from continuum.errors import InvalidValueError
 from continuum.recordings.recording import Recording
 
 RATE = 120.0  # readings a second, the prototype's
 _SECONDS = 3.0
-_STRAIGHT = 0.02  # rad, of the sum of joint angles, below which an arm hangs
 _SINES = np.geomspace(0.3, 3.5, 6)  # Hz, from slower to faster than an arm swings
 
 
@@ -67,10 +66,10 @@ def designs(model: Model, recordings: Sequence[Recording]) -> list[Design]:
 
 
 def _release(model: Model, recordings: Sequence[Recording], times: Array) -> Design:
-    """From the side to which the arm was bent less, as far as it was on the other."""
-    bends = np.array([float(np.sum(one.theta[0])) for one in recordings])
-    far = max(float(np.max(np.abs(bends))), np.pi / 3)
-    side = -1.0 if np.sum(bends) > _STRAIGHT else 1.0
+    """From the other side than that to which it was bent most, as far as it was there."""
+    bends = np.concatenate([np.sum(one.theta, axis=1) for one in recordings])
+    far, most = float(np.max(np.abs(bends))), bends[np.argmax(np.abs(bends))]
+    side = -1.0 if most > 0 else 1.0
     posture = np.full(model.n_joints, side * far / model.n_joints)
     if model.inputs is InputKind.CABLES:
         with contextlib.suppress(InvalidValueError):  # no cable holds it there, but hands do
@@ -88,55 +87,59 @@ def _side(sign: float) -> str:
 
 
 def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iterator[tuple[str, str, InputSignal]]:
-    """Commands that hold from row to row."""
+    """Commands that hold from row to row; none where nothing is known of what the arm bears."""
     most, n = _largest(model, recordings), model.n_inputs
+    if not np.any(most > 0):
+        return
     share = times / times[-1]
     triangle = np.interp(share, [0, 0.25, 0.5, 0.75, 1], [0, 1, 0, -1, 0])
     wave = np.sum(np.sin(2 * np.pi * np.outer(times, _SINES) + np.arange(_SINES.size) ** 2), axis=1)
     wave *= np.minimum(1, times / 0.2) / np.max(np.abs(wave))
     if model.inputs is InputKind.CABLES:
+        top = float(np.max(most))
         pair = np.column_stack([np.maximum(triangle, 0), np.maximum(-triangle, 0)])
         yield (
             "slow pull of one cable, then of the other",
-            f"Pull cable 1 slowly to {most:.0f} N and let it down again, then cable 2, {times[-1]:.0f} s in all.",
-            Tensions(times, most * pair, held=True),
+            f"Pull cable 1 slowly to {top:.0f} N and let it down again, then cable 2, {times[-1]:.0f} s in all.",
+            Tensions(times, top * pair, held=True),
         )
-        both = most * np.interp(share, [0, 0.5, 1], [0.1, 1, 0.1])[:, None] + most / 3 * np.column_stack([wave, -wave])
+        both = np.interp(share, [0, 0.5, 1], [0.07, 0.67, 0.07])[:, None] + np.column_stack([wave, -wave]) / 3
         yield (
             "co-contraction",
-            f"Tighten both cables together to {most:.0f} N and back while their difference swings.",
-            Tensions(times, np.maximum(both, 0.0), held=True),
+            f"Tighten both cables together, and let down again, while their difference swings; {top:.0f} N at most.",
+            Tensions(times, top * np.maximum(both, 0.0), held=True),
         )
-        sines = most * np.column_stack([np.maximum(wave, 0), np.maximum(-wave, 0)])
         yield (
             "multisine",
-            f"Drive the cables in turn with a sum of sines from 0.3 to 3.5 Hz up to {most:.0f} N.",
-            Tensions(times, sines, held=True),
+            f"Drive the cables in turn with a sum of sines from 0.3 to 3.5 Hz up to {top:.0f} N.",
+            Tensions(times, top * np.column_stack([np.maximum(wave, 0), np.maximum(-wave, 0)]), held=True),
         )
         return
-    ramps, sines = np.zeros((times.size, n)), np.zeros((times.size, n))
-    for j in range(n):
-        ramps[:, j] = most * np.interp(n * share - j, [0, 0.25, 0.5, 0.75, 1], [0, 1, 0, -1, 0])
-        sines[:, j] = most * np.roll(wave, 7 * j)
+    turns = np.column_stack([np.interp(n * share - j, [0, 0.25, 0.5, 0.75, 1], [0, 1, 0, -1, 0]) for j in range(n)])
+    waves = np.column_stack([np.roll(wave, 7 * j) for j in range(n)])
+    limits = ", ".join(f"{torque:.2g}" for torque in most)
     yield (
         "slow torque at one joint after the other",
-        f"Raise the torque of each joint slowly to {most:.2g} N m and back, to both sides, one joint after the other.",
-        JointTorques(times, ramps, held=True),
+        f"Raise the torque of one joint after the other slowly and back, to both sides, up to {limits} N m.",
+        JointTorques(times, most * turns, held=True),
     )
     yield (
         "multisine of all drives",
-        f"Drive all joints at once with sums of sines from 0.3 to 3.5 Hz up to {most:.2g} N m.",
-        JointTorques(times, sines, held=True),
+        f"Drive all joints at once with sums of sines from 0.3 to 3.5 Hz up to {limits} N m.",
+        JointTorques(times, most * waves, held=True),
     )
 
 
-def _largest(model: Model, recordings: Sequence[Recording]) -> float:
-    """Largest input so far; where there was none, what the weight of the arm makes of it [N or N m]."""
-    most = max((float(np.max(one.inputs_for(model).values)) for one in recordings), default=0.0)
-    if most > 0:
-        return most
-    p = model.parameters
-    weight = float(np.sum(p.mass) * np.max(p.gravity))
-    lever = float(np.sum(p.joint_spacing)) / 2 if p.hole_radius is None else float(np.sum(p.joint_spacing) / 2)
-    torque = weight * lever / 2
-    return torque if p.hole_radius is None else torque / float(np.max(p.hole_radius))
+def _largest(model: Model, recordings: Sequence[Recording]) -> Array:
+    """Largest input of each cable or joint so far, (n_inputs,) [N or N m].
+
+    Where no cable's tension was recorded, what holds the arm bent as far as it was.
+    """
+    most = np.max([np.max(np.abs(one.inputs_for(model).values), axis=0) for one in recordings], axis=0)
+    if model.inputs is not InputKind.CABLES or np.any(most > -LET_GO):
+        return np.asarray(most)
+    far = max((float(np.max(np.abs(np.sum(one.theta, axis=1)))) for one in recordings), default=0.0)
+    try:
+        return pulled_posture(model, far).tension
+    except InvalidValueError:
+        return np.zeros(model.n_inputs)

@@ -50,8 +50,10 @@ def _is_size(name: str, h: Hypothesis) -> bool:
 def _reason(one: Power, smallest: float) -> str:
     if smallest <= 1:
         return ""
+    if not one.changes > 0:
+        return "It changes nothing in these recordings."
     if one.changes < 1:
-        return f"Its typical size changes the readings by {one.changes:.2g} times their noise only."
+        return f"Its typical size changes the readings by {one.changes:.2g} times what the simulation errs by only."
     if one.kept < _MOSTLY:
         taken = 100 * (1 - one.kept)
         return f"{taken:.0f} % of what it changes looks like other springs, friction, masses or sensors' zeros."

@@ -60,8 +60,8 @@ def diagnose(
     answer, best = _answer(found, recordings, model, tolerance)
     if with_power:
         progress("power of the recordings", 0.7)
-        known = _powers(found, best)
-        power = detectable(found.problem, known)
+        named = {key for one in (*answer.verdict.sets, answer.verdict.helps) for key in one}
+        power = detectable(found.problem, [one for one in _powers(found, best) if one.hypothesis.key not in named])
         progress("next experiment", 0.85)
         by_key = {one.found.key: one for one in (found.baseline, *found.others)}
         sets = [by_key[frozenset(key)] for key in answer.verdict.sets] or [best]
@@ -107,9 +107,10 @@ def _answer(
 
 
 def _powers(found: Examination, best: Examined) -> list[Power]:
-    """About the best set, whose errors are taken for the noise."""
+    """About the best set; what it errs by, or the sensors do, is taken for the noise."""
     library = with_library(found.problem, best.found).lin.library
-    return powers(found.judge, best.fit, best.fit.errors, library, found.baseline.fit)
+    noise = np.maximum(best.fit.errors, found.judge.floor)
+    return powers(found.judge, best.fit, noise, library, found.baseline.fit) if best.fit.completed else []
 
 
 def _share(found: Examination, one: Examined) -> Share:
@@ -151,9 +152,6 @@ def _notes(recordings: Sequence[Recording], found: Examination, best: Examined) 
     local = sorted({h.effect for h in best.found.chosen if h.local})
     if local:
         notes.append(f"{', '.join(local)}: each recording has its own value, which a model file leaves at zero")
-    for h in best.found.chosen:
-        if others := found.baseline.found.lin.library.same.get(h.label):
-            notes.append(f"{h.label}: to any recording the same as {' or '.join(others)}")
     return tuple(notes)
 
 

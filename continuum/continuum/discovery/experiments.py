@@ -62,7 +62,7 @@ def experiments(
         ]  # fmt: skip
         needed = [_runs_needed(one, len(recordings), ALIKE * gained) for one in apart]
         itself = _Trial(found.judge, rivals[0].fit, made[0], design)
-        shows = tuple(sorted(hidden & itself.shown(library)))
+        shows = tuple(sorted(itself.shown(library, hidden)))
         separates = min((float(np.mean(one)) for one in apart), default=np.nan)
         out.append(
             Experiment(design.name, design.instruction, separates, max(needed) if all(needed) and needed else 0, shows)
@@ -175,9 +175,9 @@ class _Trial:
             noisy = [one.with_residuals(r.ravel()) for one, r in zip(segments, left, strict=True)]
         return 0.5 * np.log1p(np.array([np.mean(r**2) for r in left]) / judge.floor**2)
 
-    def shown(self, library: Library) -> set[str]:
+    def shown(self, library: Library, hidden: set[str]) -> set[str]:
         """Labels of effects that the run would show at their typical sizes, of those whose size enters linearly."""
-        found = powers(self._judge, self._fit, self._fit.errors, library, linear_only=True)
+        found = powers(self._judge, self._fit, self._fit.errors, library, linear_only=True, only=hidden)
         return {one.hypothesis.label for one in found if one.probability(1.0) >= POWER}
 
 

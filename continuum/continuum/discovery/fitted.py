@@ -76,6 +76,12 @@ class Fitted:
         return float(sum(max(0.0, np.log(prior / sd)) for prior, sd in pairs)) if self.completed else 0.0
 
     @property
+    def departure(self) -> float:
+        """Minus the logarithm of the prior density of the common values, less a constant: how unusual they are."""
+        pairs = zip(self.unknowns.common, self.values.common, strict=True)
+        return 0.5 * float(sum(((value - one.mean) / one.sd) ** 2 for one, value in pairs))
+
+    @property
     def completed(self) -> bool:
         """Whether it can be simulated."""
         return bool(np.all(np.isfinite(self.errors)))

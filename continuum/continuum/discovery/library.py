@@ -8,7 +8,6 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.coordinates import Coordinate
-from continuum.discovery.distinct import distinct
 from continuum.discovery.hypotheses import (
     GRID,
     ORDINARY,
@@ -38,7 +37,6 @@ class Library:
         ratio: by which their values are changed for differences.
         baseline: columns that every hypothesis has, by coordinate or name.
         covered: parameters that these change as well where they change alike at all joints.
-        by_parameters: derivatives of the torque in motions drawn at random, (rows, n_p).
         live: effects that have hypotheses; all without.
         lacks_friction: whether friction is a hypothesis, as `friction_of_all`.
     """
@@ -50,7 +48,6 @@ class Library:
         ratio: float,
         baseline: Sequence[tuple[Coordinate | str, Column]],
         covered: Collection[str],
-        by_parameters: Array,
         live: Collection[str] | None = None,
         lacks_friction: bool = False,
     ) -> None:
@@ -79,7 +76,6 @@ class Library:
                 self._stateful(effect)
             else:
                 self._plain(effect)
-        self.hypotheses, self.same = distinct(self.hypotheses, self.columns, by_parameters)
 
     def _add(self, column: Column) -> int:
         """Append columns; the first one's index."""

@@ -9,7 +9,7 @@ the open-loop sensitivity of an effect whose size enters linearly, and what its 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import log1p, sqrt
@@ -32,9 +32,11 @@ POWER = 0.8
 """Probability of being named at the size that is stated (Cohen, Statistical Power Analysis, 1988)."""
 _SIZES = np.geomspace(1e-2, 30.0, 64)
 """Typical sizes that are tried, 14 % from one to the next; what only shows beyond is not tested by these recordings."""
-REFITS = 2  # of the baseline to a change, each with the weights that the one before leaves
-TRIED = (1.0, 4.0)
-"""Typical sizes for which the baseline is refitted."""
+_EVERY = 2  # which segments are simulated with an effect that is not linear; the next ones are taken to change as much
+REFITS = 2  # of the baseline to a change at most, each with the weights that the one before leaves
+_SETTLED = 0.1  # relative change of what stays, below which there is no further one
+_SMALL, _LARGE = 0.3, 4.0
+"""Multiples of the typical size for which the baseline is refitted besides: the side on which the answer lies."""
 _REPEATS = 100
 """Repeated experiments: 80 % is then known to 4 %."""
 
@@ -46,7 +48,8 @@ class Power:
     Attributes:
         hypothesis: which.
         changes: root mean square change of the readings by its typical size, in units of the noise.
-        left: what a refit leaves of a change by TRIED typical sizes, by that size, (2, segments) [noise].
+        tried: two of the typical size's multiples, rising.
+        left: what a refit leaves of a change by these, over the multiple, (2, segments) [noise].
         noise: in each segment, (segments,) [rad].
         floor: of an error, by the sensors' noise [rad].
         observations: residuals that are independent, their number.
@@ -55,6 +58,7 @@ class Power:
 
     hypothesis: Hypothesis
     changes: float
+    tried: tuple[float, float]
     left: Array
     noise: Array
     floor: float
@@ -64,12 +68,12 @@ class Power:
     @property
     def kept(self) -> float:
         """Part of what it changes that a refit of springs, friction and inertia leaves, 0 to 1."""
-        return _size(self.left[0]) / self.changes if self.changes > 0 else 0.0
+        return _size(self._changed(1.0)) / self.changes if self.changes > 0 else 0.0
 
     def probability(self, size: float) -> float:
         """Of being named at a size in typical ones."""
         chance = self._draws
-        x, each = size * self._left_at(size), self.observations / len(self.noise)
+        x, each = self._changed(size), self.observations / len(self.noise)
         with_effect = np.sqrt(np.maximum(chance.squares, 1e-12))
         without = np.sqrt(np.maximum(chance.squares + x**2 + 2 * x * chance.products / sqrt(each), 1e-12))
         errors, baseline = self.noise * with_effect, self.noise * without
@@ -80,10 +84,16 @@ class Power:
         explains = closed_share(baseline, errors, noise)[1] > LEAST_SHARE
         return float(np.mean(worth & explains & (mean_error(baseline) > self.floor)))
 
-    def _left_at(self, size: float) -> Array:
-        """What a refit, which has bounds, leaves at a size, by that size, (segments,) [noise]."""
-        share = float(np.clip(np.log(size / TRIED[0]) / np.log(TRIED[1] / TRIED[0]), 0.0, 1.0))
-        return np.asarray((1 - share) * self.left[0] + share * self.left[1])
+    def _changed(self, size: float) -> Array:
+        """What a refit, which has bounds, leaves of a size; never less of a larger one, (segments,) [noise]."""
+        low, high = self.tried
+        at_low = low * self.left[0]
+        at_high = np.maximum(high * self.left[1], at_low)
+        if size <= low:
+            return np.asarray(size / low * at_low)
+        if size >= high:
+            return np.asarray(size / high * at_high)
+        return np.asarray(at_low + (size - low) / (high - low) * (at_high - at_low))
 
     @cached_property
     def _draws(self) -> _Draws:
@@ -118,6 +128,7 @@ def powers(
     library: Library,
     about: Fitted | None = None,
     linear_only: bool = False,
+    only: Collection[str] | None = None,
 ) -> list[Power]:
     """Of each hypothesis; of those at one place and of one effect, the one that shows most.
 
@@ -127,6 +138,7 @@ def powers(
         noise: in each segment [rad].
         library: with the hypotheses.
         about: fit of the baseline, from which what is not linear departs; the same without.
+        only: labels of the hypotheses that are asked for; all without.
         linear_only: whether to leave out effects whose size does not enter linearly, which takes simulations of each.
     """
     sensitivities = Sensitivities(judge, fit, library)
@@ -142,32 +154,48 @@ def powers(
 
     def left(changed: Sequence[Segment]) -> Array:
         """Of a change, root mean square by segment; residuals of a wrong model count less, as alike from row to row."""
-        scale = _with_noise(changed, sensitivities.segments)
+        scale, stays = _with_noise(changed, sensitivities.segments), np.zeros(len(changed))
         for _ in range(REFITS):
             after = sensitivities.residuals_after(still, values, changed, scale)
+            before, stays = stays, np.array([_size(one) for one in after]) / noise
+            if abs(_size(stays) - _size(before)) <= _SETTLED * _size(stays):
+                break
             both = zip(changed, after, strict=True)
             scale = _with_noise([one.with_residuals(r.ravel()) for one, r in both], sensitivities.segments)
-        return np.array([_size(one) for one in after]) / noise
+        return stays
 
-    def power(h: Hypothesis, changed: Sequence[Segment]) -> Power:
-        sizes = [[one.with_residuals(size * one.slopes[:, -1]) for one in changed] for size in TRIED]
-        of_sizes = np.array([left(one) / size for size, one in zip(TRIED, sizes, strict=True)])
+    def power(h: Hypothesis, changed: Sequence[Segment], every: int = 1) -> Power:
         changes = _size(np.array([_size(one.slopes[:, -1]) for one in changed]) / noise)
-        return Power(h, changes, of_sizes, noise, judge.floor, fit.observations, h.local_sd.size * len(fit.values.own))
+
+        def of_size(size: float) -> Array:
+            found = left([one.with_residuals(size * one.slopes[:, -1]) for one in changed]) / size
+            return np.repeat(found[::every], every)[: len(found)]
+
+        def made(tried: tuple[float, float], of_sizes: Sequence[Array]) -> Power:
+            count = h.local_sd.size * len(fit.values.own)
+            return Power(h, changes, tried, np.array(of_sizes), noise, judge.floor, fit.observations, count)
+
+        typical = of_size(1.0)
+        if made((1.0, _LARGE), (typical, typical)).probability(1.0) < POWER:
+            return made((1.0, _LARGE), (typical, of_size(_LARGE)))
+        return made((_SMALL, 1.0), (of_size(_SMALL), typical))
 
     found = dict[object, Power]()
     for h in sensitivities.hypotheses:
-        if not h.is_refit:
+        if not h.is_refit and (only is None or h.label in only):
             _keep(found, power(h, sensitivities.changes(h, h.sd / PRIOR, h.local_sd / PRIOR)))
     if linear_only:
         return list(found.values())
-    here = judge.readings(base.state, base.values)
+    here = judge.readings(base.state, base.values, _EVERY)
     for h, state in typical_states(judge.problem, base.state, library):
-        there = judge.readings(state, base.values)
-        if all(np.all(np.isfinite(one)) for one in (*here, *there)):
-            changes = [(after - before).ravel() for before, after in zip(here, there, strict=True)]
+        there = judge.readings(state, base.values, _EVERY)
+        changes = [
+            np.zeros(one.readings.size) if before is None or after is None else (after - before).ravel()
+            for one, before, after in zip(sensitivities.segments, here, there, strict=True)
+        ]
+        if all(np.all(np.isfinite(one)) for one in changes):
             both = zip(sensitivities.segments, changes, strict=True)
-            _keep(found, power(h, [one.with_residuals(-change) for one, change in both]))
+            _keep(found, power(h, [one.with_residuals(-change) for one, change in both], _EVERY))
     return list(found.values())
 
 

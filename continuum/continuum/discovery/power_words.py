@@ -17,7 +17,7 @@ def power_in_words(result: Diagnosis) -> tuple[list[tuple[str, str]], list[tuple
         seen = [one for one in places if one.is_shown]
         if seen:
             best = min(seen, key=lambda one: one.smallest)
-            missing = [joint for one in places if not one.is_shown and one.joints for joint in one.joints]
+            missing = [one.joints[0] for one in places if not one.is_shown and one.joints and len(one.joints) == 1]
             rest = f"; not at joint {', '.join(str(j + 1) for j in sorted(set(missing)))}" if missing else ""
             shown.append((effect, f"{_size_in_words(best)}{_at(best)}{rest}"))
         else:
@@ -36,7 +36,7 @@ def experiment_in_words(result: Diagnosis) -> str:
         if not best.runs:
             return "none of the usual runs tells the possible causes apart; do what is said above."
         times = "" if best.runs == 1 else f" Do this {best.runs} times."
-        return f"{best.name}. {best.instruction}{times} It should tell the possible causes apart."
+        return f"{best.name}. {best.instruction}{times} It should tell the likeliest causes apart."
     if not best.shows:
         return f"{best.name}. {best.instruction}"
     return f"{best.name}. {best.instruction} It would show {', '.join(best.shows)}, which these recordings cannot."

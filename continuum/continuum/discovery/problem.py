@@ -153,8 +153,8 @@ def linearise(
     """
     s, point = problem.structure, point_of(problem, state)
     library = Library(
-        s, state.active, state.ratio, problem.coordinates.columns(point.values), problem.coordinates.covered,
-        problem.coordinates.by_parameters, live, problem.coordinates.lacks_friction,
+        s, state.active, state.ratio, problem.coordinates.columns(point.values), problem.coordinates.covered, live,
+        problem.coordinates.lacks_friction,
     )  # fmt: skip
     theta = np.stack([_theta(library, state.shared, own, state.held) for own in state.own])
     runs = []

@@ -76,7 +76,7 @@ class Effect:
         """Whether it can change anything: factors of what an arm has none of do not."""
         if not self.parameters or type(self).change_parameters is Effect.change_parameters:
             return True
-        sizes = {name: spec.array((spec.default or 0.0) + (spec.typical or 1.0), p.n_joints, name)
+        sizes = {name: np.full(p.n_joints if spec.per_joint else 1, spec.another_value)
                  for name, spec in self.parameters.items()}  # fmt: skip
         before, after = p.named(), self.change_parameters(p, sizes).named()
         return any(np.any(after[name] != before[name]) for name in before)

@@ -45,6 +45,13 @@ class Parameter:
     shape: bool = False
 
     @property
+    def another_value(self) -> float:
+        """A value within the bounds that is not the default, about a typical size from it [unit]."""
+        origin, step = self.default or 0.0, self.typical or 1.0
+        above, below = min(origin + step, self.upper), max(origin - step, self.lower)
+        return above if above > origin else below
+
+    @property
     def allowed(self) -> str:
         """The allowed values in words."""
         number = "a finite number, or one for each joint," if self.per_joint else "a finite number"

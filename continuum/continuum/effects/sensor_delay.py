@@ -5,7 +5,8 @@ as much, u(t - delay), are the same to the data, and without cables a delay does
 5 to 30 ms; at 3 rad/s 10 ms are 1.7 degrees.
 
 One joint whose angle comes later than the others' shows against these, without any input. To first order it reads
-theta - lag theta'; what that leaves, lag^2 theta'' / 2, is 0.3 degrees for 10 ms at 100 rad/s2.
+theta - lag theta'; what that leaves, lag^2 theta'' / 2, is 0.3 degrees for 10 ms at 100 rad/s2. No joint is early: that
+would be all others being late, which nobody sees where nothing drives the arm.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ class SensorDelay(Effect):
     name = "sensor_delay"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "delay": Parameter("t_d", "s", 0.0, 0.2, False, "by which all sensors are late", 0.0, 0.01),
-        "lag": Parameter("t_j", "s", -0.1, 0.1, True, "by which a joint's angle comes later than others", 0.0, 0.01),
+        "lag": Parameter("t_j", "s", 0.0, 0.1, True, "by which a joint's angle comes later than others", 0.0, 0.01),
     }
     needs_tension = True
     shifts_time = True

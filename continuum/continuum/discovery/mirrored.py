@@ -1,0 +1,58 @@
+"""The same torque by the other of two joints.
+
+The refitted model has springs and friction of all joints alike, so that two joints that differ can be told in two ways:
+the common value and a factor at one joint, or that joint's value for both and the inverse factor at the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from continuum.discovery.coordinates import PARAMETER, Coordinates
+from continuum.discovery.fitted import Fitted
+from continuum.discovery.hypotheses import Hypothesis
+from continuum.discovery.library import Library
+from continuum.discovery.normal_equations import Values
+from continuum.discovery.unknowns import linear_unknown
+
+_SCALES = {
+    ("joint_friction", "viscous"): "viscous", ("joint_friction", "coulomb"): "coulomb",
+    ("joint_stiffness", "excess"): "stiffness",
+}  # fmt: skip
+"""Coordinate of the baseline whose parameter an effect's factor multiplies at a joint."""
+
+
+def mirrored(
+    fit: Fitted, one: Hypothesis, library: Library, coordinates: Coordinates
+) -> tuple[Hypothesis, Fitted] | None:
+    """The hypothesis at the other joint, and where its fit begins; None where an effect is no such factor.
+
+    Args:
+        fit: of a set that has ``one``.
+        one: at one of two joints.
+        library: with both.
+        coordinates: of the baseline.
+    """
+    kinds = [_SCALES.get((one.effect, c.parameter)) for c in one.coefficients]
+    if one.joints is None or len(one.joints) != 1 or None in kinds or not kinds:
+        return None
+    (joint,) = one.joints
+    other = next((h for h in library.hypotheses if h.key == (one.effect, (1 - joint,))), None)
+    if other is None or len(other.coefficients) != len(kinds):
+        return None
+    unknowns, values = list(fit.unknowns.common), fit.values.common.copy()
+    factors = {}
+    for k, kind in enumerate(kinds):
+        at = next(i for i, u in enumerate(unknowns) if u.key == linear_unknown(one, k, library).key)
+        factors[kind] = max(1 + float(values[at]), 1e-3)
+        unknowns[at], values[at] = linear_unknown(other, k, library), 1 / factors[kind] - 1
+    p, slots = coordinates.reference, coordinates.structure.slots
+    for at, unknown in enumerate(unknowns):
+        effect, kind, place = next(iter(unknown.places))
+        if not effect and place < 0 and kind in factors:
+            relative = float(np.max(coordinates.steps[kind] / p[slots[PARAMETER[kind]]]))
+            values[at] = ((1 + relative * values[at]) * factors[kind] - 1) / relative
+    lists = fit.unknowns.with_lists(unknowns, fit.unknowns.own)
+    return other, replace(fit, unknowns=lists, values=Values(values, fit.values.own, fit.values.local))
