@@ -2,7 +2,8 @@
 
 Two sets of effects, each with the values that the recordings leave it, simulate a run that was not made. The one is
 refitted to the other's angles within what is known of its values. What it cannot follow is what the run would tell
-(Box and Hill, Technometrics 9, 1967, 57-71); from it follows how often the run has to be made for the decision.
+(Box and Hill, Technometrics 9, 1967, 57-71), less what the other one itself could not follow where its values are a
+little off, as where joints come to rest. From it follows how often the run has to be made for the decision.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from continuum.discovery.hypotheses import PRIOR
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values
 from continuum.discovery.output_error import DAMPING, ENOUGH, OutputError
-from continuum.discovery.power import POWER, REFITS, powers
+from continuum.discovery.power import POWER, powers
 from continuum.discovery.problem import Problem, ValueKey
 from continuum.discovery.result import Detectable, Experiment
 from continuum.discovery.search import with_library
@@ -34,6 +35,7 @@ from continuum.estimation.run import Run, Trajectory
 from continuum.recordings.recording import Recording
 
 _MOST_RUNS = 6  # that anybody repeats
+_REFITS = 8  # of a set to a run; the weights of residuals rise from one to the next as they become less alike
 _BY_HAND = np.deg2rad(0.3)  # rad, to which a protractor shows an angle
 
 
@@ -56,8 +58,11 @@ def experiments(
         made = [run for run in runs if run is not None]
         if len(made) < len(rivals):
             continue
+        by_chance = [
+            _Trial(found.judge, one.fit, run, design, drawn=True).excess for one, run in zip(rivals, made, strict=True)
+        ]
         apart = [
-            _Trial(found.judge, one.fit, run, design).excess
+            _Trial(found.judge, one.fit, run, design).excess - by_chance[k]
             for i, one in enumerate(rivals) for k, run in enumerate(made) if i != k
         ]  # fmt: skip
         needed = [_runs_needed(one, len(recordings), ALIKE * gained) for one in apart]
@@ -135,9 +140,11 @@ class _Trial:
         fit: of the set to the recordings.
         made: the run.
         design: what it was made by.
+        drawn: whether the set's values are off by what the recordings leave unknown of them: what the set that
+            simulated the run itself errs by at first.
     """
 
-    def __init__(self, judge: OutputError, fit: Fitted, made: _Run, design: Design) -> None:
+    def __init__(self, judge: OutputError, fit: Fitted, made: _Run, design: Design, drawn: bool = False) -> None:
         problem = judge.problem
         self._judge = judge.along(replace(problem, runs=(made.run,)), (made.recording,))
         measured = np.array(
@@ -145,6 +152,10 @@ class _Trial:
         )
         values = np.where(measured, 0.0, fit.values.common)
         sds = np.where(measured, [_sd(problem, one, design) for one in fit.unknowns.common], fit.sd)
+        if drawn:
+            values = values + sds * np.random.default_rng(0).standard_normal(len(values)) * ~measured
+            low, high = (np.array([getattr(one, end) for one in fit.unknowns.common]) for end in ("lower", "upper"))
+            values = np.clip(values, low, high)
         known = zip(fit.unknowns.common, values, sds, strict=True)
         common = [replace(one, mean=float(value), sd=float(sd)) for one, value, sd in known]
         own = [replace(one, mean=0.0, start=0.0, sd=_sd(problem, one, design)) for one in fit.unknowns.own[0]]
@@ -166,7 +177,7 @@ class _Trial:
         if not all(np.isfinite(one.square) for one in segments):
             return np.full(len(segments), np.inf)
         random, noisy = np.random.default_rng(0), segments
-        for _ in range(REFITS):
+        for _ in range(_REFITS):
             noise = [random.normal(0.0, judge.floor, one.readings.size) for one in noisy]
             scale = [one.with_residuals(one.slopes[:, -1] + e) for one, e in zip(noisy, noise, strict=True)]
             weights = Scale(scale, judge.floor).weights([one.error for one in scale])
