@@ -37,6 +37,7 @@ class SensorScale(Effect):
         "The joints on both sides of a sensor err in opposite ways, in proportion to how far its link is turned."
     )
     experiment = "Turn the link by a known angle, against a stop, and compare."
+    beware = "Links that are longer or shorter than in the model look nearly the same: measure their lengths as well."
 
     def measure(self, seen: Reading, own: Own) -> Reading:
         def spoiled(joints: Array) -> Array:
