@@ -37,9 +37,6 @@ def silent(_what: str, _share: float) -> None:
     """Tell nobody of progress."""
 
 
-_TWO = 2  # joints, of which neither is the ordinary one
-
-
 @dataclass(frozen=True)
 class Examined:
     """A candidate with where the search left it.
@@ -209,9 +206,8 @@ class _Fits:
 
     def _mirror(self, best: Examined) -> None:
         """Of two joints, fit the other one: that one rubs less is that the other rubs more than all others."""
-        for one in best.found.chosen if self._problem.structure.n == _TWO else ():
-            twin = mirrored(best.fit, one, best.found.lin.library, self._problem.coordinates)
-            if twin is not None:
+        for one in best.found.chosen:
+            if (twin := mirrored(best.fit, one, best.found.lin.library, self._problem.coordinates)) is not None:
                 found = Found(best.found.lin, (*(h for h in best.found.chosen if h is not one), twin[0]))
                 self._keep(found, self.judge.fit(found, [twin[1]]))
 

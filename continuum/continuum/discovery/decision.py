@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from math import exp, log
+from math import exp, log, sqrt
 
 import numpy as np
-from scipy.special import stdtrit
+from scipy.special import ndtri, stdtrit
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Candidate, Key, log_errors
@@ -71,7 +71,7 @@ def decide(
     """One verdict from all candidates.
 
     Recordings that are simulated within the tolerance call for no cause where the baseline errs by no more than the
-    sensors, or where a user asked for that tolerance.
+    sensors and chance, or where a user asked for that tolerance.
 
     Args:
         baseline: the refitted model alone.
@@ -88,7 +88,7 @@ def decide(
 
     probable = [one for one in others if is_probable(one, baseline) and not is_needless(one, others, alike)]
     possible = [one for one in probable if closed(baseline, one, noise)[1] > LEAST_SHARE]
-    if whole < tolerance and (not possible or is_asked or baseline.error <= floor):
+    if whole < tolerance and (not possible or is_asked or baseline.error <= noise_limit(floor, baseline.observations)):
         return Verdict(Kind.ADEQUATE, ((),), (1.0,), not probable)
     if not possible:
         if baseline.error < tolerance and not probable:
@@ -117,6 +117,14 @@ def is_needless(one: Candidate, others: Sequence[Candidate], alike: float) -> bo
     """Whether a part of a set simulates as well: some of its effects, or its effect at some of its joints."""
     parts = [part for part in others if set(part.effects) < set(one.effects) or part.values < one.values]
     return any(not is_farther(part, one, alike) or not is_probable(one, part) for part in parts)
+
+
+def noise_limit(floor: float, observations: float) -> float:
+    """Error up to which so many independent residuals are no more than the noise, by a one-sided test [rad].
+
+    The standard deviation of n normal residuals has a relative standard deviation of 1 / sqrt(2 n).
+    """
+    return floor * (1 + float(ndtri(1 - CHANCE)) / sqrt(2 * observations)) if observations > 0 else floor
 
 
 def is_worth(gain: float, observations: float, effects: int = 1, occam: float = 0.0) -> bool:

@@ -17,6 +17,7 @@ from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import Values
 from continuum.discovery.unknowns import linear_unknown
 
+_TWO = 2  # joints, of which neither is the ordinary one
 _SCALES = {
     ("joint_friction", "viscous"): "viscous", ("joint_friction", "coulomb"): "coulomb",
     ("joint_stiffness", "excess"): "stiffness",
@@ -27,7 +28,7 @@ _SCALES = {
 def mirrored(
     fit: Fitted, one: Hypothesis, library: Library, coordinates: Coordinates
 ) -> tuple[Hypothesis, Fitted] | None:
-    """The hypothesis at the other joint, and where its fit begins; None where an effect is no such factor.
+    """The hypothesis at the other of two joints, and where its fit begins; None where an effect is no such factor.
 
     Args:
         fit: of a set that has ``one``.
@@ -36,7 +37,7 @@ def mirrored(
         coordinates: of the baseline.
     """
     kinds = [_SCALES.get((one.effect, c.parameter)) for c in one.coefficients]
-    if one.joints is None or len(one.joints) != 1 or None in kinds or not kinds:
+    if coordinates.structure.n != _TWO or one.joints is None or len(one.joints) != 1 or None in kinds or not kinds:
         return None
     (joint,) = one.joints
     other = next((h for h in library.hypotheses if h.key == (one.effect, (1 - joint,))), None)

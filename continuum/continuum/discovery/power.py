@@ -19,7 +19,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import mean_error
-from continuum.discovery.decision import LEAST_SHARE, closed_share, price
+from continuum.discovery.decision import LEAST_SHARE, closed_share, noise_limit, price
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import PRIOR, Hypothesis
 from continuum.discovery.library import Library
@@ -82,7 +82,8 @@ class Power:
         worth = gain * self.observations > price(1, occam)
         noise = errors * np.minimum(1.0, self.floor / mean_error(errors))[:, None]
         explains = closed_share(baseline, errors, noise)[1] > LEAST_SHARE
-        return float(np.mean(worth & explains & (mean_error(baseline) > self.floor)))
+        is_seen = mean_error(baseline) > noise_limit(self.floor, self.observations)
+        return float(np.mean(worth & explains & is_seen))
 
     def _changed(self, size: float) -> Array:
         """What a refit, which has bounds, leaves of a size; never less of a larger one, (segments,) [noise]."""
