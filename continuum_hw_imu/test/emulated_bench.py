@@ -4,7 +4,7 @@ import json
 import socket
 import time
 from collections.abc import Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -35,12 +35,18 @@ class EmulatedBench:
         self.process = NodeProcess("continuum_hw_imu", "bench_emulator", domain, arguments=tuple(map(str, words)))
         with ExitStack() as undone:
             undone.callback(self.process.close)
-            wait_until(lambda: self.port.exists() and self._control.exists(), lambda: f"port; {self.process.stderr}")
             self._socket = undone.enter_context(socket.socket(socket.AF_UNIX))
             self._socket.settimeout(30.0)
-            self._socket.connect(str(self._control))
+            wait_until(lambda: self.port.exists() and self._is_connected(), lambda: f"port; {self.process.stderr}")
             undone.pop_all()
         self._answers = self._socket.makefile("r")
+
+    def _is_connected(self) -> bool:
+        """A channel's file is there a moment before anybody listens."""
+        with suppress(FileNotFoundError, ConnectionRefusedError):
+            self._socket.connect(str(self._control))
+            return True
+        return False
 
     def tell(self, order: str) -> dict:
         self._socket.sendall(f"{order}\n".encode())
