@@ -90,7 +90,7 @@ def account(tell: Callable[[str, float], None]) -> Account:
 def end_predicted(run: Recording, cut: int, model: Model) -> tuple[Diagnosis, list[Predicted]]:
     """Diagnose what is before a row, and simulate the rest by both models, from two estimates of where it begins."""
     first, out = replace(run.rows(slice(0, cut)), name=f"{run.name}, beginning"), []
-    result, found = diagnose([first], model), examine([first], model)
+    result, found = diagnose([first], model, with_power=False), examine([first], model)
     for name, one in (("refitted", found.baseline), ("extended", ended_with(found, result))):
         problem, state, way = found.problem, one.fit.state, one.fit.state.ways[0]
         read = problem.structure.readings(problem.runs[0], way.q, way.w, point_of(problem, state).by_run[0])

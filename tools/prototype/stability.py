@@ -59,7 +59,7 @@ def main(path: str, relative: str, degrees: str, seed: str) -> None:
     run = read_recording_csv(path)
     by = np.random.default_rng(int(seed)).standard_normal(run.theta.shape)
     run = replace(run, theta=run.theta * (1 + float(relative) * by) + np.radians(float(degrees)) * by)
-    print(json.dumps(vars(said(diagnose([run], load_model("lamecc_prototype.yaml"))))))
+    print(json.dumps(vars(said(diagnose([run], load_model("lamecc_prototype.yaml"), with_power=False)))))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,8 @@ import math
 
 from continuum.discovery.result import Detectable, Diagnosis, is_named
 
+_LISTED = 6  # effects that a sentence bears
+
 
 def power_in_words(result: Diagnosis) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     """Two tables by effect: the smallest size that would have been shown, and why none would."""
@@ -39,7 +41,10 @@ def experiment_in_words(result: Diagnosis) -> str:
         return f"{best.name}. {best.instruction}{times} It should tell the likeliest causes apart."
     if not best.shows:
         return f"{best.name}. {best.instruction}"
-    return f"{best.name}. {best.instruction} It would show {', '.join(best.shows)}, which these recordings cannot."
+    effects = list(dict.fromkeys(label.partition("@")[0] for label in best.shows))
+    more = f" and {len(effects) - _LISTED} more" if len(effects) > _LISTED else ""
+    listed = ", ".join(effects[:_LISTED]) + more
+    return f"{best.name}. {best.instruction} It would show {listed}, which these recordings cannot, or at fewer joints."
 
 
 def _size_in_words(one: Detectable) -> str:
