@@ -6,8 +6,9 @@ from functools import cache
 
 import numpy as np
 
-from continuum.discovery.candidates import Examination, Examined, examine
+from continuum.discovery.candidates import examine
 from continuum.discovery.designs import designs
+from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.experiments import experiments
 from continuum.discovery.result import Experiment
 from continuum.dynamics.model import Model
@@ -42,8 +43,8 @@ def candidate(label: str) -> Examined:
 
 
 def proposed(*labels: str) -> dict[str, Experiment]:
-    found, recordings = examined()
-    return {one.name: one for one in experiments(found, [candidate(label) for label in labels], recordings, ())}
+    (found, recordings), sets = examined(), [candidate(label) for label in labels]
+    return {one.name: one for one in experiments(found, sets, sets[0].found.lin.library, recordings, ())}
 
 
 def test_zeros_by_protractor_tell_a_sensor_from_a_spring_better_than_a_release_does() -> None:

@@ -84,9 +84,9 @@ def test_what_is_larger_than_the_smallest_that_would_have_shown_is_worth_it(
     """The smallest size by an arm without any effect, the gain by arms that have it."""
     judge, found, fit = fitted("joint_stiffness", "excess", 0.0, 0)
     key = effect, (joint,) if effect_named(effect).parameters[parameter].per_joint else None
-    smallest = next(
-        one for one in powers(judge, fit, fit.errors, found.lin.library) if one.hypothesis.key == key
-    ).smallest * (effect_named(effect).parameters[parameter].typical or 1.0)
+    smallest = next(one for one in powers(judge, fit, found.lin.library) if one.hypothesis.key == key).smallest * (
+        effect_named(effect).parameters[parameter].typical or 1.0
+    )
     judge, found, fit = fitted(effect, parameter, times_smallest * smallest, joint)
     hidden = next(one for one in promises(judge, fit, found.lin.library) if one.hypothesis.key == key)
     assert is_worth(hidden.gain, hidden.observations) == (times_smallest > 1)

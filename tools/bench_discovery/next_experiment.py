@@ -19,10 +19,10 @@ from blind.plant.further import Wanted, further_run
 from continuum.cli.diagnose import read_recording
 from continuum.discovery import diagnose
 from continuum.discovery.designs import Design, designs
+from continuum.discovery.experiments import rival_of
 from continuum.discovery.result import Diagnosis
 from continuum.discovery.verdict_json import as_mapping
 from continuum.dynamics.model_file import load_model
-from continuum.dynamics.tensions import LET_GO
 from tools.bench_discovery.answer import is_exactly
 from tools.bench_discovery.cases import MAKERS, MODEL
 from tools.bench_discovery.plans import Plan
@@ -83,7 +83,7 @@ def separation(plan: Plan) -> Separation | None:
 def _made(plan: Plan, truth: plant.case.Truth, design: Design, number: int) -> bytes:
     driven = bool((design.inputs.values > 0).any())
     bend = None if driven else float(design.posture.sum())
-    wanted = Wanted(bend, design.inputs.values.clip(min=max(0.0, LET_GO)) if driven else None, design.zeroed)
+    wanted = Wanted(bend, design.inputs.values if driven else None, design.zeroed)
     if plan.plant == "moreau":
         noises, steps = moreau.case.NOISES, moreau.machine.STEPS
         return further_run(truth, wanted, number, moreau.Machine, noises, rates=False, steps=steps)
@@ -92,10 +92,9 @@ def _made(plan: Plan, truth: plant.case.Truth, design: Design, number: int) -> b
 
 def _rivals(result: Diagnosis) -> list[str]:
     """Labels of the likeliest set and of the likeliest of other effects, which an experiment is to separate."""
-    effects = [{cause.effect for cause in causes} for causes in result.sets]
-    other = next((k for k, names in enumerate(effects) if names != effects[0]), 1)
     labels = _labels(result)
-    return [labels[0], labels[other]]
+    other = rival_of([{cause.effect for cause in causes} for causes in result.sets])
+    return [labels[0], *([] if other is None else [labels[other]])]
 
 
 def _labels(result: Diagnosis) -> list[str]:

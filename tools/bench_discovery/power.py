@@ -1,10 +1,13 @@
 """Power as a diagnosis states it beside how often effects were found: the same arm without the effect tells it.
 
-python3 -m tools.bench_discovery.power --results FILE.jsonl
+    python3 -m tools.bench_discovery.power RESULTS.jsonl
+
+Prints a line for each case of the held-out half in which one effect is hidden, and the means by plant and size.
 """
 
 from __future__ import annotations
 
+import sys
 import tempfile
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -21,8 +24,8 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model_file import load_model
 from tools.bench_discovery.cases import MAKERS, MODEL
 from tools.bench_discovery.figures import FOUND, SAME
-from tools.bench_discovery.plans import Plan
-from tools.bench_discovery.result import Result
+from tools.bench_discovery.plans import HALVES, Plan
+from tools.bench_discovery.result import Result, load
 
 _AMOUNTS: Final = SAME | {
     "angle_offset": {"offset": 1.0}, "gyro_drift": {"bias": 1.0}, "remounted_base": {"angle": 1.0},
@@ -57,7 +60,7 @@ def _probability(plan: Plan, hidden: Mapping[str, Any], size: float) -> float:
         recordings = [read_recording(str(path)) for path in files]
     base, judge = refitted(recordings, load_model(MODEL))
     library = with_library(judge.problem, base.found).lin.library
-    found = powers(judge, base.fit, base.fit.errors, library)
+    found = powers(judge, base.fit, library)
     return max((one.probability(size) for one in found if _is_it(one, hidden)), default=0.0)
 
 
@@ -86,3 +89,17 @@ def table(found: Sequence[Predicted]) -> list[tuple[str, str, int, float, float]
         (name, size, len(g), sum(x.probability for x in g) / len(g), sum(x.result.answer in FOUND for x in g) / len(g))
         for (name, size), g in sorted(groups.items())
     ]
+
+
+def main(results: Path) -> None:
+    found = list[Predicted]()
+    for one in load(results):
+        if one.plan.half == HALVES[1] and (case := predicted(one)) is not None:
+            found.append(case)
+            print(f"{case.probability:.2f} {one.answer.value}: {one.hidden[0]['name']}, {one.plan}", flush=True)
+    for plant_name, size, n, stated, named in table(found):
+        print(f"{plant_name}, {size}, {n} cases: {100 * stated:.0f} % stated, {100 * named:.0f} % found")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))

@@ -11,7 +11,8 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery import Diagnosis, diagnose
 from continuum.discovery.baseline import run_of
-from continuum.discovery.candidates import Examination, Examined, examine
+from continuum.discovery.candidates import examine
+from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.problem import Problem, State, point_of
 from continuum.discovery.score_test import promises

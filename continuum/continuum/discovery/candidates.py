@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import log
 
 import numpy as np
 
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of, with_linear_inputs
-from continuum.discovery.candidate import Candidate
 from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_needless, is_probable, is_worth
+from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.mirrored import mirrored
 from continuum.discovery.output_error import OutputError
@@ -35,45 +34,6 @@ from continuum.recordings.recording import Recording
 
 def silent(_what: str, _share: float) -> None:
     """Tell nobody of progress."""
-
-
-@dataclass(frozen=True)
-class Examined:
-    """A candidate with where the search left it.
-
-    Attributes:
-        found: state, library and evidence about it.
-        fit: by open-loop simulations.
-    """
-
-    found: Found
-    fit: Fitted
-
-    @property
-    def candidate(self) -> Candidate:
-        """For the decision."""
-        fit = self.fit
-        effects = tuple(h.key for h in self.found.chosen)
-        return Candidate(effects, fit.errors, fit.observations, fit.occam, fit.of_effects, fit.agreement, fit.departure)
-
-
-@dataclass(frozen=True)
-class Examination:
-    """All that a decision rests on.
-
-    Attributes:
-        problem: fixed before the search.
-        judge: what fits were made by.
-        baseline: the refitted model alone.
-        others: sets of effects.
-        log: of the search, for developers.
-    """
-
-    problem: Problem
-    judge: OutputError
-    baseline: Examined
-    others: tuple[Examined, ...]
-    log: tuple[str, ...]
 
 
 def examine(

@@ -9,14 +9,15 @@ from dataclasses import replace
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.candidates import Examination, Examined, examine, silent
+from continuum.discovery.candidates import examine, silent
 from continuum.discovery.decision import Kind, Verdict, closed, decide, noise_in_segments
 from continuum.discovery.detectable import detectable
 from continuum.discovery.estimates import baseline_estimates, correlation_of, estimates_of
+from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.experiments import experiments
 from continuum.discovery.extended import model_of
 from continuum.discovery.missing_torque import missing_torque
-from continuum.discovery.power import Power, powers
+from continuum.discovery.power import powers
 from continuum.discovery.result import Cause, Diagnosis, Share, is_named
 from continuum.discovery.search import Progress, with_library
 from continuum.dynamics.model import Model
@@ -61,11 +62,12 @@ def diagnose(
     if with_power:
         progress("power of the recordings", 0.7)
         named = {key for one in (*answer.verdict.sets, answer.verdict.helps) for key in one}
-        power = detectable(found.problem, [one for one in _powers(found, best) if one.hypothesis.key not in named])
+        library = with_library(found.problem, best.found).lin.library
+        known = powers(found.judge, best.fit, library, found.baseline.fit) if best.fit.completed else []
+        power = detectable(found.problem, [one for one in known if one.hypothesis.key not in named])
         progress("next experiment", 0.85)
-        by_key = {one.found.key: one for one in (found.baseline, *found.others)}
-        sets = [by_key[frozenset(key)] for key in answer.verdict.sets] or [best]
-        answer = replace(answer, power=power, experiments=experiments(found, sets, recordings, power))
+        sets = [found.by_key[frozenset(key)] for key in answer.verdict.sets] or [best]
+        answer = replace(answer, power=power, experiments=experiments(found, sets, library, recordings, power))
     return replace(answer, seconds=time.process_time() - began)
 
 
@@ -87,10 +89,9 @@ def _answer(
     odd = odd_rates(recordings)
     if odd:  # nothing that is fitted to readings which contradict each other can be trusted
         verdict = Verdict(Kind.UNKNOWN, (), (), False)
-    by_key = {frozenset(one.candidate.effects): one for one in (base, *found.others)}
     keys = verdict.sets if is_named(verdict.kind) else ((verdict.helps,) if verdict.helps else ())
-    sets = tuple(_causes(found, by_key[frozenset(key)]) for key in keys)
-    best = by_key[frozenset(keys[0])] if keys else base
+    sets = tuple(_causes(found, found.by_key[frozenset(key)]) for key in keys)
+    best = found.by_key[frozenset(keys[0])] if keys else base
     share = _share(found, best)
     sigma, torque = less_sigma, less_torque = missing_torque(problem, base.found)
     after = before
@@ -104,13 +105,6 @@ def _answer(
         (), (), correlation_of(best.fit), (*odd, *_notes(recordings, found, best)), accepted, 0.0,
     )  # fmt: skip
     return answer, best
-
-
-def _powers(found: Examination, best: Examined) -> list[Power]:
-    """About the best set; what it errs by, or the sensors do, is taken for the noise."""
-    library = with_library(found.problem, best.found).lin.library
-    noise = np.maximum(best.fit.errors, found.judge.floor)
-    return powers(found.judge, best.fit, noise, library, found.baseline.fit) if best.fit.completed else []
 
 
 def _share(found: Examination, one: Examined) -> Share:

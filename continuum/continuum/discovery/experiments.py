@@ -8,16 +8,16 @@ little off, as where joints come to rest. From it follows how often the run has 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.baseline import run_of
-from continuum.discovery.candidates import Examination, Examined
 from continuum.discovery.decision import ALIKE, is_farther_by
 from continuum.discovery.designs import Design, designs
+from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import PRIOR
 from continuum.discovery.library import Library
@@ -26,7 +26,6 @@ from continuum.discovery.output_error import DAMPING, ENOUGH, OutputError
 from continuum.discovery.power import POWER, powers
 from continuum.discovery.problem import Problem, ValueKey
 from continuum.discovery.result import Detectable, Experiment
-from continuum.discovery.search import with_library
 from continuum.discovery.unknowns import Unknown
 from continuum.dynamics.joint_torques import JointTorques
 from continuum.dynamics.tensions import Tensions
@@ -40,19 +39,23 @@ _BY_HAND = np.deg2rad(0.3)  # rad, to which a protractor shows an angle
 
 
 def experiments(
-    found: Examination, sets: Sequence[Examined], recordings: Sequence[Recording], power: Sequence[Detectable]
+    found: Examination,
+    sets: Sequence[Examined],
+    library: Library,
+    recordings: Sequence[Recording],
+    power: Sequence[Detectable],
 ) -> tuple[Experiment, ...]:
     """Runs that would tell more, the best first.
 
     Args:
         found: what was examined.
         sets: possible ones, the best first.
+        library: hypotheses about the first.
         recordings: that were made.
         power: what they would have shown.
     """
     hidden, rivals, out = {one.label for one in power if not one.is_shown}, _rivals(sets), list[Experiment]()
     gained = float(np.log(found.baseline.fit.error / rivals[0].fit.error))
-    library = with_library(found.problem, rivals[0].found).lin.library
     for design in designs(found.problem.structure.given, recordings):
         runs = [_simulated(found, one.fit, design) for one in rivals]
         made = [run for run in runs if run is not None]
@@ -77,9 +80,13 @@ def experiments(
 
 def _rivals(sets: Sequence[Examined]) -> Sequence[Examined]:
     """The likeliest set, and the likeliest of other effects than its: where an effect acts matters less than which."""
-    best, *others = sets
-    effects = {h.effect for h in best.found.chosen}
-    return [best, *sorted(others, key=lambda one: {h.effect for h in one.found.chosen} == effects)[:1]]
+    other = rival_of([{h.effect for h in one.found.chosen} for one in sets])
+    return sets if other is None else [sets[0], sets[other]]
+
+
+def rival_of(effects: Sequence[Collection[str]]) -> int | None:
+    """Which set is compared with the first one, by the effects of all; None where there is one set only."""
+    return next((k for k, names in enumerate(effects) if names != effects[0]), 1 if len(effects) > 1 else None)
 
 
 def _runs_needed(excess: Array, recordings: int, alike: float) -> int:
@@ -188,7 +195,7 @@ class _Trial:
 
     def shown(self, library: Library, hidden: set[str]) -> set[str]:
         """Labels of effects that the run would show at their typical sizes, of those whose size enters linearly."""
-        found = powers(self._judge, self._fit, self._fit.errors, library, linear_only=True, only=hidden)
+        found = powers(self._judge, self._fit, library, linear_only=True, only=hidden)
         return {one.hypothesis.label for one in found if one.probability(1.0) >= POWER}
 
 

@@ -125,7 +125,6 @@ class _Draws(NamedTuple):
 def powers(
     judge: OutputError,
     fit: Fitted,
-    noise: Array,
     library: Library,
     about: Fitted | None = None,
     linear_only: bool = False,
@@ -135,8 +134,7 @@ def powers(
 
     Args:
         judge: by which the set was fitted.
-        fit: of the set about which effects are asked for.
-        noise: in each segment [rad].
+        fit: of the set about which effects are asked for; what it errs by, or the sensors do, is taken for the noise.
         library: with the hypotheses.
         about: fit of the baseline, from which what is not linear departs; the same without.
         only: labels of the hypotheses that are asked for; all without.
@@ -145,7 +143,7 @@ def powers(
     sensitivities = Sensitivities(judge, fit, library)
     if not sensitivities.completed:
         return []
-    base = fit if about is None else about
+    base, noise = fit if about is None else about, np.maximum(fit.errors, judge.floor)
     still = fit.unknowns.with_lists(
         [replace(one, mean=float(v)) for one, v in zip(fit.unknowns.common, fit.values.common, strict=True)],
         [[replace(one, mean=float(v)) for one, v in zip(those, values, strict=True)]

@@ -81,10 +81,6 @@ class Sensitivities:
         some = [at[each.place] for each in (*unknowns.common, *unknowns.own[one.run])]
         return Segment(one.run, one.rows, one.readings, one.slopes[:, [*some, *range(width - local - 1, width)]])
 
-    def without_residuals(self) -> list[Segment]:
-        """Segments as if the fit were exact."""
-        return [one.with_residuals(np.zeros(len(one.slopes))) for one in self.segments]
-
     def changes(self, h: Hypothesis, sizes: Array, own_sizes: Array) -> list[Segment]:
         """Segments whose residuals are what a hypothesis would leave if it were in the data.
 

@@ -1,0 +1,56 @@
+"""What a search comes to: all sets that were fitted, each with its state and its fit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from continuum.discovery.candidate import Candidate
+from continuum.discovery.fitted import Fitted
+from continuum.discovery.output_error import OutputError
+from continuum.discovery.problem import Problem
+from continuum.discovery.search import Found
+
+
+@dataclass(frozen=True)
+class Examined:
+    """A candidate with where the search left it.
+
+    Attributes:
+        found: state, library and evidence about it.
+        fit: by open-loop simulations.
+    """
+
+    found: Found
+    fit: Fitted
+
+    @property
+    def candidate(self) -> Candidate:
+        """For the decision."""
+        fit = self.fit
+        effects = tuple(h.key for h in self.found.chosen)
+        return Candidate(effects, fit.errors, fit.observations, fit.occam, fit.of_effects, fit.agreement, fit.departure)
+
+
+@dataclass(frozen=True)
+class Examination:
+    """All that a decision rests on.
+
+    Attributes:
+        problem: fixed before the search.
+        judge: what fits were made by.
+        baseline: the refitted model alone.
+        others: sets of effects.
+        log: of the search, for developers.
+    """
+
+    problem: Problem
+    judge: OutputError
+    baseline: Examined
+    others: tuple[Examined, ...]
+    log: tuple[str, ...]
+
+    @cached_property
+    def by_key(self) -> dict[frozenset[object], Examined]:
+        """All sets, by their effects and places."""
+        return {one.found.key: one for one in (self.baseline, *self.others)}
