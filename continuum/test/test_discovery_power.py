@@ -28,6 +28,18 @@ def test_from_the_stated_size_on_it_is_named(left: list[float], bounded: float, 
             assert one.probability(times * one.smallest) >= POWER - 0.1
 
 
+@given(CHANGES, st.floats(0.01, 3.0), st.floats(0.1, 10.0), st.floats(1.0, 10.0))
+def test_a_larger_size_is_named_as_often(left: list[float], bounded: float, size: float, times: float) -> None:
+    """But for chance: a small change may lower an error as well as raise it."""
+    one = power(left, bounded, 0)
+    assert one.probability(times * size) >= one.probability(size) - 0.1
+
+
+def test_what_acts_in_one_segment_alone_is_no_cause() -> None:
+    """However much it does there: most of the error has to be closed whatever segment is left out."""
+    assert power([30.0, *[0.0] * 15], 1.0, 0).smallest == np.inf
+
+
 @given(CHANGES, st.integers(0, 8))
 def test_what_changes_more_is_seen_earlier(left: list[float], values: int) -> None:
     assert power([3 * x for x in left], 1.0, values).smallest <= power(left, 1.0, values).smallest
