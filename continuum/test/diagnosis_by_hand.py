@@ -71,7 +71,7 @@ def diagnosis(
     return Diagnosis(
         Verdict(kind, keys if named else ((),), p if named else (1.0,), True), tuple(tuple(one) for one in sets),
         Share(0.9, 0.8, 1.0), (np.array([9e-3, 5e-3, 2e-3]), np.array([2e-3, 1e-3, 1e-3])), (torques[0], torques[1]),
-        (stiffness,), loops[0], loops[1] if sets else loops[0], model, model, runs, tuple(power), (),
+        (stiffness,), loops[0], loops[1] if sets else loops[0], model, model, runs, tuple(power), (), (),
         (("stiffness", "joint_stiffness.excess[2]"), np.array([[1.0, -0.4], [-0.4, 1.0]])), ("a remark",),
         float(3 * FLOOR), 1.0,
     )  # fmt: skip

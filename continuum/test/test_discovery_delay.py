@@ -64,7 +64,7 @@ def test_the_derivative_by_a_delay_is_a_difference(recording: Recording) -> None
     """At the tolerances with which fits simulate."""
     simulators, state = simulation(recording, nominal(), DELAY)
     unknown = Unknown({PLACE: 1.0}, True, np.log(DELAY), np.log(DELAY), 1.0, -10.0, 0.0)
-    slope = RunSimulation(simulators, state, 0, [unknown]).segment(ROWS, np.zeros(15)).slopes[:, 0]
+    slope = RunSimulation(simulators, state, 0, [unknown]).segment(ROWS, np.zeros(15)).jacobian[:, 0]
     ends = []
     for sign in (-1, 1):
         moved = replace(state, active={"sensor_delay": {"delay": np.array([DELAY * np.exp(0.05 * sign)])}})

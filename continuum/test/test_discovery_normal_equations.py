@@ -24,6 +24,11 @@ def unknown(random: np.random.Generator, low: float = -np.inf, high: float = np.
     return Unknown({}, False, 0.0, float(random.normal()), float(random.uniform(0.5, 2)), low, high)
 
 
+def drawn_segment(run: int, whole: np.ndarray) -> Segment:
+    """Of [J r]."""
+    return Segment.of(run, slice(0, len(whole) // N), np.zeros((len(whole) // N, N)), whole[:, :-1], whole[:, -1])
+
+
 class Drawn:
     """Random segments of three runs, and all unknowns in one vector: common, own by run, local by segment."""
 
@@ -38,10 +43,7 @@ class Drawn:
         )
         self.precision = random.uniform(0.5, 2, LOCAL) ** -2
         widths = [(r, COMMON + OWN[r] + LOCAL + 1) for r in range(RUNS) for _ in range(SEGMENTS[r])]
-        self.segments = [
-            Segment(r, slice(0, ROWS), np.zeros((ROWS, N)), random.normal(0, 1, (ROWS * N, width)))
-            for r, width in widths
-        ]
+        self.segments = [drawn_segment(r, random.normal(0, 1, (ROWS * N, width))) for r, width in widths]
         self.scale = Scale(self.segments, FLOOR)
         self.weights = self.scale.weights([one.error for one in self.segments])
 
@@ -67,7 +69,7 @@ class Drawn:
         for i, one in enumerate(self.segments):
             if i != left_out:
                 at, w = self.columns(i), self.weights[i]
-                J, r = one.slopes[:, :-1], one.slopes[:, -1]
+                J, r = one.jacobian, one.residuals
                 A[np.ix_(at, at)] += w * J.T @ J
                 b[at] -= w * J.T @ r
         return A, b
@@ -111,7 +113,7 @@ def test_errors_are_predicted_by_the_other_segments(seed: int) -> None:
         others = np.linalg.solve(*drawn.dense(left_out=i))[:shared]
         rest, known = np.arange(shared, len(b)), np.arange(shared)
         local = np.linalg.solve(A[np.ix_(rest, rest)], b[rest] - A[np.ix_(rest, known)] @ others)
-        residual = one.slopes[:, -1] + one.slopes[:, :-1] @ np.concatenate([others, local])[drawn.columns(i)]
+        residual = one.residuals + one.jacobian @ np.concatenate([others, local])[drawn.columns(i)]
         np.testing.assert_allclose(errors[i], np.sqrt(np.mean(residual**2)), rtol=1e-6)
 
 
@@ -131,8 +133,8 @@ def test_a_cost_falls_where_its_gradient_points(seed: int, stretch: float) -> No
     """The weight of squared residuals is the slope of the cost, above the noise and below."""
     drawn = Drawn(seed)
     one = drawn.segments[0]
-    small = Segment(0, one.rows, one.readings, one.slopes * (stretch * FLOOR / one.error))
-    grown = Segment(0, one.rows, one.readings, small.slopes * (1 + 1e-6))
+    small = one.with_residuals(one.residuals * (stretch * FLOOR / one.error))
+    grown = one.with_residuals(small.residuals * (1 + 1e-6))
     slope = (drawn.scale.cost(grown) - drawn.scale.cost(small)) / (0.5 * (grown.square - small.square))
     np.testing.assert_allclose(slope, drawn.scale.weights([small.error])[0], rtol=1e-3)
 
@@ -152,7 +154,7 @@ def left_out(seed: int, shift: float, unequal: float = 0.0) -> WithoutEach:
     slopes[:, :, 0] *= np.exp(unequal * random.normal(size=(count, 1)))
     slopes[:, :, -1] *= FLOOR
     slopes[count // 2 :, :, -1] -= shift * slopes[count // 2 :, :, 0]
-    segments = [Segment(0, slice(0, rows), np.zeros((rows, N)), one) for one in slopes]
+    segments = [drawn_segment(0, one) for one in slopes]
     unknowns = SimpleNamespace(common=[unknown(random) for _ in range(COMMON)], own=((),))
     values = Values(np.zeros(COMMON), (np.zeros(0),), tuple(np.zeros((count, LOCAL))))
     weights = [one.readings.size / one.square for one in segments]

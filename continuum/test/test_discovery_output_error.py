@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
 from continuum.discovery.fitted import Fitted
-from continuum.discovery.open_loop import RunSimulation, Simulators, cut
+from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Linearised, linearise, point_of
 from continuum.discovery.search import Found
@@ -72,19 +72,17 @@ def test_derivatives_are_differences_of_simulations() -> None:
     common = np.array([one.start for one in unknowns.common])
     own = tuple(np.array([0.01]) for _ in recordings())
 
-    def segment(x: np.ndarray) -> np.ndarray:
+    def segment(x: np.ndarray) -> Segment:
         state = unknowns.state(x[:k], (own[0] + x[k : k + 1], *own[1:]))
-        return (
-            RunSimulation(simulators, state, 0, [*unknowns.common, *unknowns.own[0]]).segment(rows, x[k + 1 :]).slopes
-        )
+        return RunSimulation(simulators, state, 0, [*unknowns.common, *unknowns.own[0]]).segment(rows, x[k + 1 :])
 
     x = np.concatenate([common, np.zeros(1 + 3 * n)])
-    slopes = segment(x)[:, :-1]
+    jacobian = segment(x).jacobian
     sd = np.array([one.sd for one in (*unknowns.common, *unknowns.own[0])])
     for i, size in enumerate(np.concatenate([sd, np.full(3 * n, 0.1)])):
         step = 1e-3 * size * np.eye(x.size)[i]
-        difference = (segment(x + step)[:, -1] - segment(x - step)[:, -1]) / (2e-3 * size)
-        error = np.linalg.norm(slopes[:, i] - difference)
+        difference = (segment(x + step).residuals - segment(x - step).residuals) / (2e-3 * size)
+        error = np.linalg.norm(jacobian[:, i] - difference)
         assert error < 0.05 * np.linalg.norm(difference) + 1e-6, (i, error, np.linalg.norm(difference))
 
 

@@ -46,6 +46,15 @@ def add_to(commands: Any) -> None:
         "--tolerance", metavar="DEG", type=float,
         help="open-loop error of an adequate model, root mean square; default three times the angles' noise",
     )  # fmt: skip
+    parser.add_argument(
+        "--measured", metavar="NAME=VALUE+-SD", action="append", default=[],
+        help="an effect's value that was measured by hand, in SI units, as tip_payload.mass=0.05+-0.002; 0 where there "
+        "is none; may be repeated; without +-SD as the usual instrument measures",
+    )  # fmt: skip
+    parser.add_argument(
+        "--zeroed", metavar="DATA", action="append", default=[],
+        help="one of the recordings, before which the sensors' zeros were set by a protractor; may be repeated",
+    )  # fmt: skip
     parser.set_defaults(run=run)
 
 
@@ -69,13 +78,19 @@ def run(options: argparse.Namespace) -> int:
     # Here, so that data that are refused need not wait for numba.
     from continuum.cli.progress import told
     from continuum.discovery import diagnose
+    from continuum.discovery.hand_measurement import measurement_of, zeros_set
     from continuum.discovery.report import write_report
     from continuum.discovery.verdict_json import write_json
     from continuum.dynamics.model_file import save_model
 
+    measured = [measurement_of(text) for text in options.measured]
+    for path in options.zeroed:
+        if path not in options.data:
+            raise InvalidValueError("--zeroed", path, f"one of {', '.join(options.data)}")
+        measured += zeros_set(recordings[options.data.index(path)].name, model.n_joints)
     tolerance = None if options.tolerance is None else math.radians(options.tolerance)
     with told() as tell:
-        result = diagnose(recordings, model, tolerance=tolerance, progress=tell)
+        result = diagnose(recordings, model, tolerance=tolerance, progress=tell, measured=measured)
     if options.json is not None:
         write_json(result, options.json, _made(options))
     if options.report is not None:
@@ -98,6 +113,8 @@ def _made(options: argparse.Namespace) -> dict[str, Any]:
         "recordings": names,
         "model": model,
         "tolerance_deg": options.tolerance,
+        "measured": options.measured,
+        "zeroed": [printable(Path(path).name) for path in options.zeroed],
     }
 
 

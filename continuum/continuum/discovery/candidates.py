@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import log
 
 import numpy as np
 
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of, with_linear_inputs
-from continuum.discovery.decision import ALIKE, PRICE, is_farther, is_needless, is_probable, is_worth
+from continuum.discovery.decision import ALIKE, CHANCE, PRICE, is_farther, is_needless, is_probable, is_worth
 from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.fitted import Fitted
+from continuum.discovery.hand_measurement import HandMeasurement, check_measured
 from continuum.discovery.mirrored import mirrored
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem, linearise
@@ -41,10 +43,13 @@ def examine(
     model: Model,
     effects: Sequence[str] | None = None,
     progress: Progress = silent,
+    measured: Sequence[HandMeasurement] = (),
 ) -> Examination:
     """Search for sets of effects and simulate each open loop."""
     progress("compiling", 0.0)
     problem = _problem(recordings, model, effects)
+    check_measured(measured, problem.structure.offered, problem.structure.n, [run.name for run in problem.runs])
+    problem = replace(problem, measured=tuple(measured))
     progress("baseline", 0.1)
     fits = _Fits(*_baseline(problem, recordings), progress)
     fits.search()
@@ -113,7 +118,8 @@ class _Fits:
         observations = min(self.examined, key=_error).fit.observations
 
         def cost(one: Examined) -> float:
-            return PRICE * len(one.found.chosen) + one.fit.occam + observations * log(one.fit.error)
+            price = PRICE * len(one.found.chosen) + one.fit.occam + one.misfit / 2
+            return price + observations * log(one.fit.error)
 
         return min((one for one in self.examined if np.isfinite(one.fit.error)), key=cost, default=self.examined[0])
 
@@ -224,10 +230,11 @@ class _Fits:
 
     def _nameable(self) -> list[Examined]:
         """Sets that are as near as the nearest, and of which no effect is needless."""
-        best = min(self.examined, key=_error)
+        sets = [one for one in self.examined[1:] if one.candidate.measured > CHANCE]
+        best = min([self.examined[0], *sets], key=_error)
         alike = ALIKE * log(self.examined[0].fit.error / best.fit.error)
-        fitted = [one.candidate for one in self.examined[1:]]
-        near = [one for one in self.examined[1:] if not is_farther(one.candidate, best.candidate, alike)]
+        fitted = [one.candidate for one in sets]
+        near = [one for one in sets if not is_farther(one.candidate, best.candidate, alike)]
         return [one for one in near if not is_needless(one.candidate, fitted, alike)]
 
     def _converge(self, one: Examined) -> None:

@@ -23,6 +23,7 @@ from continuum.recordings.recording import Recording
 
 RATE = 120.0  # readings a second, the prototype's
 _SECONDS = 3.0
+_OF_A_RELEASE = 1.5  # s, after which an arm rests: segments at rest tell little
 _SINES = np.geomspace(0.3, 3.5, 6)  # Hz, from slower to faster than an arm swings
 
 
@@ -36,7 +37,7 @@ class Design:
         posture: where the arm rests at first, (n,) [rad].
         times: of the readings, (n_times,) [s].
         inputs: what drives it.
-        zeroed: whether the sensors' zeros are measured by hand.
+        zeroed: whether the sensors' zeros are set by hand before it.
     """
 
     name: str
@@ -51,14 +52,15 @@ def designs(model: Model, recordings: Sequence[Recording]) -> list[Design]:
     """Runs for an arm that was recorded."""
     hanging = np.zeros(model.n_joints)
     times = np.arange(round(_SECONDS * RATE) + 1) / RATE
-    release = _release(model, recordings, times)
+    let_go = times[times <= _OF_A_RELEASE]
+    release = _release(model, recordings, let_go)
     found = [
         release,
         Design(
             "release with zeros by protractor",
             "Measure the angle of each joint at rest with a protractor, set the sensors' zeros by it, then let the arm "
-            "go from a bend.",
-            release.posture, times, release.inputs, zeroed=True,
+            "go from a bend. Diagnose all recordings again, with --zeroed and the name of this one.",
+            release.posture, let_go, release.inputs, zeroed=True,
         ),
     ]  # fmt: skip
     driven = _driven(model, recordings, times)

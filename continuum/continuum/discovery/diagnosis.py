@@ -14,8 +14,10 @@ from continuum.discovery.decision import Kind, Verdict, closed, decide, noise_in
 from continuum.discovery.detectable import detectable
 from continuum.discovery.estimates import baseline_estimates, correlation_of, estimates_of
 from continuum.discovery.examination import Examination, Examined
-from continuum.discovery.experiments import experiments
+from continuum.discovery.experiments import experiments, rivals
 from continuum.discovery.extended import model_of
+from continuum.discovery.hand_measurement import HandMeasurement
+from continuum.discovery.hand_tests import hand_tests
 from continuum.discovery.missing_torque import missing_torque
 from continuum.discovery.power import powers
 from continuum.discovery.result import Cause, Diagnosis, Share, is_named
@@ -40,6 +42,7 @@ def diagnose(
     tolerance: float | None = None,
     progress: Progress = silent,
     with_power: bool = True,
+    measured: Sequence[HandMeasurement] = (),
 ) -> Diagnosis:
     """Diagnose a model by measured data.
 
@@ -49,6 +52,7 @@ def diagnose(
         effects: names of those to try; all that are installed without.
         tolerance: open-loop error up to which a model is adequate [rad]; TOLERANCE times the noise without.
         progress: called with what is done, and the part of all that is over.
+        measured: values of effects that were measured by hand; sets that contradict them are excluded.
         with_power: whether to work out what the recordings would have shown, and which run would tell more.
 
     Raises:
@@ -56,8 +60,9 @@ def diagnose(
     """
     began = time.process_time()
     _check(recordings, model, tolerance)
-    found = examine(recordings, model, effects, lambda what, part: progress(what, _SEARCH * part))
-    progress("deciding", _SEARCH)
+    search = _SEARCH if with_power else 1.0
+    found = examine(recordings, model, effects, lambda what, part: progress(what, search * part), measured)
+    progress("deciding", search)
     answer, best = _answer(found, recordings, model, tolerance)
     if with_power:
         progress("power of the recordings", 0.7)
@@ -67,7 +72,10 @@ def diagnose(
         power = detectable(found.problem, [one for one in known if one.hypothesis.key not in named])
         progress("next experiment", 0.85)
         sets = [found.by_key[frozenset(key)] for key in answer.verdict.sets] or [best]
-        answer = replace(answer, power=power, experiments=experiments(found, sets, library, recordings, power))
+        answer = replace(
+            answer, power=power, experiments=experiments(found, sets, library, recordings, power),
+            hand_tests=hand_tests(found, rivals(sets)),
+        )  # fmt: skip
     return replace(answer, seconds=time.process_time() - began)
 
 
@@ -102,7 +110,7 @@ def _answer(
         verdict, sets, share, (sigma, less_sigma), (torque, less_torque), baseline_estimates(problem, best.fit), before,
         after, model_of(problem, base.fit.state, (), model),
         model_of(problem, best.fit.state, best.candidate.effects, model), tuple(recordings),
-        (), (), correlation_of(best.fit), (*odd, *_notes(recordings, found, best)), accepted, 0.0,
+        (), (), (), correlation_of(best.fit), (*odd, *_notes(recordings, found, best)), accepted, 0.0,
     )  # fmt: skip
     return answer, best
 

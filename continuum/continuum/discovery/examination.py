@@ -7,6 +7,7 @@ from functools import cached_property
 
 from continuum.discovery.candidate import Candidate
 from continuum.discovery.fitted import Fitted
+from continuum.discovery.hand_misfit import misfit, probability
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem
 from continuum.discovery.search import Found
@@ -25,11 +26,18 @@ class Examined:
     fit: Fitted
 
     @property
+    def misfit(self) -> float:
+        """Of values that were measured by hand: minus twice their log-likelihood, less a constant."""
+        return misfit(self.found.lin.problem, self.fit)
+
+    @property
     def candidate(self) -> Candidate:
         """For the decision."""
-        fit = self.fit
+        fit, measured = self.fit, probability(self.found.lin.problem, self.fit)
         effects = tuple(h.key for h in self.found.chosen)
-        return Candidate(effects, fit.errors, fit.observations, fit.occam, fit.of_effects, fit.agreement, fit.departure)
+        return Candidate(
+            effects, fit.errors, fit.observations, fit.occam, fit.of_effects, fit.agreement, fit.departure, measured
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -10,15 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
+from scipy.special import chdtrc
 
 from continuum.arrays import Array
 from continuum.discovery.baseline import run_of
-from continuum.discovery.decision import ALIKE, is_farther_by
+from continuum.discovery.decision import ALIKE, CHANCE, is_farther_by
 from continuum.discovery.designs import Design, designs
 from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.fitted import Fitted
+from continuum.discovery.hand_measurement import is_zero
 from continuum.discovery.hypotheses import PRIOR
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values
@@ -35,7 +38,6 @@ from continuum.recordings.recording import Recording
 
 _MOST_RUNS = 6  # that anybody repeats
 _REFITS = 8  # of a set to a run; the weights of residuals rise from one to the next as they become less alike
-_BY_HAND = np.deg2rad(0.3)  # rad, to which a protractor shows an angle
 
 
 def experiments(
@@ -54,22 +56,27 @@ def experiments(
         recordings: that were made.
         power: what they would have shown.
     """
-    hidden, rivals, out = {one.label for one in power if not one.is_shown}, _rivals(sets), list[Experiment]()
-    gained = float(np.log(found.baseline.fit.error / rivals[0].fit.error))
+    hidden, compared, out = {one.label for one in power if not one.is_shown}, rivals(sets), list[Experiment]()
+    gained = float(np.log(found.baseline.fit.error / compared[0].fit.error))
     for design in designs(found.problem.structure.given, recordings):
-        runs = [_simulated(found, one.fit, design) for one in rivals]
+        runs = [_simulated(found, one.fit, design) for one in compared]
         made = [run for run in runs if run is not None]
-        if len(made) < len(rivals):
+        if len(made) < len(compared):
             continue
         by_chance = [
-            _Trial(found.judge, one.fit, run, design, drawn=True).excess for one, run in zip(rivals, made, strict=True)
+            _Trial(found.judge, one.fit, run, design, drawn=True).refitted().excess
+            for one, run in zip(compared, made, strict=True)
         ]
-        apart = [
-            _Trial(found.judge, one.fit, run, design).excess - by_chance[k]
-            for i, one in enumerate(rivals) for k, run in enumerate(made) if i != k
+        refits = [
+            (_Trial(found.judge, one.fit, run, design).refitted(), by_chance[k])
+            for i, one in enumerate(compared) for k, run in enumerate(made) if i != k
         ]  # fmt: skip
-        needed = [_runs_needed(one, len(recordings), ALIKE * gained) for one in apart]
-        itself = _Trial(found.judge, rivals[0].fit, made[0], design)
+        apart = [one.excess - chance for one, chance in refits]
+        needed = [
+            1 if refit.contradicts else _runs_needed(one, len(recordings), ALIKE * gained)
+            for one, (refit, _) in zip(apart, refits, strict=True)
+        ]
+        itself = _Trial(found.judge, compared[0].fit, made[0], design)
         shows = tuple(sorted(itself.shown(library, hidden)))
         separates = min((float(np.mean(one)) for one in apart), default=np.nan)
         out.append(
@@ -78,7 +85,7 @@ def experiments(
     return tuple(sorted(out, key=lambda one: (one.runs or np.inf, -np.nan_to_num(one.separates), -len(one.shows))))
 
 
-def _rivals(sets: Sequence[Examined]) -> Sequence[Examined]:
+def rivals(sets: Sequence[Examined]) -> Sequence[Examined]:
     """The likeliest set, and the likeliest of other effects than its: where an effect acts matters less than which."""
     other = rival_of([{h.effect for h in one.found.chosen} for one in sets])
     return sets if other is None else [sets[0], sets[other]]
@@ -139,6 +146,18 @@ def _simulated(found: Examination, fit: Fitted, design: Design) -> _Run | None:
     return _Run(replace(run, readings=readings), Trajectory(motion.theta, motion.theta_rate, none, none), recording)
 
 
+class _Refit(NamedTuple):
+    """What a refit leaves.
+
+    Attributes:
+        excess: by how much the logarithm of the error in each segment is above the noise's, (segments,).
+        contradicts: whether it departs from zeros that were set by hand.
+    """
+
+    excess: Array
+    contradicts: bool
+
+
 class _Trial:
     """A set refitted to a run that another set simulates.
 
@@ -153,6 +172,7 @@ class _Trial:
 
     def __init__(self, judge: OutputError, fit: Fitted, made: _Run, design: Design, drawn: bool = False) -> None:
         problem = judge.problem
+        self._design = design
         self._judge = judge.along(replace(problem, runs=(made.run,)), (made.recording,))
         measured = np.array(
             [any(_is_zeroed(problem, key, design) for key in one.places) for one in fit.unknowns.common]
@@ -176,22 +196,27 @@ class _Trial:
             errors=np.full(self._judge.segments, self._judge.floor), observations=min(1.0, independent) * total,
         )  # fmt: skip
 
-    @property
-    def excess(self) -> Array:
-        """By how much the logarithm of the error in each segment is above the noise's, (segments,)."""
+    def refitted(self) -> _Refit:
+        """The set after some steps towards the run, with noise."""
         fit, judge = self._fit, self._judge
         segments = judge.simulated(fit.unknowns, fit.values)
         if not all(np.isfinite(one.square) for one in segments):
-            return np.full(len(segments), np.inf)
+            return _Refit(np.full(len(segments), np.inf), False)
         random, noisy = np.random.default_rng(0), segments
         for _ in range(_REFITS):
             noise = [random.normal(0.0, judge.floor, one.readings.size) for one in noisy]
-            scale = [one.with_residuals(one.slopes[:, -1] + e) for one, e in zip(noisy, noise, strict=True)]
+            scale = [one.with_residuals(one.residuals + e) for one, e in zip(noisy, noise, strict=True)]
             weights = Scale(scale, judge.floor).weights([one.error for one in scale])
             normal = NormalEquations(fit.unknowns, fit.values, segments, weights, judge.local_precision)
-            left = normal.expected_residuals(normal.stepped(DAMPING))
+            there = normal.stepped(DAMPING)
+            left = normal.expected_residuals(there)
             noisy = [one.with_residuals(r.ravel()) for one, r in zip(segments, left, strict=True)]
-        return 0.5 * np.log1p(np.array([np.mean(r**2) for r in left]) / judge.floor**2)
+        excess = 0.5 * np.log1p(np.array([np.mean(r**2) for r in left]) / judge.floor**2)
+        zeros = [value / one.sd for one, value in zip(fit.unknowns.common, there.common, strict=True)
+                 if any(_is_zeroed(judge.problem, key, self._design) for key in one.places)]  # fmt: skip
+        zeros += [value / one.sd for one, value in zip(fit.unknowns.own[0], there.own[0], strict=True)
+                  if any(_is_zeroed(judge.problem, key, self._design) for key in one.places)]  # fmt: skip
+        return _Refit(excess, bool(zeros) and float(chdtrc(len(zeros), np.sum(np.square(zeros)))) < CHANCE)
 
     def shown(self, library: Library, hidden: set[str]) -> set[str]:
         """Labels of effects that the run would show at their typical sizes, of those whose size enters linearly."""
@@ -200,17 +225,14 @@ class _Trial:
 
 
 def _is_zeroed(problem: Problem, key: ValueKey, design: Design) -> bool:
-    """Whether a value is a zero or a drift of a sensor, and these are measured by hand."""
+    """Whether a value is a zero of a sensor, and these are set by hand."""
     effect, name, _ = key
     sensors = {one.name: one.parameters for one in problem.structure.sensors}
-    return design.zeroed and effect in sensors and sensors[effect][name].per_recording
+    return design.zeroed and effect in sensors and is_zero(sensors[effect][name])
 
 
 def _sd(problem: Problem, one: Unknown, design: Design) -> float:
     """Prior standard deviation of a value that the run has for itself; by hand a sensor's zero is known better."""
-    if not any(_is_zeroed(problem, key, design) for key in one.places):
-        return float(one.sd)
-    effects = {effect.name: effect.parameters for effect in problem.structure.sensors}
-    is_drift = any(effects[effect][name].unit == "rad/s" for effect, name, _ in one.places)
-    duration = float(design.times[-1] - design.times[0])
-    return float(min(one.sd, _BY_HAND / duration if is_drift else _BY_HAND))
+    sensors = {effect.name: effect.parameters for effect in problem.structure.sensors}
+    by_hand = [sensors[key[0]][key[1]].by_hand for key in one.places if _is_zeroed(problem, key, design)]
+    return min([float(one.sd), *by_hand])

@@ -170,7 +170,7 @@ class NormalEquations:
             k, parts, systems = len(values.common) + len(own), list[Array](), list[tuple[Array, Array]]()
             for one in self._of(r):
                 weight, mine = next(local)
-                G, h = weight * one.gram[:-1, :-1], -weight * one.gram[:-1, -1]
+                G, h = weight * one.information, -weight * (one.residuals @ one.jacobian)
                 G[k:, k:] += np.diag(local_precision)
                 h[k:] -= local_precision * mine
                 A, b, part = _eliminated(G, h, k)
@@ -204,15 +204,15 @@ class NormalEquations:
     def expected_residuals(self, there: Values) -> list[Array]:
         """Residuals of each segment at other values, linearised, (rows, n) each [rad]."""
         moves = zip(self._segments, self._moves(there), strict=True)
-        return [(one.slopes @ move).reshape(one.readings.shape) for one, move in moves]
+        return [one.residuals_at(move).reshape(one.readings.shape) for one, move in moves]
 
     def _moves(self, there: Values) -> Iterator[Array]:
-        """Changes of each segment's unknowns on the way to other values, and 1."""
+        """Changes of each segment's unknowns on the way to other values."""
         here = self._values
         local = iter([after - before for before, after in zip(here.local, there.local, strict=True)])
         for r, (before, after) in enumerate(zip(here.own, there.own, strict=True)):
             for _ in self._of(r):
-                yield np.concatenate([there.common - here.common, after - before, next(local), [1.0]])
+                yield np.concatenate([there.common - here.common, after - before, next(local)])
 
     def expected_fall(self, there: Values) -> float:
         """Fall of minus the log-posterior on the way to other values, by the linearised residuals."""
@@ -245,10 +245,10 @@ class NormalEquations:
                     own = of_own[:, -1] - of_own[:, :-1] @ step
                 both = np.concatenate([step, own])
                 local = run.segments[i][:, -1] - run.segments[i][:, :-1] @ both
-                move = np.concatenate([both, local, [1.0]])
+                move = np.concatenate([both, local])
                 moves.append(step - whole)
                 spreads.append(np.sqrt(np.maximum(variance, 0.0)))
-                errors.append(float(np.sqrt(np.mean((one.slopes @ move) ** 2))))
+                errors.append(float(np.sqrt(np.mean(one.residuals_at(move) ** 2))))
         return WithoutEach(np.array(moves), np.array(spreads), np.array(errors))
 
 

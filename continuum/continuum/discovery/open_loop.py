@@ -37,34 +37,47 @@ class Segment:
     Attributes:
         run, rows: which.
         readings: as the sensors would read the angles, (rows, n) [rad]; NaN where the simulation failed.
-        slopes: [J r]: residuals r [rad] of all rows and joints, and their derivatives J by the unknowns common to all
-            recordings, by the run's own, and by the segment's own: initial angles, initial rates, zeros of the sensors.
+        jacobian: derivatives J of the residuals of all rows and joints by the unknowns common to all recordings, by the
+            run's own, and by the segment's own: initial angles, initial rates, zeros of the sensors, (rows n, k).
+        residuals: r, (rows n,) [rad].
+        information: J'J, (k, k).
     """
 
     run: int
     rows: slice
     readings: Array
-    slopes: Array
+    jacobian: Array
+    residuals: Array
+    information: Array
+
+    @classmethod
+    def of(cls, run: int, rows: slice, readings: Array, jacobian: Array, residuals: Array) -> Segment:
+        """A segment with its information."""
+        return cls(run, rows, readings, jacobian, residuals, jacobian.T @ jacobian)
 
     def with_residuals(self, residuals: Array) -> Segment:
         """The same with other residuals, (rows n,) [rad]."""
-        return replace(self, slopes=np.column_stack([self.slopes[:, :-1], residuals]))
+        return replace(self, residuals=residuals)
 
-    @cached_property
-    def gram(self) -> Array:
-        """[J r]' [J r]."""
-        return self.slopes.T @ self.slopes
+    def with_unknowns(self, which: Sequence[int]) -> Segment:
+        """The same with derivatives by some of the unknowns only."""
+        information = self.information[np.ix_(which, which)]
+        return replace(self, jacobian=self.jacobian[:, which], information=information)
+
+    def residuals_at(self, step: Array) -> Array:
+        """Residuals after a step of the unknowns (k,), linearised, (rows n,) [rad]."""
+        return self.residuals + self.jacobian @ step
 
     @cached_property
     def product(self) -> float:
         """Sum of products of residuals one row apart [rad^2]."""
-        r = self.slopes[:, -1].reshape(self.readings.shape)
+        r = self.residuals.reshape(self.readings.shape)
         return float(np.sum(r[1:] * r[:-1]))
 
-    @property
+    @cached_property
     def square(self) -> float:
         """Sum of the squared residuals [rad^2]."""
-        return float(self.gram[-1, -1])
+        return float(self.residuals @ self.residuals)
 
     @property
     def error(self) -> float:
@@ -163,7 +176,7 @@ class RunSimulation:
             return self._failed(rows, width)
         q, w = found.theta, found.theta_rate
         read = self._read(rows, q, w, self._own)
-        J = np.zeros((times.size, n, width + 1))
+        J = np.zeros((times.size, n, width))
         J[:, :, : k + 2 * n] = self._reads @ found.slopes[:, : 2 * n]
         for i, own in self._sensors.items():
             J[:, :, i] = (self._read(rows, q, w, own) - read) / STEP
@@ -172,14 +185,15 @@ class RunSimulation:
             if later.status is not SimulationStatus.COMPLETE:
                 return self._failed(rows, width)
             J[:, :, i] = (self._read(rows, later.theta, later.theta_rate, self._own) - read) / _LATER
-        J[:, :, k + 2 * n : width] = np.eye(n)
-        J[:, :, -1] = read + zeros - np.nan_to_num(run.readings[rows, :n])
-        J[run.live[rows, :n] <= 0] = 0.0
-        return Segment(self._r, rows, read + zeros, J.reshape(-1, width + 1))
+        J[:, :, k + 2 * n :] = np.eye(n)
+        residuals, unread = read + zeros - np.nan_to_num(run.readings[rows, :n]), run.live[rows, :n] <= 0
+        J[unread], residuals[unread] = 0.0, 0.0
+        return Segment.of(self._r, rows, read + zeros, J.reshape(-1, width), residuals.ravel())
 
     def _failed(self, rows: slice, width: int) -> Segment:
         size, n = len(self._run.times[rows]), self._problem.structure.n
-        return Segment(self._r, rows, np.full((size, n), np.nan), np.full((size * n, width + 1), np.nan))
+        none = np.full((size, n), np.nan)
+        return Segment.of(self._r, rows, none, np.full((size * n, width), np.nan), none.ravel())
 
     def readings(self, rows: slice, local: Array) -> Array:
         """The same as `Segment.readings`, without derivatives, (rows, n) [rad]."""

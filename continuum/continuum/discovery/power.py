@@ -164,10 +164,10 @@ def powers(
         return stays
 
     def power(h: Hypothesis, changed: Sequence[Segment], every: int = 1) -> Power:
-        changes = _size(np.array([_size(one.slopes[:, -1]) for one in changed]) / noise)
+        changes = _size(np.array([_size(one.residuals) for one in changed]) / noise)
 
         def of_size(size: float) -> Array:
-            found = left([one.with_residuals(size * one.slopes[:, -1]) for one in changed]) / size
+            found = left([one.with_residuals(size * one.residuals) for one in changed]) / size
             return np.repeat(found[::every], every)[: len(found)]
 
         def made(tried: tuple[float, float], of_sizes: Sequence[Array]) -> Power:
@@ -201,7 +201,7 @@ def powers(
 def _with_noise(changed: Sequence[Segment], fitted: Sequence[Segment]) -> list[Segment]:
     """Segments whose residuals are a change and what a fit left."""
     both = zip(changed, fitted, strict=True)
-    return [one.with_residuals(one.slopes[:, -1] + other.slopes[:, -1]) for one, other in both]
+    return [one.with_residuals(one.residuals + other.residuals) for one, other in both]
 
 
 def _keep(found: dict[object, Power], one: Power) -> None:

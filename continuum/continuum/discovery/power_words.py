@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from continuum.discovery.result import Detectable, Diagnosis, is_named
+from continuum.discovery.result import Detectable, Diagnosis, Experiment, is_named
 
 _LISTED = 6  # effects that a sentence bears
 
@@ -31,20 +31,37 @@ def power_in_words(result: Diagnosis) -> tuple[list[tuple[str, str]], list[tuple
 
 def experiment_in_words(result: Diagnosis) -> str:
     """The run that tells most, and what it tells; empty where none was worked out."""
+    if len(result.sets) > 1 and is_named(result.verdict.kind):
+        return separating_in_words(result)
     if not result.experiments:
         return ""
     best = result.experiments[0]
-    if len(result.sets) > 1 and is_named(result.verdict.kind):
-        if not best.runs:
-            return "none of the usual runs tells the possible causes apart; do what is said above."
-        times = "" if best.runs == 1 else f" Do this {best.runs} times."
-        return f"{best.name}. {best.instruction}{times} It should tell the likeliest causes apart."
     if not best.shows:
         return f"{best.name}. {best.instruction}"
     effects = list(dict.fromkeys(label.partition("@")[0] for label in best.shows))
     more = f" and {len(effects) - _LISTED} more" if len(effects) > _LISTED else ""
     listed = ", ".join(effects[:_LISTED]) + more
     return f"{best.name}. {best.instruction} It would show {listed}, which these recordings cannot, or at fewer joints."
+
+
+def separating_in_words(result: Diagnosis) -> str:
+    """What tells the possible causes apart, and what to do with what it gives."""
+    match result.separating:
+        case None:
+            return "no usual run or measurement tells the likeliest causes apart; do what is said above."
+        case Experiment() as run:
+            return f"{run.name}. {repeated(run)} It should tell the likeliest causes apart."
+        case test:
+            unit = f" {test.unit}" * (test.unit != "1")
+            return (
+                f"measure {test.name} by hand to {test.sd:g}{unit} (one standard deviation). {test.instruction} "
+                f"Then diagnose again with --measured {test.name}=VALUE."
+            )
+
+
+def repeated(run: Experiment) -> str:
+    """The instruction, and how often."""
+    return run.instruction + (f" Do this {run.runs} times." if run.runs > 1 else "")
 
 
 def _size_in_words(one: Detectable) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery.coordinates import Coordinates
 from continuum.discovery.evidence import Evidence, Nuisance
+from continuum.discovery.hand_measurement import HandMeasurement
 from continuum.discovery.library import Library
 from continuum.estimation.augmented_filter import Measurement, RunLikelihood, run_likelihood
 from continuum.estimation.columns import Scene, assembled, to_states
@@ -34,6 +35,7 @@ class Problem:
         runs: recordings.
         noise: of sensors; sigma is the unit of the levels, (n,) [N m].
         levels: multiples of that sigma.
+        measured: values of effects that were measured by hand.
     """
 
     structure: Structure
@@ -41,6 +43,7 @@ class Problem:
     runs: tuple[Run, ...]
     noise: NoiseModel
     levels: Array
+    measured: tuple[HandMeasurement, ...] = ()
 
 
 @dataclass(frozen=True)

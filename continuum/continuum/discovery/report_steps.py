@@ -6,6 +6,8 @@ from typing import Final, NamedTuple
 
 from continuum.discovery.decision import Kind
 from continuum.discovery.names import capital, effect_in_words, label_in_words, listed
+from continuum.discovery.power_words import repeated
+from continuum.discovery.quantities import number, scale_of
 from continuum.discovery.result import Cause, Diagnosis, Experiment
 from continuum.discovery.words import MORE_RUNS
 from continuum.dynamics.effect_lookup import effect_named
@@ -19,6 +21,12 @@ class Step(NamedTuple):
 
     instruction: str
     purpose: str
+
+
+REPEAT: Final = Step(
+    "Make one of these runs three times more, without touching anything in between.",
+    "Shows whether what is missing changes from run to run: pieces of the recordings disagree about its size.",
+)
 
 
 class ExperimentRow(NamedTuple):
@@ -37,15 +45,15 @@ def next_steps(result: Diagnosis) -> list[Step]:
         for c in _in_doubt(result)
     ]
     steps = [Step(one.instruction, would_show(result, one, _LISTED)) for one in result.experiments]
+    repeating = [] if result.verdict.steady else [REPEAT]
     telling = [step for step in steps if step.purpose]
     match result.verdict.kind:
         case Kind.ADEQUATE:
             return telling[:1]
         case Kind.CAUSE:
-            return by_hand
+            return [*by_hand, *repeating]
         case Kind.AMBIGUOUS:
-            separating = [one for one in result.experiments if one.runs]
-            return [Step(repeated(one), "Tells the explanations apart.") for one in separating[:1]] + by_hand
+            return [*_separating(result), *by_hand, *repeating]
         case _:
             return [Step(MORE_RUNS, ""), *telling[:1]]
 
@@ -81,9 +89,18 @@ def _separates(one: Experiment) -> str:
     return f"after {one.runs} run{'s' * (one.runs > 1)}" if one.runs else "no"
 
 
-def repeated(one: Experiment) -> str:
-    """The instruction, and how often."""
-    return one.instruction + (f" Do this {one.runs} times." if one.runs > 1 else "")
+def _separating(result: Diagnosis) -> list[Step]:
+    """What tells the explanations apart."""
+    match result.separating:
+        case None:
+            return []
+        case Experiment() as run:
+            return [Step(repeated(run), "Tells the explanations apart.")]
+        case test:
+            scale = scale_of(test.unit, effect_named(test.effect).parameters[test.parameter].meaning, test.parameter)
+            to = f"{number(scale(test.sd), 2)} {scale.unit}".rstrip()
+            return [Step(test.instruction, f"Tells the explanations apart if it is exact to {to}. Then diagnose again "
+                         f"with --measured {test.name}=VALUE.")]  # fmt: skip
 
 
 def _in_doubt(result: Diagnosis) -> list[Cause]:

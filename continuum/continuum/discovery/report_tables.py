@@ -10,8 +10,9 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.fitted import OpenLoop
-from continuum.discovery.names import capital, label_in_words, sets_in_words
+from continuum.discovery.names import capital, label_in_words, sets_in_words, small
 from continuum.discovery.quantities import percent, percent_interval, with_decimals
+from continuum.discovery.report_matter import matter_with_value
 from continuum.discovery.result import Cause, Diagnosis, Share
 from continuum.identification.nrmse import nrmse
 
@@ -21,6 +22,7 @@ class ShareRow(NamedTuple):
 
     name: str
     id: str
+    matter: str
     percent: str
     interval: str
     width: float
@@ -54,7 +56,7 @@ class JointRow(NamedTuple):
 
 def share_rows(result: Diagnosis) -> list[ShareRow]:
     """What each effect of the best set closes of the open-loop error, and what stays unknown."""
-    rows = [_share(capital(label_in_words(c.label, _joints(result))), c.label, c.share) for c in result.causes]
+    rows = [_share(capital(label_in_words(c.label, _joints(result))), c.label, c.share, [c]) for c in result.causes]
     return [*rows, _share("Stays unexplained", "", result.shares["unknown"])]
 
 
@@ -64,7 +66,7 @@ def set_rows(result: Diagnosis) -> list[ShareRow]:
     for causes, name in zip(result.sets, names_of_sets(result), strict=True):
         shares = [cause.share for cause in causes]
         whole = Share(*(math.fsum(getattr(s, end) for s in shares) for end in ("value", "low", "high")))
-        rows.append(_share(capital(name), ids(causes), whole))
+        rows.append(_share(capital(name), ids(causes), whole, causes))
     return rows
 
 
@@ -118,9 +120,10 @@ def _joints(result: Diagnosis) -> int:
     return result.recordings[0].n_joints
 
 
-def _share(name: str, label: str, share: Share) -> ShareRow:
+def _share(name: str, label: str, share: Share, causes: Sequence[Cause] = ()) -> ShareRow:
+    matter = capital("; ".join(small(matter_with_value(cause)) for cause in causes)) + "." * bool(causes)
     width = 100 * min(max(share.value, 0.0), 1.0) if math.isfinite(share.value) else 0.0
-    return ShareRow(name, label, percent(share.value), percent_interval(share.low, share.high), round(width, 1))
+    return ShareRow(name, label, matter, percent(share.value), percent_interval(share.low, share.high), round(width, 1))
 
 
 def _pair(values: Iterable[float], decimals: int) -> Pair:

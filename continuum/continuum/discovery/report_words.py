@@ -7,19 +7,20 @@ from typing import Final
 
 from continuum.discovery.decision import Kind
 from continuum.discovery.names import capital, effect_in_words, label_in_words, listed, sets_in_words, small
-from continuum.discovery.quantities import percent, percent_interval, scale_of, with_interval
+from continuum.discovery.quantities import percent, percent_interval
+from continuum.discovery.report_matter import matter_with_value
 from continuum.discovery.report_power import counts
 from continuum.discovery.report_tables import error_rows, joint_rows
 from continuum.discovery.result import Cause, Diagnosis, is_named
 from continuum.discovery.track_record import track_record
-from continuum.discovery.words import UNSTEADY, adequate, matter_in_words, places
+from continuum.discovery.words import UNSTEADY, adequate
 from continuum.dynamics.effect_lookup import effect_named
 
 _RIGHT: Final = {
     Kind.ADEQUATE: "nothing was wrong with {} arms; in the others a fault was hidden that did not show",
     Kind.CAUSE: "{} named only what was really there",
     Kind.AMBIGUOUS: "{} listed exactly what was there as one of the possibilities",
-    Kind.UNKNOWN: "{} were about a fault that the library lacks; the others were false alarms, or faults that it has",
+    Kind.UNKNOWN: "{} met a fault that the library lacks; the others met one that it has, or none",
 }
 _IN_A_TITLE: Final = 3
 """Explanations that a title lists."""
@@ -56,7 +57,7 @@ def verdict_sentence(result: Diagnosis, contradictions: Sequence[str]) -> str:
         case Kind.ADEQUATE:
             return f"With springs and friction refitted, {small(adequate(result))}"
         case Kind.CAUSE:
-            matters = capital("; ".join(small(_matter(cause)) for cause in result.causes))
+            matters = capital("; ".join(small(matter_with_value(cause)) for cause in result.causes))
             rest = "nothing more is missing" if result.verdict.complete else "the cause of the rest is unknown"
             return f"{matters}; adding this to the simulation removes {_closed(result)}, and {rest}."
         case Kind.AMBIGUOUS:
@@ -79,10 +80,10 @@ def reliability(result: Diagnosis) -> str:
         return ""
     interval = percent_interval(record.low, record.high)
     right = _RIGHT[result.verdict.kind].format(record.right)
-    return (
-        f"How far to trust this: of {record.n} verdicts of this kind on simulated arms whose faults are known, {right} "
-        f"({percent(record.right / record.n)} %, 95 % interval {interval} %)."
-    )
+    arms = f"of {record.n} verdicts of this kind on simulated arms whose faults are known,"
+    if result.verdict.kind is Kind.UNKNOWN:
+        return f"How far to trust this: {arms} {right}."
+    return f"How far to trust this: {arms} {right} ({percent(record.right / record.n)} %, 95 % interval {interval} %)."
 
 
 def power_sentence(result: Diagnosis) -> str:
@@ -118,25 +119,6 @@ def lookalikes(result: Diagnosis) -> list[str]:
     named = dict.fromkeys(cause.effect for causes in result.sets for cause in causes)
     warned = {effect_in_words(effect): effect_named(effect).beware for effect in named}
     return [f"{capital(name)}: {small(beware)}" for name, beware in warned.items() if beware]
-
-
-def _matter(cause: Cause) -> str:
-    """What is the matter, where, and how large it is if one number says that."""
-    where = f" at {places(cause)}" if places(cause) else ""
-    value = _value(cause)
-    details = ", ".join(filter(None, [where.strip(), value]))
-    return matter_in_words(cause).rstrip(".") + (f" ({details})" if details else "")
-
-
-def _value(cause: Cause) -> str:
-    if len(cause.estimates) != 1:
-        return ""
-    (one,) = cause.estimates
-    scale = scale_of(one.unit, one.meaning, one.name)
-    value, interval = with_interval(scale(one.value), scale(one.low), scale(one.high), digits=1)
-    unit = scale.unit if scale.unit.startswith("°") or not scale.unit else f" {scale.unit}"
-    what = "" if scale.unit else f"{one.meaning}: "
-    return f"{what}{value}{unit}" + (f", 95 % interval {interval}{unit}" if interval != "–" else "")
 
 
 def _closed(result: Diagnosis) -> str:

@@ -16,6 +16,8 @@ from continuum.recordings.recording import Recording
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+_FEW = 2  # runs, which are less work than to take an arm apart
+
 
 @dataclass(frozen=True)
 class Estimate:
@@ -142,6 +144,34 @@ class Experiment:
 
 
 @dataclass(frozen=True)
+class HandTest:
+    """A value that, measured by hand, would tell the two likeliest sets apart.
+
+    Attributes:
+        effect, parameter, joint: which; joint from 0, None where it belongs to none.
+        unit: SI.
+        sd: standard deviation of the usual instrument [unit].
+        apart: by how many standard deviations the sets differ about it.
+        decides: whether that is enough to exclude one of them with a probability of 80 %.
+        instruction: what to do, one or two sentences for a mechanic.
+    """
+
+    effect: str
+    parameter: str
+    joint: int | None
+    unit: str
+    sd: float
+    apart: float
+    decides: bool
+    instruction: str
+
+    @property
+    def name(self) -> str:
+        """As tables have it, joints from 1."""
+        return f"{self.effect}.{self.parameter}" + (f"[{self.joint + 1}]" if self.joint is not None else "")
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """The answer.
 
@@ -157,6 +187,7 @@ class Diagnosis:
         recordings: what was diagnosed.
         power: smallest size of each effect that would have been shown, about the best set.
         experiments: runs that would tell more, the best first.
+        hand_tests: values that would tell the likeliest sets apart if they were measured by hand, the best first.
         correlation: names of the best set's values and their posterior correlations, (k, k).
         notes: on the data, one sentence each.
         tolerance: open-loop error up to which a model is adequate [rad].
@@ -176,6 +207,7 @@ class Diagnosis:
     recordings: tuple[Recording, ...]
     power: tuple[Detectable, ...]
     experiments: tuple[Experiment, ...]
+    hand_tests: tuple[HandTest, ...]
     correlation: tuple[tuple[str, ...], Array]
     notes: tuple[str, ...]
     tolerance: float
@@ -192,6 +224,16 @@ class Diagnosis:
         found = {cause.label: cause.share for cause in self.causes}
         rest = 1 - sum(share.value for share in found.values())
         return found | {"unknown": Share(rest, 1 - self.closed.high, 1 - self.closed.low)}
+
+    @property
+    def separating(self) -> Experiment | HandTest | None:
+        """What tells the two likeliest sets apart with the least work; None where nothing does.
+
+        A run that is made once or twice, else a measurement by hand, else more runs.
+        """
+        run = next((one for one in self.experiments if one.runs), None)
+        test = next((one for one in self.hand_tests if one.decides), None)
+        return run if run is not None and (run.runs <= _FEW or test is None) else test
 
     @property
     def is_extended(self) -> bool:

@@ -85,4 +85,4 @@ def _less(one: Segment, wide: Unknowns, fitted: Values, left: Hypothesis | None)
     filled, every = padded(fitted, wide), [*wide.common, *wide.own[one.run]]
     values = np.concatenate([filled.common, filled.own[one.run]]) - [unknown.absent for unknown in every]
     gone = [k for k, unknown in enumerate(every) if unknown.hypothesis is left]
-    return one.with_residuals(one.slopes[:, -1] - one.slopes[:, gone] @ values[gone])
+    return one.with_residuals(one.residuals - one.jacobian[:, gone] @ values[gone])

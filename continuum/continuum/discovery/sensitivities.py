@@ -77,9 +77,9 @@ class Sensitivities:
 
     def _by(self, one: Segment, unknowns: Unknowns, local: int) -> Segment:
         """A segment with the derivatives by some unknowns only, and by its own."""
-        at, width = self._at[one.run], one.slopes.shape[1]
+        at, width = self._at[one.run], one.jacobian.shape[1]
         some = [at[each.place] for each in (*unknowns.common, *unknowns.own[one.run])]
-        return Segment(one.run, one.rows, one.readings, one.slopes[:, [*some, *range(width - local - 1, width)]])
+        return one.with_unknowns([*some, *range(width - local, width)])
 
     def changes(self, h: Hypothesis, sizes: Array, own_sizes: Array) -> list[Segment]:
         """Segments whose residuals are what a hypothesis would leave if it were in the data.
@@ -94,7 +94,7 @@ class Sensitivities:
         for one in self.segments:
             at, sign = self._at[one.run], 1 - 2 * (one.run % 2)
             columns = [at[each.place] for each in (*of_all, *of_runs[one.run])]
-            found.append(one.with_residuals(-one.slopes[:, columns] @ np.concatenate([sizes, sign * own_sizes])))
+            found.append(one.with_residuals(-one.jacobian[:, columns] @ np.concatenate([sizes, sign * own_sizes])))
         return found
 
 

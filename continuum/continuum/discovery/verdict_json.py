@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.result import Cause, Detectable, Diagnosis, Estimate, Experiment, Share, is_named
+from continuum.discovery.result import Cause, Detectable, Diagnosis, Estimate, Experiment, HandTest, Share, is_named
 from continuum.identification.nrmse import nrmse
 from continuum.whole_file import write_whole
 
@@ -57,6 +57,7 @@ def as_mapping(result: Diagnosis) -> dict[str, Any]:
         "parameters": [_estimate(one) for one in result.estimates],
         "power": [_detectable(one) for one in result.power],
         "experiments": [_experiment(one) for one in result.experiments],
+        "measurements_by_hand": [_hand_test(one) for one in result.hand_tests],
         "notes": list(result.notes),
         "processor_seconds": result.seconds,
     }
@@ -115,6 +116,17 @@ def _experiment(one: Experiment) -> dict[str, Any]:
         "separates": _number(one.separates),
         "runs": one.runs or None,
         "shows": list(one.shows),
+    }
+
+
+def _hand_test(one: HandTest) -> dict[str, Any]:
+    return {
+        "name": one.name,
+        "unit": one.unit,
+        "sd": one.sd,
+        "apart": _number(one.apart),
+        "decides": one.decides,
+        "instruction": one.instruction,
     }
 
 

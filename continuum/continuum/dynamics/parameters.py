@@ -28,6 +28,7 @@ class Parameter:
         per_recording: differs from recording to recording, as a sensor's offset after each start.
         ordinary: standard deviation by which parts of one batch differ; a diagnosis allows for it and names nothing.
         shape: says what an effect looks like, not how large it is, though its default is 0.
+        by_hand: standard deviation with which it can be measured by hand [unit]; 0 where it cannot.
         optional: without a default and not required: an arm may have no such thing, its model then no such value.
     """
 
@@ -43,6 +44,7 @@ class Parameter:
     optional: bool = False
     ordinary: float = 0.0
     shape: bool = False
+    by_hand: float = 0.0
 
     @property
     def another_value(self) -> float:

@@ -22,7 +22,7 @@ class ActuatorLag(CableStates):
 
     name = "actuator_lag"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "lag": Parameter("t_a", "s", 0.0, 1.0, False, "time constant of the motors", 0.0, 0.03)
+        "lag": Parameter("t_a", "s", 0.0, 1.0, False, "time constant of the motors", 0.0, 0.03, by_hand=0.005)
     }
     uses_cables = True
     needs_tension = True

@@ -19,7 +19,9 @@ class AngleOffset(Effect):
 
     name = "angle_offset"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "offset": Parameter("o", "rad", -1.0, 1.0, True, "added to a joint's measured angle", 0.0, 0.03, True)
+        "offset": Parameter(
+            "o", "rad", -1.0, 1.0, True, "added to a joint's measured angle", 0.0, 0.03, True, by_hand=0.005
+        )
     }
     source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3 and 4"
     in_words = "A sensor shows a wrong angle from the start, by the same amount all the time."

@@ -42,7 +42,7 @@ class Backlash(Effect):
 
     name = "backlash"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "gap": Parameter("delta", "rad", 0.0, 0.5, True, "play of a joint to each side", 0.0, 0.02)
+        "gap": Parameter("delta", "rad", 0.0, 0.5, True, "play of a joint to each side", 0.0, 0.02, by_hand=0.003)
     }
     source = "Nordin and Gutman, Automatica 38, 2002, 1633-1649"
     in_words = "A joint has play: for a small way it moves without its spring and friction."

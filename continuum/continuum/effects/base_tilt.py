@@ -19,7 +19,7 @@ class BaseTilt(Effect):
 
     name = "base_tilt"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "angle": Parameter("beta_e", "rad", -1.0, 1.0, False, "added to the hang angle", 0.0, 0.035)
+        "angle": Parameter("beta_e", "rad", -1.0, 1.0, False, "added to the hang angle", 0.0, 0.035, by_hand=0.005)
     }
     source = "thesis Eq. 12, G; Khalil and Dombre, Modeling, Identification and Control of Robots, 2002, ch. 9"
     in_words = "The base plate is not level, so the arm hangs askew."

@@ -19,7 +19,16 @@ class Capstan(Effect):
     name = "capstan"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "friction": Parameter(
-            "mu_e", "1", 0.0, 2.0, False, "added to the friction of cables on discs", 0.0, 0.1, ordinary=0.02
+            "mu_e",
+            "1",
+            0.0,
+            2.0,
+            False,
+            "added to the friction of cables on discs",
+            0.0,
+            0.1,
+            ordinary=0.02,
+            by_hand=0.03,
         )
     }
     uses_cables = True

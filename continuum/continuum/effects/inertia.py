@@ -20,7 +20,16 @@ class Inertia(Effect):
     name = "inertia"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "mass": Parameter(
-            "e_m", "1", -0.9, 10.0, True, "mass of a link by its model's, less 1", 0.0, 0.1, ordinary=0.01
+            "e_m",
+            "1",
+            -0.9,
+            10.0,
+            True,
+            "mass of a link by its model's, less 1",
+            0.0,
+            0.1,
+            ordinary=0.01,
+            by_hand=0.01,
         ),
         "inertia": Parameter(
             "e_I", "1", -0.95, 50.0, True, "own inertia of a link by its model's, less 1", 0.0, 0.5, ordinary=0.03

@@ -20,7 +20,15 @@ class RestAngle(Effect):
     name = "rest_angle"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "angle": Parameter(
-            "theta_0", "rad", -1.0, 1.0, True, "added to the angle of a joint's relaxed spring", 0.0, 0.05
+            "theta_0",
+            "rad",
+            -1.0,
+            1.0,
+            True,
+            "added to the angle of a joint's relaxed spring",
+            0.0,
+            0.05,
+            by_hand=0.01,
         )
     }
     source = "thesis Eq. 12; Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 10 (set of springs)"

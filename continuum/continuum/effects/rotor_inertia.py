@@ -20,7 +20,9 @@ class RotorInertia(Effect):
 
     name = "rotor_inertia"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "ratio": Parameter("e_J", "1", 0.0, 100.0, True, "missing inertia of a drive over its link's", 0.0, 0.3)
+        "ratio": Parameter(
+            "e_J", "1", 0.0, 100.0, True, "missing inertia of a drive over its link's", 0.0, 0.3, by_hand=0.05
+        )
     }
     source = "Armstrong, Khatib and Burdick, IEEE ICRA 1986, 510-518 (drives' inertia of the PUMA 560)"
     in_words = "The rotor of a joint's drive adds inertia that the model lacks."

@@ -26,7 +26,7 @@ class SensorDelay(Effect):
 
     name = "sensor_delay"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "delay": Parameter("t_d", "s", 0.0, 0.2, False, "by which all sensors are late", 0.0, 0.01),
+        "delay": Parameter("t_d", "s", 0.0, 0.2, False, "by which all sensors are late", 0.0, 0.01, by_hand=0.003),
         "lag": Parameter("t_j", "s", 0.0, 0.1, True, "by which a joint's angle comes later than others", 0.0, 0.01),
     }
     needs_tension = True

@@ -29,7 +29,9 @@ class SensorScale(Effect):
 
     name = "sensor_scale"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "gain": Parameter("e_s", "1", -0.5, 0.5, True, "measured motion of a link by the true one, less 1", 0.0, 0.05)
+        "gain": Parameter(
+            "e_s", "1", -0.5, 0.5, True, "measured motion of a link by the true one, less 1", 0.0, 0.05, by_hand=0.01
+        )
     }
     source = "Tedaldi, Pretto and Menegatti, IEEE ICRA 2014 (calibration of inertial sensors)"
     in_words = "A sensor shows too much or too little of its link's motion, or sits askew on its disc."

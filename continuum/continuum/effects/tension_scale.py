@@ -25,10 +25,26 @@ class TensionScale(Effect):
     name = "tension_scale"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "gain_1": Parameter(
-            "e_1", "1", -0.5, 2.0, False, "pull of cable 1 as recorded by the true one, less 1", 0.0, 0.1
+            "e_1",
+            "1",
+            -0.5,
+            2.0,
+            False,
+            "pull of cable 1 as recorded by the true one, less 1",
+            0.0,
+            0.1,
+            by_hand=0.02,
         ),
         "gain_2": Parameter(
-            "e_2", "1", -0.5, 2.0, False, "pull of cable 2 as recorded by the true one, less 1", 0.0, 0.1
+            "e_2",
+            "1",
+            -0.5,
+            2.0,
+            False,
+            "pull of cable 2 as recorded by the true one, less 1",
+            0.0,
+            0.1,
+            by_hand=0.02,
         ),
     }
     uses_cables = True

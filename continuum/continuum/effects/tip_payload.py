@@ -31,6 +31,7 @@ class TipPayload(Effect):
             "mass at the centre of the tip disc, or at the end of a last link without",
             0.0,
             0.05,
+            by_hand=0.002,
         )
     }
     source = "Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119 (loads)"

@@ -21,7 +21,7 @@ class Wanted:
     Attributes:
         bend: in all, from which the arm is let go [rad]; None where cables are driven.
         command: tensions, (rows, 2) at 120 Hz [N]; None for a release.
-        zeroed: whether zero and drift of the sensors are corrected by hand.
+        zeroed: whether zeros of the sensors are set by hand before it.
     """
 
     bend: float | None = None
@@ -58,5 +58,5 @@ def further_run(
         run = Run("further", built.record(wanted.command), wanted.command)
     reading = Reading(JOINTS, truth.effects, sensing)
     if wanted.zeroed:
-        reading.joint_offset, reading.bias = 0 * reading.joint_offset, 0 * reading.bias
+        reading.joint_offset = 0 * reading.joint_offset
     return file_of(run, *reading.take(run.motion, noises[truth.noise], noisy), rates, True)

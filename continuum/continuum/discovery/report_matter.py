@@ -1,0 +1,28 @@
+"""What is the matter with the arm, where and how much: one sentence for each cause."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from continuum.discovery.quantities import meaning_in_words, scale_of, with_interval
+from continuum.discovery.result import Cause, Estimate
+from continuum.discovery.words import matter_in_words, places
+
+_MOST: Final = 2
+"""Values that a sentence bears."""
+
+
+def matter_with_value(cause: Cause) -> str:
+    """What is the matter, where, and how large it is if one or two numbers say that; without a full stop."""
+    shown = cause.estimates if len(cause.estimates) <= _MOST else ()
+    details = [places(cause), *(_value(one, is_alone=len(shown) == 1) for one in shown)]
+    text = ", ".join(filter(None, details))
+    return matter_in_words(cause).rstrip(".") + (f" ({text})" if text else "")
+
+
+def _value(one: Estimate, is_alone: bool) -> str:
+    scale = scale_of(one.unit, one.meaning, one.name)
+    value, interval = with_interval(scale(one.value), scale(one.low), scale(one.high), digits=1)
+    unit = scale.unit if scale.unit.startswith("°") or not scale.unit else f" {scale.unit}"
+    what = "" if scale.unit and is_alone else f"{meaning_in_words(one.meaning)}: "
+    return f"{what}{value}{unit}" + (f", 95 % interval {interval}{unit}" if interval != "–" else "")
