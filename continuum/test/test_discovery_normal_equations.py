@@ -105,16 +105,18 @@ def test_a_step_keeps_within_bounds(seed: int) -> None:
 @LAW
 @given(st.integers(0, 10**6))
 def test_errors_are_predicted_by_the_other_segments(seed: int) -> None:
-    """The common ones and its recording's by all rows but its own, those of the segment by its own rows."""
+    """The common ones and its recording's by all rows but its own, those of the segment by its own rows, at a price."""
     drawn = Drawn(seed)
-    errors, shared = drawn.normal.without_each().errors, COMMON + sum(OWN)
+    errors, shared = drawn.normal.without_each(drawn.scale).errors, COMMON + sum(OWN)
     A, b = drawn.dense()
     for i, one in enumerate(drawn.segments):
         others = np.linalg.solve(*drawn.dense(left_out=i))[:shared]
         rest, known = np.arange(shared, len(b)), np.arange(shared)
         local = np.linalg.solve(A[np.ix_(rest, rest)], b[rest] - A[np.ix_(rest, known)] @ others)
         residual = one.residuals + one.jacobian @ np.concatenate([others, local])[drawn.columns(i)]
-        np.testing.assert_allclose(errors[i], np.sqrt(np.mean(residual**2)), rtol=1e-6)
+        departure = drawn.values.local[i] + local[i * LOCAL : (i + 1) * LOCAL]
+        square = np.sum(residual**2) + FLOOR**2 / drawn.scale.independent * np.sum(drawn.precision * departure**2)
+        np.testing.assert_allclose(errors[i], np.sqrt(square / residual.size), rtol=1e-6)
 
 
 @LAW
@@ -158,7 +160,7 @@ def left_out(seed: int, shift: float, unequal: float = 0.0) -> WithoutEach:
     unknowns = SimpleNamespace(common=[unknown(random) for _ in range(COMMON)], own=((),))
     values = Values(np.zeros(COMMON), (np.zeros(0),), tuple(np.zeros((count, LOCAL))))
     weights = [one.readings.size / one.square for one in segments]
-    return NormalEquations(unknowns, values, segments, weights, np.ones(LOCAL)).without_each()  # type: ignore[arg-type]
+    return NormalEquations(unknowns, values, segments, weights, np.ones(LOCAL)).without_each(Scale(segments, FLOOR))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("unequal", [0.0, 1.0])

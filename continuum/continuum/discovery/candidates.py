@@ -178,21 +178,26 @@ class _Fits:
                 self._keep(found, self.judge.fit(found, [twin[1]]))
 
     def _exchange(self, best: Examined) -> None:
-        """Fit sets in which another effect stands for one of the best set's, by sensitivities about that set."""
+        """Fit sets in which another effect stands for one of the best set's, from where a step from that set leads."""
         chosen, gained = best.found.chosen, log(self.examined[0].fit.error / best.fit.error)
         for left in filter(is_linear, chosen if is_probable(best.candidate, self.examined[0].candidate) else ()):
-            rest = self._by_key[frozenset(h.key for h in chosen if h is not left)]
-            found = self._with_library(rest)
-            promised = promises(self.judge, best.fit, found.lin.library, left)
+            rest = with_library(self._problem, best.found.without(left))
+            promised = promises(self.judge, best.fit, rest.lin.library, left)
             self.log.append(f"in {best.found.label} for {left.label}: {_labels(promised)}")
+            near = {one.hypothesis: one.near for one in promised}
             alike = [
                 (one.gain + gained, one.hypothesis)
                 for one in promised
-                if one.gain > (RUNNER_UP - 1) * gained and rest.found.key | {one.hypothesis.key} not in self._by_key
+                if one.gain > (RUNNER_UP - 1) * gained and self._lacks(rest, one, best, gained)
             ]
-            for one in with_linear(found, alike):
+            for one in with_linear(rest, alike):
                 self._progress(f"simulating with {one.label}", 0.8)
-                self._try(one, rest)
+                self.add(one, [near[one.chosen[-1]]])
+
+    def _lacks(self, rest: Found, one: Promise, best: Examined, gained: float) -> bool:
+        """Whether no fit of a set is as near as a step from the best set's promises: none, or one at no optimum."""
+        known = self._by_key.get(rest.key | {one.hypothesis.key})
+        return known is None or log(known.fit.error / best.fit.error) > ALIKE * gained - one.gain
 
     def _with_library(self, one: Examined) -> Found:
         """A set with all hypotheses about it; the baseline has them."""

@@ -48,25 +48,26 @@ class Scale:
         floor: standard deviation of the sensors' white noise [rad].
 
     Attributes:
-        observations: residuals that are independent, their number.
+        independent: share of residuals that are independent of each other.
+        observations: their number.
     """
 
     def __init__(self, segments: Sequence[Segment], floor: float) -> None:
-        self._floor = floor
-        self._independent = independent(sum(one.square for one in segments), sum(one.product for one in segments))
+        self.floor = floor
+        self.independent = independent(sum(one.square for one in segments), sum(one.product for one in segments))
         self._typical = float(np.mean([max(one.error, floor) for one in segments]))
-        self.observations: float = self._independent * sum(one.readings.size for one in segments)
+        self.observations: float = self.independent * sum(one.readings.size for one in segments)
 
     def weights(self, errors: Sequence[float]) -> list[float]:
         """Of squared residuals of segments with these errors [1/rad^2]."""
-        return [self._independent / (self._typical * max(error, self._floor)) for error in errors]
+        return [self.independent / (self._typical * max(error, self.floor)) for error in errors]
 
     def cost(self, one: Segment) -> float:
         """Minus the log-likelihood of a segment, less a constant."""
         error = one.error
-        if error < self._floor:
-            error = 0.5 * (error**2 / self._floor + self._floor)
-        return self._independent * one.readings.size * error / self._typical
+        if error < self.floor:
+            error = 0.5 * (error**2 / self.floor + self.floor)
+        return self.independent * one.readings.size * error / self._typical
 
 
 def independent(square: float, product: float) -> float:
@@ -124,7 +125,10 @@ class WithoutEach(NamedTuple):
     Attributes:
         moves: of the common unknowns, (segments, k).
         spreads: their standard deviations where the model is right, (segments, k).
-        errors: of the segment that is left out, root mean square, (segments,) [rad].
+        errors: of the segment that is left out, root mean square, (segments,) [rad]. Its own unknowns are data as well:
+            one that is z prior standard deviations off counts as a residual of z times the noise, and as as many rows
+            as hold one independent residual. What a set cannot simulate no segment may take for wrong zeros of its
+            sensors without a price.
     """
 
     moves: Array
@@ -229,12 +233,17 @@ class NormalEquations:
             out.append(np.sqrt(np.diag(one.own_covariance + through @ self.covariance @ through.T)))
         return tuple(out)
 
-    def without_each(self) -> WithoutEach:
-        """One Newton step from the optimum for each segment left out; what is the segment's own is fitted to it."""
+    def without_each(self, scale: Scale) -> WithoutEach:
+        """One Newton step from the optimum for each segment left out; what is the segment's own is fitted to it.
+
+        Args:
+            scale: of residuals.
+        """
         held = ((self._low > -_AT_BOUND) & (self._b < 0)) | ((self._high < _AT_BOUND) & (self._b > 0))
         free, k = ~held, len(held)
         whole, covariance = _solved(self._A, self._b, free)
         moves, spreads, errors = list[Array](), list[Array](), list[float]()
+        before = iter(self._values.local)
         for r, run in enumerate(self._runs):
             for i, one in enumerate(self._of(r)):
                 step, own, variance = np.zeros(k), run.own[:, -1], np.zeros(k)
@@ -248,7 +257,9 @@ class NormalEquations:
                 move = np.concatenate([both, local])
                 moves.append(step - whole)
                 spreads.append(np.sqrt(np.maximum(variance, 0.0)))
-                errors.append(float(np.sqrt(np.mean(one.residuals_at(move) ** 2))))
+                departure = np.sum(self._local_precision * (next(before) + local) ** 2)
+                square = np.sum(one.residuals_at(move) ** 2) + departure * scale.floor**2 / scale.independent
+                errors.append(float(np.sqrt(square / one.residuals.size)))
         return WithoutEach(np.array(moves), np.array(spreads), np.array(errors))
 
 

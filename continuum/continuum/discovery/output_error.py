@@ -278,12 +278,21 @@ class OutputError:
             failed = np.full(len(at.segments), np.nan)
             return Fitted(state, unknowns, values, np.full(k, np.nan), np.eye(k), none, failed, 0.0, 1.0, True)
         normal = self._normal(at)
-        found = Scale(at.segments, self.floor).observations
-        left = normal.without_each()
+        scale = Scale(at.segments, self.floor)
+        left = normal.without_each(scale)
         plain = np.sqrt(np.diag(normal.covariance))
         sd = plain * np.sqrt(np.maximum(left.disagreement, 1.0))
         agreement = left.probability([i for i, one in enumerate(unknowns.common) if one.hypothesis is not None])
         correlation = normal.covariance / np.outer(plain, plain)
         return Fitted(
-            state, unknowns, values, sd, correlation, normal.own_sd(), left.errors, found, agreement, at.settled
+            state,
+            unknowns,
+            values,
+            sd,
+            correlation,
+            normal.own_sd(),
+            left.errors,
+            scale.observations,
+            agreement,
+            at.settled,
         )

@@ -155,7 +155,7 @@ def powers(
         """Of a change, root mean square by segment; residuals of a wrong model count less, as alike from row to row."""
         scale, stays = _with_noise(changed, sensitivities.segments), np.zeros(len(changed))
         for _ in range(REFITS):
-            after = sensitivities.residuals_after(still, values, changed, scale)
+            _, after = sensitivities.stepped(still, values, changed, scale)
             before, stays = stays, np.array([_size(one) for one in after]) / noise
             if abs(_size(stays) - _size(before)) <= _SETTLED * _size(stays):
                 break

@@ -7,6 +7,7 @@ the same simulations that decide. One pass serves all effects whose sizes enter 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -30,11 +31,13 @@ class Promise(NamedTuple):
         gain: by how much it lowers the logarithm of the error, less what as many unknowns gain by chance (Akaike 1974).
         observations: residuals that are independent after it, their number.
         hypothesis: which.
+        near: the fit of the set with its values after one step to those with the hypothesis.
     """
 
     gain: float
     observations: float
     hypothesis: Hypothesis
+    near: Fitted
 
 
 def promises(judge: OutputError, fit: Fitted, library: Library, instead_of: Hypothesis | None = None) -> list[Promise]:
@@ -49,7 +52,7 @@ def promises(judge: OutputError, fit: Fitted, library: Library, instead_of: Hypo
     about = Sensitivities(judge, fit, library)
     if not about.completed:
         return []
-    before = _log_error(about.residuals_after(fit.unknowns, fit.values))
+    before = _log_error(about.stepped(fit.unknowns, fit.values)[1])
     there, (kept, values) = (
         [_less(one, about.wide, fit.values, instead_of) for one in about.segments],
         _without(fit, instead_of),
@@ -57,11 +60,12 @@ def promises(judge: OutputError, fit: Fitted, library: Library, instead_of: Hypo
     found = list[Promise]()
     for h in about.hypotheses:
         unknowns = about.with_effect(kept, h)
-        residuals = about.residuals_after(unknowns, values, there)
+        after, residuals = about.stepped(unknowns, values, there)
         squares, products = [np.sum(r**2) for r in residuals], [np.sum(r[1:] * r[:-1]) for r in residuals]
         observations = independent(sum(squares), sum(products)) * sum(r.size for r in residuals)
         by_chance = (len(unknowns.all) - len(kept.all)) / (2 * observations)
-        found.append(Promise(before - _log_error(residuals) - by_chance, observations, h))
+        gain, near = before - _log_error(residuals) - by_chance, replace(fit, unknowns=unknowns, values=after)
+        found.append(Promise(gain, observations, h, near))
     return sorted(found, key=lambda one: -one.gain)
 
 

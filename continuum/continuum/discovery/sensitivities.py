@@ -53,14 +53,14 @@ class Sensitivities:
         """Some unknowns, and those of a hypothesis."""
         return _joined(unknowns, *self._added[h])
 
-    def residuals_after(
+    def stepped(
         self,
         unknowns: Unknowns,
         values: Values,
         segments: Sequence[Segment] | None = None,
         scaled_by: Sequence[Segment] | None = None,
-    ) -> list[Array]:
-        """Residuals of each segment after a step by some of the unknowns, (rows, n) each [rad].
+    ) -> tuple[Values, list[Array]]:
+        """Values after a step by some of the unknowns, and residuals of each segment there, (rows, n) each [rad].
 
         Args:
             unknowns: of the step.
@@ -73,7 +73,8 @@ class Sensitivities:
         start = padded(values, unknowns)
         weights = self._weights(scaled_by or self.segments)
         normal = NormalEquations(unknowns, start, chosen, weights, self._judge.local_precision)
-        return normal.expected_residuals(normal.stepped(DAMPING))
+        there = normal.stepped(DAMPING)
+        return there, normal.expected_residuals(there)
 
     def _by(self, one: Segment, unknowns: Unknowns, local: int) -> Segment:
         """A segment with the derivatives by some unknowns only, and by its own."""
