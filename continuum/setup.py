@@ -15,7 +15,10 @@ setup(
     name=package_name,
     version="0.1.0",
     packages=find_packages(exclude=["test"]),
-    package_data={"continuum.dynamics": ["models/*.yaml"], "continuum.discovery": ["templates/*", "track_record.json"]},
+    package_data={
+        "continuum.dynamics": ["models/*.yaml"],
+        "continuum.discovery.report": ["templates/*", "track_record.json"],
+    },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values, WithoutEach, independent
-from continuum.discovery.open_loop import Segment
+from continuum.discovery.segment import Segment
 from continuum.discovery.unknowns import Unknown
 
 pytestmark = pytest.mark.slow

@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
 from continuum.discovery.fitted import Fitted
-from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut
+from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Linearised, linearise, point_of
 from continuum.discovery.search import Found
+from continuum.discovery.segment import Segment, cut
 from continuum.discovery.unknowns import Unknowns
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.integration.tolerances import Tolerances

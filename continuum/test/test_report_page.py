@@ -13,9 +13,9 @@ from diagnosis_by_hand import N, cause, detectable, diagnosis, error, with_names
 
 from continuum.discovery.decision import Kind
 from continuum.discovery.report import write_report
-from continuum.discovery.report_figures import charts_of_run
+from continuum.discovery.report.figures import charts_of_run
+from continuum.discovery.report.track_record import track_record
 from continuum.discovery.result import Diagnosis, Experiment
-from continuum.discovery.track_record import track_record
 from continuum.dynamics.effect_lookup import effect_named, effect_names
 
 VOID = {"meta", "br", "hr", "img", "input", "link", "col"}

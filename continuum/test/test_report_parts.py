@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from continuum.discovery.chart import Axes, Line, chart, shared
 from continuum.discovery.decision import Kind
-from continuum.discovery.names import effect_in_words, label_in_words, sets_in_words, value_in_words
-from continuum.discovery.quantities import number, percent, scale_of, tenths, with_interval
-from continuum.discovery.track_record import track_record
+from continuum.discovery.report.chart import Axes, Line, chart, shared
+from continuum.discovery.report.names import effect_in_words, label_in_words, sets_in_words, value_in_words
+from continuum.discovery.report.quantities import number, percent, scale_of, tenths, with_interval
+from continuum.discovery.report.track_record import track_record
 from continuum.dynamics.effect_lookup import effect_named, effect_names
 
 SIZES = st.floats(1e-4, 1e4)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from continuum.arrays import Array
-from continuum.discovery.open_loop import cut
+from continuum.discovery.segment import cut
 from continuum.dynamics.measuring import as_read
 from continuum.dynamics.model import Model
 from continuum.dynamics.simulation_input import initial_state

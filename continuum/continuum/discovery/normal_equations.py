@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.special import chdtrc
 
 from continuum.arrays import Array
-from continuum.discovery.open_loop import Segment
 from continuum.discovery.quadratic_program import bounded_minimum
+from continuum.discovery.segment import Segment
 from continuum.discovery.unknowns import Unknown, Unknowns
 
 _MOST_CORRELATION = 0.99

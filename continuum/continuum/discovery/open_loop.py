@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
-from functools import cached_property
-from itertools import pairwise
+from dataclasses import replace
 
 import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.problem import Problem, State, point_of, sensors_at
+from continuum.discovery.segment import Segment
 from continuum.discovery.unknowns import STEP, Unknown, shifted
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.integration.tolerances import Tolerances
@@ -27,62 +26,6 @@ from continuum.recordings.recording import Recording
 _TOLERANCES = Tolerances(1e-3, 1e-4, 0.01, 2000)  # errors stay below a hundredth of a degree; what needs more diverges
 _LATER = 0.03  # step of a delay's logarithm: inputs jump, and an integration's steps with them
 _LEAD_IN = 1.0  # s, two swings of an arm's slowest mode: in it effects' states forget what they were before
-_SHORT = 0.25  # part of a segment by which the last one may be longer
-
-
-@dataclass(frozen=True)
-class Segment:
-    """A simulated stretch of a recording.
-
-    Attributes:
-        run, rows: which.
-        readings: as the sensors would read the angles, (rows, n) [rad]; NaN where the simulation failed.
-        jacobian: derivatives J of the residuals of all rows and joints by the unknowns common to all recordings, by the
-            run's own, and by the segment's own: initial angles, initial rates, zeros of the sensors, (rows n, k).
-        residuals: r, (rows n,) [rad].
-        information: J'J, (k, k).
-    """
-
-    run: int
-    rows: slice
-    readings: Array
-    jacobian: Array
-    residuals: Array
-    information: Array
-
-    @classmethod
-    def of(cls, run: int, rows: slice, readings: Array, jacobian: Array, residuals: Array) -> Segment:
-        """A segment with its information."""
-        return cls(run, rows, readings, jacobian, residuals, jacobian.T @ jacobian)
-
-    def with_residuals(self, residuals: Array) -> Segment:
-        """The same with other residuals, (rows n,) [rad]."""
-        return replace(self, residuals=residuals)
-
-    def with_unknowns(self, which: Sequence[int]) -> Segment:
-        """The same with derivatives by some of the unknowns only."""
-        information = self.information[np.ix_(which, which)]
-        return replace(self, jacobian=self.jacobian[:, which], information=information)
-
-    def residuals_at(self, step: Array) -> Array:
-        """Residuals after a step of the unknowns (k,), linearised, (rows n,) [rad]."""
-        return self.residuals + self.jacobian @ step
-
-    @cached_property
-    def product(self) -> float:
-        """Sum of products of residuals one row apart [rad^2]."""
-        r = self.residuals.reshape(self.readings.shape)
-        return float(np.sum(r[1:] * r[:-1]))
-
-    @cached_property
-    def square(self) -> float:
-        """Sum of the squared residuals [rad^2]."""
-        return float(self.residuals @ self.residuals)
-
-    @property
-    def error(self) -> float:
-        """Root mean square of the residuals [rad]."""
-        return float(np.sqrt(self.square / self.readings.size))
 
 
 class Simulators:
@@ -294,13 +237,3 @@ def _direction(problem: Problem, state: State, slots: Mapping[str, slice], unkno
             if "." not in key:
                 found |= zip(range(slots[key].start, slots[key].stop), moved[slot].tolist(), strict=True)
     return found
-
-
-def cut(times: Array, length: float) -> list[slice]:
-    """Rows of segments of about a length [s], two rows or more each."""
-    count = max(1, int(np.ceil((times[-1] - times[0]) / length - _SHORT)))
-    edges = [0]
-    for edge in np.searchsorted(times, np.linspace(times[0], times[-1], count + 1)[1:-1]):
-        if edge - edges[-1] > 1 and len(times) - edge > 1:
-            edges.append(int(edge))
-    return [slice(a, b) for a, b in pairwise([*edges, len(times)])]

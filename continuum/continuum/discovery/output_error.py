@@ -19,9 +19,10 @@ from continuum.discovery.candidate import mean_error
 from continuum.discovery.decision import ALIKE, is_worth
 from continuum.discovery.fitted import Fitted, OpenLoop
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values, prior_cost
-from continuum.discovery.open_loop import RunSimulation, Segment, Simulators, cut
+from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.problem import Problem, State
 from continuum.discovery.search import Found
+from continuum.discovery.segment import Segment, cut
 from continuum.discovery.unknowns import Start, Unknowns, linear_unknown
 from continuum.dynamics.trajectory import Trajectory as Motion
 from continuum.recordings.recording import Recording

@@ -23,8 +23,8 @@ from continuum.discovery.decision import LEAST_SHARE, closed_share, noise_limit,
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import PRIOR, Hypothesis
 from continuum.discovery.library import Library
-from continuum.discovery.open_loop import Segment
 from continuum.discovery.output_error import OutputError
+from continuum.discovery.segment import Segment
 from continuum.discovery.sensitivities import Sensitivities
 from continuum.discovery.typical import typical_states
 

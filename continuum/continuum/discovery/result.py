@@ -226,6 +226,11 @@ class Diagnosis:
         return found | {"unknown": Share(rest, 1 - self.closed.high, 1 - self.closed.low)}
 
     @property
+    def n_joints(self) -> int:
+        """Number of joints of the arm."""
+        return self.recordings[0].n_joints
+
+    @property
     def separating(self) -> Experiment | HandTest | None:
         """What tells the two likeliest sets apart with the least work; None where nothing does.
 

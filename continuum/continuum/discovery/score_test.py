@@ -18,8 +18,8 @@ from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import Values, independent
-from continuum.discovery.open_loop import Segment
 from continuum.discovery.output_error import OutputError
+from continuum.discovery.segment import Segment
 from continuum.discovery.sensitivities import Sensitivities, padded
 from continuum.discovery.unknowns import Unknowns
 

@@ -11,8 +11,8 @@ from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values
-from continuum.discovery.open_loop import Segment
 from continuum.discovery.output_error import DAMPING, OutputError
+from continuum.discovery.segment import Segment
 from continuum.discovery.unknowns import Unknown, Unknowns, linear_unknown, own_unknowns
 
 

@@ -7,15 +7,10 @@ from typing import Any
 
 import jinja2
 
-from continuum.discovery import report_figures as figures
-from continuum.discovery import report_power as power
-from continuum.discovery import report_steps as steps
-from continuum.discovery import report_tables as tables
-from continuum.discovery import report_values as values
-from continuum.discovery import report_words as words
 from continuum.discovery.decision import Kind
-from continuum.discovery.names import capital, with_names
-from continuum.discovery.quantities import tenths
+from continuum.discovery.report import figures, power_tables, sentences, steps, tables, values
+from continuum.discovery.report.names import capital, with_names
+from continuum.discovery.report.quantities import tenths
 from continuum.discovery.result import Diagnosis
 from continuum.printable import one_line
 from continuum.recordings.rate_ratio import odd_rates
@@ -55,12 +50,12 @@ def _first(result: Diagnosis) -> dict[str, Any]:
     worst, kind = figures.worst_place(result), result.verdict.kind
     return {
         "kind": kind.value,
-        "title": words.title(result, contradictions),
-        "verdict": words.verdict_sentence(result, contradictions),
-        "reliability": words.reliability(result),
-        "warnings": words.warnings(result, contradictions),
+        "title": sentences.title(result, contradictions),
+        "verdict": sentences.verdict_sentence(result, contradictions),
+        "reliability": sentences.reliability(result),
+        "warnings": sentences.warnings(result, contradictions),
         "extended": result.is_extended,
-        "what": words.extension(result),
+        "what": sentences.extension(result),
         "charts": figures.first_charts(result),
         "joint": worst.joint + 1,
         "run": result.recordings[worst.run].name,
@@ -68,7 +63,7 @@ def _first(result: Diagnosis) -> dict[str, Any]:
         "weights": [tenths(p) for p in result.verdict.probabilities],
         "shares": tables.share_rows(result) if result.is_extended else [],
         "steps": steps.next_steps(result),
-        "power_sentence": words.power_sentence(result),
+        "power_sentence": sentences.power_sentence(result),
     }
 
 
@@ -86,9 +81,9 @@ def _details(result: Diagnosis) -> dict[str, Any]:
             for name, causes in zip(tables.names_of_sets(result)[1:], result.sets[1:], strict=True)
         ],
         "correlation": values.correlation_rows(result),
-        "power": power.power_rows(result),
-        "hidden": power.hidden_effects(result),
+        "power": power_tables.power_rows(result),
+        "hidden": power_tables.hidden_effects(result),
         "experiments": steps.experiment_rows(result),
-        "beware": words.lookalikes(result),
+        "beware": sentences.lookalikes(result),
         "notes": [capital(with_names(note)).rstrip(".") + "." for note in result.notes],
     }

@@ -10,9 +10,9 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.fitted import OpenLoop
-from continuum.discovery.names import capital, label_in_words, sets_in_words, small
-from continuum.discovery.quantities import percent, percent_interval, with_decimals
-from continuum.discovery.report_matter import matter_with_value
+from continuum.discovery.report.matter import matter_with_value
+from continuum.discovery.report.names import capital, label_in_words, sets_in_words, small
+from continuum.discovery.report.quantities import percent, percent_interval, with_decimals
 from continuum.discovery.result import Cause, Diagnosis, Share
 from continuum.identification.nrmse import nrmse
 
@@ -56,7 +56,7 @@ class JointRow(NamedTuple):
 
 def share_rows(result: Diagnosis) -> list[ShareRow]:
     """What each effect of the best set closes of the open-loop error, and what stays unknown."""
-    rows = [_share(capital(label_in_words(c.label, _joints(result))), c.label, c.share, [c]) for c in result.causes]
+    rows = [_share(capital(label_in_words(c.label, result.n_joints)), c.label, c.share, [c]) for c in result.causes]
     return [*rows, _share("Stays unexplained", "", result.shares["unknown"])]
 
 
@@ -72,7 +72,7 @@ def set_rows(result: Diagnosis) -> list[ShareRow]:
 
 def names_of_sets(result: Diagnosis) -> list[str]:
     """Names of each set's effects, those that are in all sets at the end."""
-    names, common = sets_in_words([[cause.label for cause in causes] for causes in result.sets], _joints(result))
+    names, common = sets_in_words([[cause.label for cause in causes] for causes in result.sets], result.n_joints)
     return [name + f" with {common}" * bool(common) for name in names]
 
 
@@ -114,10 +114,6 @@ def is_worse(result: Diagnosis, before: float, after: float) -> bool:
     if not result.is_extended:
         return False
     return not math.isfinite(after) or after**2 - before**2 > result.before.floor**2
-
-
-def _joints(result: Diagnosis) -> int:
-    return result.recordings[0].n_joints
 
 
 def _share(name: str, label: str, share: Share, causes: Sequence[Cause] = ()) -> ShareRow:

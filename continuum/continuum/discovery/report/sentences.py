@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from typing import Final
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.names import capital, effect_in_words, label_in_words, listed, sets_in_words, small
-from continuum.discovery.quantities import percent, percent_interval
-from continuum.discovery.report_matter import matter_with_value
-from continuum.discovery.report_power import counts
-from continuum.discovery.report_tables import error_rows, joint_rows
+from continuum.discovery.report.matter import matter_with_value
+from continuum.discovery.report.names import capital, effect_in_words, label_in_words, listed, sets_in_words, small
+from continuum.discovery.report.power_tables import counts
+from continuum.discovery.report.quantities import percent, percent_interval
+from continuum.discovery.report.tables import error_rows, joint_rows
+from continuum.discovery.report.track_record import track_record
 from continuum.discovery.result import Cause, Diagnosis, is_named
-from continuum.discovery.track_record import track_record
 from continuum.discovery.words import UNSTEADY, adequate
 from continuum.dynamics.effect_lookup import effect_named
 
@@ -40,7 +40,7 @@ def title(result: Diagnosis, contradictions: Sequence[str]) -> str:
             return f"Cause: {extension(result)}"
         case Kind.AMBIGUOUS if len(result.sets) <= _IN_A_TITLE:
             names, common = sets_in_words(
-                [[cause.label for cause in causes] for causes in result.sets], _joints(result)
+                [[cause.label for cause in causes] for causes in result.sets], result.n_joints
             )
             return f"Not decided: {', or '.join(names)}" + f"; in any case {common}" * bool(common)
         case Kind.AMBIGUOUS:
@@ -128,8 +128,4 @@ def _closed(result: Diagnosis) -> str:
 
 
 def _name(result: Diagnosis, cause: Cause) -> str:
-    return label_in_words(cause.label, _joints(result))
-
-
-def _joints(result: Diagnosis) -> int:
-    return result.recordings[0].n_joints
+    return label_in_words(cause.label, result.n_joints)

@@ -6,8 +6,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from continuum.discovery.names import capital, effect_in_words, value_in_words
-from continuum.discovery.quantities import bound, meaning_in_words, number, scale_of, with_decimals, with_interval
+from continuum.discovery.report.names import capital, effect_in_words, value_in_words
+from continuum.discovery.report.quantities import (
+    bound,
+    meaning_in_words,
+    number,
+    scale_of,
+    with_decimals,
+    with_interval,
+)
 from continuum.discovery.result import Cause, Diagnosis, Estimate
 
 
@@ -58,7 +65,7 @@ def _value(one: Estimate, result: Diagnosis, cause: Cause | None) -> ValueRow:
         name = one.name.replace("_", " ") + (f" of joint {one.joint + 1}" if one.joint is not None else "")
     else:
         joints = cause.joints if one.joint is None else (one.joint,)
-        name = effect_in_words(cause.effect, joints, result.recordings[0].n_joints)
+        name = effect_in_words(cause.effect, joints, result.n_joints)
     bounds = [bound(scale(end)) for end in (one.lower, one.upper)]
     return ValueRow(
         capital(name) + (f", in {one.recording}" if one.recording else ""), str(replace(one, recording="")),

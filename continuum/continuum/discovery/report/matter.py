@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from continuum.discovery.quantities import meaning_in_words, scale_of, with_interval
+from continuum.discovery.report.quantities import meaning_in_words, scale_of, with_interval
 from continuum.discovery.result import Cause, Estimate
 from continuum.discovery.words import matter_in_words, places
 

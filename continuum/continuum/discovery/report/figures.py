@@ -8,8 +8,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.chart import Axes, Chart, Line, chart, shared
 from continuum.discovery.fitted import OpenLoop
+from continuum.discovery.report.chart import Axes, Chart, Line, chart, shared
 from continuum.discovery.result import Diagnosis
 
 BEFORE, AFTER, MEASURED = "before", "after", "measured"
@@ -63,7 +63,7 @@ def charts_of_run(result: Diagnosis, run: int) -> list[JointCharts]:
 
 def torques_over_angle(result: Diagnosis) -> list[Chart]:
     """Missing torque at each joint over its angle, of all recordings."""
-    n = result.recordings[0].n_joints
+    n = result.n_joints
     axes = [Axes(f"joint {j + 1}: missing torque [mN m]", "angle [°]", tuple(_over_angle(result, j))) for j in range(n)]
     return [chart(one, *_SMALL) for one in shared(axes)]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.names import capital, effect_in_words, label_in_words, listed
 from continuum.discovery.power_words import repeated
-from continuum.discovery.quantities import number, scale_of
+from continuum.discovery.report.names import capital, effect_in_words, label_in_words, listed
+from continuum.discovery.report.quantities import number, scale_of
 from continuum.discovery.result import Cause, Diagnosis, Experiment
 from continuum.discovery.words import MORE_RUNS
 from continuum.dynamics.effect_lookup import effect_named
@@ -41,7 +41,7 @@ class ExperimentRow(NamedTuple):
 def next_steps(result: Diagnosis) -> list[Step]:
     """What to do next, the best first."""
     by_hand = [
-        Step(effect_named(c.effect).experiment, f"Tests: {label_in_words(c.label, _joints(result))}.")
+        Step(effect_named(c.effect).experiment, f"Tests: {label_in_words(c.label, result.n_joints)}.")
         for c in _in_doubt(result)
     ]
     steps = [Step(one.instruction, would_show(result, one, _LISTED)) for one in result.experiments]
@@ -71,7 +71,7 @@ def would_show(result: Diagnosis, one: Experiment, most: int | None = None) -> s
         effect, _, where = label.partition("@")
         if label not in named:
             places.setdefault(effect, set()).update(int(joint) - 1 for joint in where.split(",") if joint)
-    names = [effect_in_words(effect, sorted(at) or None, _joints(result)) for effect, at in places.items()]
+    names = [effect_in_words(effect, sorted(at) or None, result.n_joints) for effect, at in places.items()]
     left = len(names[most:]) if most else 0
     shown = [*names[:most], f"{left} more"] if left else names
     return f"It would show: {listed(shown)}." if names else ""
@@ -109,7 +109,3 @@ def _in_doubt(result: Diagnosis) -> list[Cause]:
     common = set.intersection(*sets) if len(sets) > 1 else set[str]()
     every = [cause for causes in result.sets for cause in causes if cause.label not in common]
     return list({cause.effect: cause for cause in reversed(every)}.values())[::-1]
-
-
-def _joints(result: Diagnosis) -> int:
-    return result.recordings[0].n_joints

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Final, NamedTuple
 
-from continuum.discovery.names import capital, effect_in_words, listed
-from continuum.discovery.quantities import Scale, meaning_in_words, number, scale_of
+from continuum.discovery.report.names import capital, effect_in_words, listed
+from continuum.discovery.report.quantities import Scale, meaning_in_words, number, scale_of
 from continuum.discovery.result import Detectable, Diagnosis
 from continuum.dynamics.effect_lookup import effect_named
 
@@ -51,7 +51,7 @@ def power_rows(result: Diagnosis) -> list[PowerRow]:
     groups = dict[tuple[str, str], list[Detectable]]()
     for one in _asked(result):
         groups.setdefault((one.effect, one.parameter), []).append(one)
-    n = result.recordings[0].n_joints
+    n = result.n_joints
     return [_row(effect, parameter, found, n) for (effect, parameter), found in groups.items()]
 
 
@@ -61,7 +61,7 @@ def hidden_effects(result: Diagnosis) -> list[Hidden]:
     for one in _asked(result):
         if not one.is_shown:
             places.setdefault(one.reason, {}).setdefault(one.effect, []).append(one)
-    n = result.recordings[0].n_joints
+    n = result.n_joints
     return [
         Hidden(capital(listed([name for ones in effects.values() for name in _names(ones, n)])), reason)
         for reason, effects in places.items()
