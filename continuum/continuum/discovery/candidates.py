@@ -106,6 +106,7 @@ class _Fits:
             self._keep(baseline, judge.fit(baseline, [start.fit]))
         self._by_key[start.found.key] = start
         self._expanded: set[frozenset[object]] = set()
+        self._exchanged: set[frozenset[object]] = set()
 
     @property
     def examined(self) -> list[Examined]:
@@ -192,12 +193,19 @@ class _Fits:
             ]
             for one in with_linear(rest, alike):
                 self._progress(f"simulating with {one.label}", 0.8)
+                self._exchanged.add(one.key)
                 self.add(one, [near[one.chosen[-1]]])
 
     def _lacks(self, rest: Found, one: Promise, best: Examined, gained: float) -> bool:
-        """Whether no fit of a set is as near as a step from the best set's promises: none, or one at no optimum."""
-        known = self._by_key.get(rest.key | {one.hypothesis.key})
-        return known is None or log(known.fit.error / best.fit.error) > ALIKE * gained - one.gain
+        """Whether no fit of a set is as near as a step from the best set's promises: none, or one at no optimum.
+
+        One that was fitted from such a step is at its optimum, and the promise was too large.
+        """
+        key = rest.key | {one.hypothesis.key}
+        known = self._by_key.get(key)
+        return known is None or (
+            key not in self._exchanged and log(known.fit.error / best.fit.error) > ALIKE * gained - one.gain
+        )
 
     def _with_library(self, one: Examined) -> Found:
         """A set with all hypotheses about it; the baseline has them."""
