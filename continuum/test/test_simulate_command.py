@@ -23,8 +23,8 @@ from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError, InvalidValueError
 from continuum.estimation.structure import absent_values
+from continuum.recordings.input_table import read_tension_table, read_torque_table
 from continuum.recordings.motion_figure import backbone, write_motion_figure
-from continuum.recordings.tension_table import read_tension_table
 
 pytestmark = pytest.mark.slow
 
@@ -86,6 +86,42 @@ def test_what_is_written_goes_in_again(tmp_path):
     assert rows[30, 11:].tolist() == [14.0, 1.5]
     np.testing.assert_allclose(table(again)[1], rows, atol=0.05, rtol=2e-3)  # knots end steps in other places
     np.testing.assert_allclose(read_tension_table(first).values, rows[:, 11:])
+
+
+def test_torques_that_are_written_go_in_again(tmp_path):
+    """Held against gravity by its own weight's moment, an arm stays; driven otherwise, it moves as its table says."""
+    arm, knots, out = (tmp_path / name for name in ("arm.yaml", "knots.csv", "out.csv"))
+    values = {"joints": 2, "link-length": "0.3,0.2", "mass": "0.5,0.6", "center-of-mass": "0.3,0.2", "inertia": "0,0"}
+    words = [part for name, value in values.items() for part in (f"--{name}", str(value))]
+    assert main(["model", "new", *words, "--out", str(arm)]) == 0
+    hold = 9.81 * np.array([0.5 * 0.3 + 0.6 * 0.5, 0.6 * 0.2])  # both links level
+    knots.write_text("t_s,tau1_Nm,tau2_Nm\n" + "".join(f"{t},{hold[0]:.12f},{hold[1]:.12f}\n" for t in (0, 0.5)))
+    order = ["simulate", "--model", str(arm), "--release", "90,0", "--csv", str(out), "--torques"]
+    assert main([*order, str(knots)]) == 0
+    heading, rows = table(out)
+    assert heading[-2:] == ["tau1_Nm", "tau2_Nm"]
+    np.testing.assert_allclose(rows[:, 1:5], np.tile([90.0, 0, 0, 0], (61, 1)), atol=0.05)
+    knots.write_text("t_s,tau1_Nm,tau2_Nm\n0,0,0\n0.25,-1,0.5\n0.5,1,0\n")
+    assert main([*order, str(knots)]) == 0
+    first = table(out)[1]
+    (tmp_path / "first.csv").write_text(out.read_text())
+    assert main([*order, str(tmp_path / "first.csv")]) == 0
+    np.testing.assert_allclose(table(out)[1], first, atol=0.02, rtol=2e-3)
+
+
+@pytest.mark.parametrize(
+    "text", ["t_s,tau1_Nm\n0,1\n", "t_s,tau1_Nm,tau2_Nm,tau3_Nm\n0,1,1,1\n", "t_s,tau1_Nm,tau2_Nm\n"]
+)
+def test_a_table_of_torques_has_one_for_each_joint(tmp_path, text):
+    (tmp_path / "torques.csv").write_text(text)
+    with pytest.raises(FileError):
+        read_torque_table(tmp_path / "torques.csv", 2)
+
+
+def test_torques_are_refused_where_cables_pull(tmp_path, capsys):
+    (tmp_path / "torques.csv").write_text("t_s,tau1_Nm\n0,1\n")
+    assert main(["simulate", "--torques", str(tmp_path / "torques.csv")]) == 2
+    assert "joint torques" in capsys.readouterr().err
 
 
 def test_both_integrators_and_a_model_file_agree(tmp_path):

@@ -9,8 +9,8 @@ from csv_runs import sway, text_of, write
 
 from continuum.errors import FileError
 from continuum.inertial.dot_export import read_dot_export
+from continuum.recordings.input_table import read_tension_table
 from continuum.recordings.recording_csv import read_recording_csv
-from continuum.recordings.tension_table import read_tension_table
 
 
 @pytest.mark.parametrize(("separator", "decimal"), [(",", "."), (";", "."), (";", ","), ("\t", "."), ("\t", ",")])

@@ -53,8 +53,13 @@ def add_to(commands: Any) -> None:
         "holds its first row from 0 s on",
     )  # fmt: skip
     parser.add_argument(
+        "--torques", metavar="FILE.csv",
+        help="torques of the joints' drives over time, of a model that they drive: columns t_s,tau1_Nm,.., else as "
+        "--tensions",
+    )  # fmt: skip
+    parser.add_argument(
         "--duration", metavar="S", type=float,
-        help=f"[s]; default to the end of the tensions, or {_RELEASE_DURATION:g}",
+        help=f"[s]; default to the end of the table, or {_RELEASE_DURATION:g}",
     )  # fmt: skip
     parser.add_argument("--rate", metavar="HZ", type=float, default=120.0, help="samples a second; default %(default)g")
     parser.add_argument(
@@ -72,10 +77,8 @@ def run(options: argparse.Namespace) -> int:
     from continuum.cli.simulation_hints import beyond_contact, hints
     from continuum.dynamics.measuring import as_read
     from continuum.dynamics.model_file import load_model
-    from continuum.dynamics.model_inputs import undriven
     from continuum.dynamics.trajectory import SimulationStatus
     from continuum.recordings.motion_table import write_motion_table
-    from continuum.recordings.tension_table import read_tension_table
 
     if options.pulled and (options.release is None or "," in options.release):
         raise InvalidValueError("--release", options.release, "with --pulled, one total bend in degrees")
@@ -84,11 +87,11 @@ def run(options: argparse.Namespace) -> int:
         if getattr(options, option):
             model.require_cables(f"--{option}")
     posture = release_posture(options.release or "0", model.n_joints)
-    inputs = undriven(model) if options.tensions is None else read_tension_table(options.tensions)
+    inputs = _inputs(options, model)
     times = _times(options, inputs)
     check_writable(options.csv)
     check_picture(options.picture)
-    check_apart((options.csv, options.picture), (options.model, options.tensions))
+    check_apart((options.csv, options.picture), (options.model, options.tensions, options.torques))
     for hint in hints(posture, inputs, model.parameters, times):
         print(f"continuum: {hint}", file=sys.stderr)
     if options.pulled:
@@ -136,6 +139,23 @@ def release_posture(text: str, n_joints: int) -> Array:
         allowed = f"a total bend, or {n_joints} joint angles with commas between them, up to 180 degrees a joint"
         raise InvalidValueError("--release", text, allowed)
     return np.radians(degrees)
+
+
+def _inputs(options: argparse.Namespace, model: Model) -> InputSignal:
+    """What drives the arm over time."""
+    from continuum.dynamics.input_kind import InputKind
+    from continuum.dynamics.model_inputs import undriven
+    from continuum.recordings.input_table import read_tension_table, read_torque_table
+
+    if options.tensions is not None:
+        return read_tension_table(options.tensions)
+    if options.torques is None:
+        return undriven(model)
+    if model.inputs is not InputKind.JOINT_TORQUES:
+        raise InvalidValueError(
+            "--torques", options.torques, f"with a model that joint torques drive, not {options.model}"
+        )
+    return read_torque_table(options.torques, model.n_joints)
 
 
 def _pulled(model: Model, posture: Array, release: str) -> Array:
