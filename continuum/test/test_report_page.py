@@ -14,8 +14,9 @@ from diagnosis_by_hand import N, cause, detectable, diagnosis, error, with_names
 from continuum.discovery.decision import Kind
 from continuum.discovery.report import write_report
 from continuum.discovery.report.figures import charts_of_run
+from continuum.discovery.report.steps import next_steps
 from continuum.discovery.report.track_record import track_record
-from continuum.discovery.result import Diagnosis, Experiment
+from continuum.discovery.result import Diagnosis, Experiment, HandTest
 from continuum.dynamics.effect_lookup import effect_named, effect_names
 
 VOID = {"meta", "br", "hr", "img", "input", "link", "col"}
@@ -268,3 +269,16 @@ def test_a_run_that_separates_nothing_is_not_asked_for(tmp_path: Path) -> None:
 
 def warnings_of(result: Diagnosis, tmp_path: Path) -> list[str]:
     return [text for around, text in page_of(result, tmp_path).texts if around[-1] == "p.warning"]
+
+
+@pytest.mark.parametrize("runs", [0, 1, 5])
+def test_what_tells_the_explanations_apart_comes_first_and_nothing_is_said_twice(tmp_path: Path, runs: int) -> None:
+    """A run that is made once or twice, else what decides by hand."""
+    result = diagnosis(Kind.AMBIGUOUS, [cause("tip_payload")], [cause("inertia", 2)])
+    run = Experiment("pull", "Pull slowly.", 0.2, runs, ())
+    text = effect_named("tip_payload").experiment
+    scales = HandTest("tip_payload", "mass", None, "kg", 0.002, 5.0, True, text)
+    steps = next_steps(replace(result, experiments=(run,), hand_tests=(scales,)))
+    assert steps[0].instruction == ("Pull slowly." if runs == 1 else text)
+    assert len({step.instruction for step in steps}) == len(steps)
+    assert page_of(replace(result, experiments=(run,), hand_tests=(scales,)), tmp_path).text("main.first")

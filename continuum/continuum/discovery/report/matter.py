@@ -25,4 +25,5 @@ def _value(one: Estimate, is_alone: bool) -> str:
     value, interval = with_interval(scale(one.value), scale(one.low), scale(one.high), digits=1)
     unit = scale.unit if scale.unit.startswith("°") or not scale.unit else f" {scale.unit}"
     what = "" if scale.unit and is_alone else f"{meaning_in_words(one.meaning)}: "
-    return f"{what}{value}{unit}" + (f", 95 % interval {interval}{unit}" if interval != "–" else "")
+    sign = "+" if scale.unit == "%" and one.value > 0 else ""
+    return f"{what}{sign}{value}{unit}" + (f", 95 % interval {interval}{unit}" if interval != "–" else "")

@@ -53,7 +53,9 @@ def next_steps(result: Diagnosis) -> list[Step]:
         case Kind.CAUSE:
             return [*by_hand, *repeating]
         case Kind.AMBIGUOUS:
-            return [*_separating(result), *by_hand, *repeating]
+            first = _separating(result)
+            said = {step.instruction for step in first}
+            return [*first, *(step for step in by_hand if step.instruction not in said), *repeating]
         case _:
             return [Step(MORE_RUNS, ""), *telling[:1]]
 
@@ -98,7 +100,7 @@ def _separating(result: Diagnosis) -> list[Step]:
             return [Step(repeated(run), "Tells the explanations apart.")]
         case test:
             scale = scale_of(test.unit, effect_named(test.effect).parameters[test.parameter].meaning, test.parameter)
-            to = f"{number(scale(test.sd), 2)} {scale.unit}".rstrip()
+            to = f"{number(scale(test.sd), 1)} {scale.unit}".rstrip()
             return [Step(test.instruction, f"Tells the explanations apart if it is exact to {to}. Then diagnose again "
                          f"with --measured {test.name}=VALUE.")]  # fmt: skip
 
