@@ -12,6 +12,7 @@ from rclpy.clock_type import ClockType
 from sensor_msgs.msg import JointState
 
 from continuum.kinematics.compiled.warm_up import warm_up
+from continuum.kinematics.fabrikc_tracking import FabrikcTracker
 from continuum.kinematics.ik_result import IkStatus
 from continuum.kinematics.tracking import Tracked, Tracker
 from continuum.parameter_spec import ParameterSpec
@@ -49,6 +50,14 @@ class RobotNode(CheckedNode):
             default="position", choices=("position", "position_direction"),
         ),
         ParameterSpec(
+            "solver", str, "how poses are solved: Gauss-Newton with restarts, or the thesis's FABRIKc",
+            default="newton", choices=("newton", "fabrikc"),
+        ),
+        ParameterSpec(
+            "max_iterations", int, "of fabrikc for one pose, pairs of a backward and a forward pass",
+            lower=1, upper=100000, default=100,
+        ),
+        ParameterSpec(
             "tolerance", float, "distance in m, and angle in rad, up to which a pose counts as reached",
             lower=1e-12, upper=1.0, default=1e-9,
         ),
@@ -62,8 +71,7 @@ class RobotNode(CheckedNode):
     def __init__(self) -> None:
         super().__init__()
         warm_up()  # before the first pose comes, not with it
-        use_direction = self.values["target"] == "position_direction"
-        self._tracker = Tracker(self.arm, use_direction=use_direction, tolerance=self.values["tolerance"])
+        self._tracker = self._tracker_of_choice()
         self._joints = list(arm_joint_names(self.arm))
         self._max_gap = round(self.values["max_twist_gap"] * NANOSECONDS)
         self._last: int | None = None
@@ -79,6 +87,12 @@ class RobotNode(CheckedNode):
         self._patience_timer = self.create_timer(TWIST_PATIENCE / 10, self._answer_alone, clock=steady)
         self._poses = self.listen(PoseStamped, "traj_pose", self._on_pose)
         self._twists = self.listen(TwistStamped, "traj_twist", self._on_twist)
+
+    def _tracker_of_choice(self) -> Tracker:
+        use_direction, tolerance = self.values["target"] == "position_direction", self.values["tolerance"]
+        if self.values["solver"] == "fabrikc":
+            return FabrikcTracker(self.arm, use_direction, tolerance, self.values["max_iterations"])
+        return Tracker(self.arm, use_direction, tolerance)
 
     def _on_pose(self, message: PoseStamped) -> None:
         pose = read_pose(message)

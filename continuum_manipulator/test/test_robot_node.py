@@ -11,6 +11,7 @@ from harness import ARM_FILE, NodeProcess, Probe, running
 from sensor_msgs.msg import JointState
 
 from continuum.kinematics.chain import arm_jacobian, arm_pose
+from continuum.kinematics.fabrikc import solve_fabrikc
 from continuum_manipulator.section_joints import read_joints
 from continuum_msgs.msg import IkStatus
 
@@ -162,3 +163,23 @@ def test_direction_is_followed_on_request(domain):
         reached = arm_pose(configuration(answer)[0], ARM)
         np.testing.assert_allclose(reached[:3, 3], [0.05, 0.0, 0.45], atol=1e-6)
         np.testing.assert_allclose(reached[:3, 2], [0.0, -math.sin(angle), math.cos(angle)], atol=1e-6)
+
+
+def test_fabrikc_answers_as_the_algorithm_by_itself_and_says_what_it_misses(domain):
+    near, far = 0.9 * PLACE, np.array([0.0, 0.0, 2 * ARM.length])
+    settings = {"tolerance": 1e-7, "max_iterations": 30}
+    first = solve_fabrikc(ARM, PLACE, **settings)
+    expected = solve_fabrikc(ARM, near, start=first.configuration, **settings)
+    parameters = {"solver": "fabrikc", **settings}
+    node = NodeProcess("continuum_manipulator", "robot", domain, files=(ARM_FILE,), parameters=parameters)
+    with running(node), Probe(domain) as probe:
+        bench = Bench(probe)
+        say = probe.speaker(PoseStamped, "traj_pose").publish
+        probe.warm_up(lambda: say(pose(0, PLACE)), bench.joints, bench.status)
+        say(pose(1, near))
+        say(pose(2, far))
+        reached, missed = bench.answers(2)
+        np.testing.assert_allclose(configuration(reached)[0], expected.configuration, atol=1e-9)
+        assert [status.status for status in bench.status] == [IkStatus.SOLVED, IkStatus.NO_CONVERGENCE]
+        assert [status.iterations for status in bench.status] == [expected.iterations, 30]
+        np.testing.assert_allclose(bench.status[1].distance, np.linalg.norm(tip(missed) - far), rtol=1e-6)

@@ -71,6 +71,12 @@ def generate_launch_description() -> LaunchDescription:
                 description="what of a pose the tip follows",
             ),
             DeclareLaunchArgument(
+                "solver",
+                default_value="newton",
+                choices=["newton", "fabrikc"],
+                description="inverse kinematics of the robot: Gauss-Newton with restarts, or the thesis's FABRIKc",
+            ),
+            DeclareLaunchArgument(
                 "markers", default_value="true", choices=list(BOOLEANS), description="markers of cables and curvature"
             ),
             DeclareLaunchArgument(
@@ -116,7 +122,7 @@ def nodes(context: LaunchContext) -> list[Node | IncludeLaunchDescription]:
         )
 
     started = [node("section", f"section_{number}", arm_file, {"section": number}) for number in numbers]
-    started += [node("robot", "robot", arm_file, {"target": given["target"]})]
+    started += [node("robot", "robot", arm_file, {"target": given["target"], "solver": given["solver"]})]
     started += [node("cable_tangler", "cable_tangler", arm_file)]
     needed = [*(f"section_{number}" for number in numbers), "robot", "cable_tangler"]
     if is_true(given["markers"]):
