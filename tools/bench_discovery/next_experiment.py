@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import sys
 import tempfile
+from collections.abc import Sequence, Set
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -20,10 +21,11 @@ from blind.plant.further import Wanted, further_run
 
 from continuum.cli.diagnose import read_recording
 from continuum.discovery import diagnose
+from continuum.discovery.decision import Kind
 from continuum.discovery.designs import Design, designs
 from continuum.discovery.experiments import rival_of
-from continuum.discovery.hand_measurement import HandMeasurement, zeros_set
-from continuum.discovery.result import Diagnosis, Experiment, HandTest
+from continuum.discovery.hand_measurement import HandMeasurement
+from continuum.discovery.result import Cause, Diagnosis, Experiment, HandTest, is_named
 from continuum.discovery.verdict_json import as_mapping
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model_file import load_model
@@ -45,9 +47,7 @@ class Separation:
         before, after: verdict and labels of its sets.
         experiment: run or measured value that was proposed and made; the best run where none was proposed.
         runs: of it that were proposed, 0 where it is not expected to separate; one is made then. 1 of a measurement.
-        is_assumed: whether a value was measured whose effect is hidden and has another measure in the plant: what the
-            set with that effect says is taken then.
-        separated: whether the likeliest set and its rival are no longer both possible.
+        separated: whether the likeliest set and its rival are no longer both possible, and the true one was not lost.
         kept: whether the true set, where it was possible, still is, or is named.
     """
 
@@ -56,7 +56,6 @@ class Separation:
     after: list[str]
     experiment: str
     runs: int
-    is_assumed: bool
     separated: bool
     kept: bool
 
@@ -68,28 +67,27 @@ def separation(plan: Plan) -> Separation | None:
     with tempfile.TemporaryDirectory() as folder:
         files = plant.write_case(case, Path(folder) / "data")
         recordings = [read_recording(str(path)) for path in files]
-        first, measured, is_assumed = diagnose(recordings, model), list[HandMeasurement](), False
+        first, measured, zeroed = diagnose(recordings, model), list[HandMeasurement](), list[int]()
         if len(first.sets) < 2 or first.verdict.kind.value != "ambiguous" or not first.experiments:
             return None
         best = first.separating or first.experiments[0]
         if isinstance(best, HandTest):
-            measurement, is_assumed = _measured(first, best, hidden, np.random.default_rng(plan.seed))
-            measured.append(measurement)
+            measured.append(_measured(best, hidden, np.random.default_rng(plan.seed)))
         else:
             design = next(one for one in designs(model, recordings) if one.name == best.name)
             for number in range(max(best.runs, 1)):
                 further = Path(folder) / "data" / f"further_{number + 1}.csv"
                 further.write_bytes(_made(plan, case.truth, design, number))
                 recordings.append(read_recording(str(further)))
-                measured += zeros_set(recordings[-1].name, model.n_joints) if design.zeroed else []
-        second = diagnose(recordings, model, with_power=False, measured=measured)
-    before, after = _labels(first), _labels(second)
-    both = set(_rivals(first)) <= set(after)
-    return Separation(
-        str(plan), before, after, best.name, best.runs if isinstance(best, Experiment) else 1, is_assumed,
-        not both and bool(second.verdict.sets),
-        not _holds(first, hidden) or _holds(second, hidden),
-    )  # fmt: skip
+                zeroed += [len(recordings) - 1] * design.zeroed
+        second = diagnose(recordings, model, with_power=False, measured=measured, zeroed=zeroed)
+    known = {(one.effect, one.joint) for one in measured if not one.is_none}
+    rivals = [_without(causes, known) for causes in _rivals(first)]
+    both = all(rival in _answers(second) for rival in rivals)
+    left = [one for one in hidden if (one["name"], one["joint"] and one["joint"] - 1) not in known]
+    kept = not _holds(first, hidden) or _holds(second, left) or _holds(second, hidden)
+    runs = best.runs if isinstance(best, Experiment) else 1
+    return Separation(str(plan), _labels(first), _labels(second), best.name, runs, kept and not both, kept)
 
 
 def _made(plan: Plan, truth: plant.case.Truth, design: Design, number: int) -> bytes:
@@ -102,37 +100,45 @@ def _made(plan: Plan, truth: plant.case.Truth, design: Design, number: int) -> b
     return further_run(truth, wanted, number)
 
 
-def _measured(
-    first: Diagnosis, test: HandTest, hidden: list[dict[str, Any]], random: np.random.Generator
-) -> tuple[HandMeasurement, bool]:
-    """A value of the plant as the usual instrument shows it, and whether it had to be assumed."""
-    found = [one for one in hidden if one["name"] == test.effect]
-    factor = SAME.get(test.effect, {}).get(test.parameter)
-    is_assumed = bool(found) and factor is None
+def _measured(test: HandTest, hidden: list[dict[str, Any]], random: np.random.Generator) -> HandMeasurement:
+    """A value of the plant as the usual instrument shows it."""
+    factor = SAME[test.effect][test.parameter]
+    at = None if test.joint is None else test.joint + 1
+    found = [one for one in hidden if one["name"] == test.effect and one["joint"] in (None, at)]
+    true = sum(factor * one["amount"] for one in found)
     spec = effect_named(test.effect).parameters[test.parameter]
-    true = spec.default or 0.0
-    if is_assumed:
-        estimates = [e for causes in first.sets for c in causes if c.effect == test.effect for e in c.estimates]
-        true = next((e.value for e in estimates if str(e) == test.name), true)
-    elif factor is not None:
-        at = None if test.joint is None else test.joint + 1
-        true += sum(factor * one["amount"] for one in found if one["joint"] in (None, at))
     value = float(np.clip(true + test.sd * random.standard_normal(), spec.lower, spec.upper))
-    return HandMeasurement(test.effect, test.parameter, test.joint, value, test.sd), is_assumed
+    return HandMeasurement(test.effect, test.parameter, test.joint, value, test.sd)
 
 
-def _rivals(result: Diagnosis) -> list[str]:
-    """Labels of the likeliest set and of the likeliest of other effects, which an experiment is to separate."""
-    labels = _labels(result)
+def _rivals(result: Diagnosis) -> list[tuple[Cause, ...]]:
+    """The likeliest set and the likeliest of other effects, which an experiment is to separate."""
     other = rival_of([{cause.effect for cause in causes} for causes in result.sets])
-    return [labels[0], *([] if other is None else [labels[other]])]
+    return [result.sets[0], *([] if other is None else [result.sets[other]])]
+
+
+def _without(causes: Sequence[Cause], known: Set[tuple[str, int | None]]) -> frozenset[str]:
+    """Labels of a set's effects but those that are measured."""
+    places = [
+        (one.effect, one.joints[0] if one.joints is not None and len(one.joints) == 1 else None) for one in causes
+    ]
+    return frozenset(one.label for one, place in zip(causes, places, strict=True) if place not in known)
+
+
+def _answers(result: Diagnosis) -> list[frozenset[str]]:
+    """Sets that are possible; where the model is adequate, that of no effects."""
+    if result.verdict.kind is Kind.ADEQUATE:
+        return [frozenset()]
+    return [frozenset(one.label for one in causes) for causes in result.sets if is_named(result.verdict.kind)]
 
 
 def _labels(result: Diagnosis) -> list[str]:
-    return [" + ".join(cause.label for cause in causes) for causes in result.sets]
+    return [" + ".join(sorted(one)) or "nothing" for one in _answers(result)]
 
 
 def _holds(result: Diagnosis, hidden: list[dict[str, Any]]) -> bool:
+    if result.verdict.kind is Kind.ADEQUATE:
+        return not hidden
     return any(is_exactly(hidden, one["effects"]) for one in as_mapping(result)["sets"])
 
 

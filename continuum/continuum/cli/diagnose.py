@@ -7,6 +7,7 @@ import datetime
 import importlib.metadata
 import math
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -47,9 +48,9 @@ def add_to(commands: Any) -> None:
         help="open-loop error of an adequate model, root mean square; default three times the angles' noise",
     )  # fmt: skip
     parser.add_argument(
-        "--measured", metavar="NAME=VALUE+-SD", action="append", default=[],
-        help="an effect's value that was measured by hand, in SI units, as tip_payload.mass=0.05+-0.002; 0 where there "
-        "is none; may be repeated; without +-SD as the usual instrument measures",
+        "--measured", metavar="NAME=VALUE", action="append", default=[],
+        help="an effect's value that was measured by hand, as tip_payload.mass=50g or rest_angle.angle[3]=4+-0.5deg; 0 "
+        "where there is none; may be repeated; without +-SD as exact as the usual instrument",
     )  # fmt: skip
     parser.add_argument(
         "--zeroed", metavar="DATA", action="append", default=[],
@@ -78,19 +79,16 @@ def run(options: argparse.Namespace) -> int:
     # Here, so that data that are refused need not wait for numba.
     from continuum.cli.progress import told
     from continuum.discovery import diagnose
-    from continuum.discovery.hand_measurement import measurement_of, zeros_set
+    from continuum.discovery.hand_measurement import measurement_of
     from continuum.discovery.report import write_report
     from continuum.discovery.verdict_json import write_json
     from continuum.dynamics.model_file import save_model
 
     measured = [measurement_of(text) for text in options.measured]
-    for path in options.zeroed:
-        if path not in options.data:
-            raise InvalidValueError("--zeroed", path, f"one of {', '.join(options.data)}")
-        measured += zeros_set(recordings[options.data.index(path)].name, model.n_joints)
+    zeroed = [_number_of(path, options.data) for path in options.zeroed]
     tolerance = None if options.tolerance is None else math.radians(options.tolerance)
     with told() as tell:
-        result = diagnose(recordings, model, tolerance=tolerance, progress=tell, measured=measured)
+        result = diagnose(recordings, model, tolerance=tolerance, progress=tell, measured=measured, zeroed=zeroed)
     if options.json is not None:
         write_json(result, options.json, _made(options))
     if options.report is not None:
@@ -102,6 +100,14 @@ def run(options: argparse.Namespace) -> int:
     for path in filter(None, (options.json, options.report, options.extended)):
         print(f"written: {printable(path)}")
     return EXIT_CODES[result.verdict.kind.value]
+
+
+def _number_of(path: str, data: Sequence[str]) -> int:
+    """Which of the recordings a path is."""
+    paths = [Path(one).resolve() for one in data]
+    if Path(path).resolve() not in paths:
+        raise InvalidValueError("--zeroed", path, f"one of {', '.join(data)}")
+    return paths.index(Path(path).resolve())
 
 
 def _made(options: argparse.Namespace) -> dict[str, Any]:
@@ -152,6 +158,8 @@ def show(result: Diagnosis) -> None:
     )
 
     print(f"{result.verdict.kind.value.upper()}\n\n{verdict_in_words(result)}\n")
+    if result.measured:
+        print(f"Measured by hand, and in every model here: {', '.join(result.measured)}\n")
     if result.verdict.kind is Kind.AMBIGUOUS:
         for causes, p in zip(result.sets, result.verdict.probabilities, strict=True):
             print(

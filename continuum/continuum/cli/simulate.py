@@ -147,6 +147,8 @@ def _inputs(options: argparse.Namespace, model: Model) -> InputSignal:
     from continuum.dynamics.model_inputs import undriven
     from continuum.recordings.input_table import read_tension_table, read_torque_table
 
+    if options.tensions is not None and options.torques is not None:
+        raise InvalidValueError("--torques", options.torques, "without --tensions")
     if options.tensions is not None:
         return read_tension_table(options.tensions)
     if options.torques is None:

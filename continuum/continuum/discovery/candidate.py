@@ -36,7 +36,7 @@ class Candidate:
         occam: what values that each recording has for itself cost, as `Fitted.occam`.
         values: what its effects change; another's whose effects change less of these is nested in it.
         departure: minus the logarithm of the prior density of the common values, less a constant.
-        measured: probability that values measured by hand differ as much from the set's, where it is right.
+        zeros: probability that zeros which were set by hand are as far from the set's, where it is right.
         agreement: probability that segments disagree as much about the effects' sizes, where these are constant.
     """
 
@@ -47,7 +47,7 @@ class Candidate:
     values: frozenset[object] = frozenset()
     agreement: float = 1.0
     departure: float = 0.0
-    measured: float = 1.0
+    zeros: float = 1.0
 
     @property
     def completed(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from math import log
 
@@ -12,7 +12,7 @@ from continuum.discovery.baseline import fitted_baseline, has_tension, problem_o
 from continuum.discovery.decision import ALIKE, CHANCE, PRICE, is_farther, is_needless, is_probable, is_worth
 from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.fitted import Fitted
-from continuum.discovery.hand_measurement import HandMeasurement, check_measured
+from continuum.discovery.hand_measurement import HandMeasurement, known_whole
 from continuum.discovery.mirrored import mirrored
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem, linearise
@@ -29,6 +29,7 @@ from continuum.discovery.search import (
 )
 from continuum.discovery.sensitivities import is_linear
 from continuum.dynamics.dry_friction import with_dry_friction
+from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model import Model
 from continuum.estimation.structure import Structure
 from continuum.recordings.recording import Recording
@@ -44,12 +45,11 @@ def examine(
     effects: Sequence[str] | None = None,
     progress: Progress = silent,
     measured: Sequence[HandMeasurement] = (),
+    zeroed: Collection[int] = (),
 ) -> Examination:
-    """Search for sets of effects and simulate each open loop."""
+    """Search for sets of effects and simulate each open loop; the model has what was measured by hand."""
     progress("compiling", 0.0)
-    problem = _problem(recordings, model, effects)
-    check_measured(measured, problem.structure.offered, problem.structure.n, [run.name for run in problem.runs])
-    problem = replace(problem, measured=tuple(measured))
+    problem = replace(_problem(recordings, model, effects, measured), zeroed=frozenset(zeroed))
     progress("baseline", 0.1)
     fits = _Fits(*_baseline(problem, recordings), progress)
     fits.search()
@@ -63,9 +63,18 @@ def refitted(recordings: Sequence[Recording], model: Model) -> tuple[Examined, O
     return start, judge
 
 
-def _problem(recordings: Sequence[Recording], model: Model, effects: Sequence[str] | None) -> Problem:
-    dry = with_dry_friction(model)
-    return problem_of(Structure(dry, effects, has_tension(recordings, dry)), recordings)
+def _problem(
+    recordings: Sequence[Recording],
+    model: Model,
+    effects: Sequence[str] | None,
+    measured: Sequence[HandMeasurement] = (),
+) -> Problem:
+    dry, n = with_dry_friction(model), model.n_joints
+    names = effect_names() if effects is None else effects
+    offered = [name for name in names if not known_whole(effect_named(name), measured, n)]
+    partly = {one.effect for one in measured}
+    structure = Structure(dry, offered, has_tension(recordings, dry), partly)
+    return replace(problem_of(structure, recordings), measured=tuple(measured))
 
 
 def _baseline(problem: Problem, recordings: Sequence[Recording]) -> tuple[Examined, OutputError, OutputError | None]:
@@ -119,10 +128,10 @@ class _Fits:
         observations = min(self.examined, key=_error).fit.observations
 
         def cost(one: Examined) -> float:
-            price = PRICE * len(one.found.chosen) + one.fit.occam + one.misfit / 2
-            return price + observations * log(one.fit.error)
+            return PRICE * len(one.found.chosen) + one.fit.occam + observations * log(one.fit.error)
 
-        return min((one for one in self.examined if np.isfinite(one.fit.error)), key=cost, default=self.examined[0])
+        possible = [one for one in self.examined if np.isfinite(one.fit.error) and one.candidate.zeros > CHANCE]
+        return min(possible, key=cost, default=self.examined[0])
 
     def search(self) -> None:
         """Fit sets of one effect more about the nearest, while it errs by more than the sensors; then its like."""
@@ -243,7 +252,7 @@ class _Fits:
 
     def _nameable(self) -> list[Examined]:
         """Sets that are as near as the nearest, and of which no effect is needless."""
-        sets = [one for one in self.examined[1:] if one.candidate.measured > CHANCE]
+        sets = [one for one in self.examined[1:] if one.candidate.zeros > CHANCE]
         best = min([self.examined[0], *sets], key=_error)
         alike = ALIKE * log(self.examined[0].fit.error / best.fit.error)
         fitted = [one.candidate for one in sets]

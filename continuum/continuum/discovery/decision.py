@@ -82,7 +82,7 @@ def decide(
         is_asked: whether a user set the tolerance.
     """
     noise = noise_in_segments([baseline, *others], floor)
-    others = [one for one in others if one.completed and one.measured > CHANCE]
+    others = [one for one in others if one.completed and one.zeros > CHANCE]
     others.sort(key=lambda one: (log_error(one), str(one.effects)))
     lowest = log_error(others[0]) if others else np.inf
     alike = ALIKE * max(log_error(baseline) - lowest, 0.0)

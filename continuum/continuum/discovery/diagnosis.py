@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +16,7 @@ from continuum.discovery.estimates import baseline_estimates, correlation_of, es
 from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.experiments import experiments, rivals
 from continuum.discovery.extended import model_of
-from continuum.discovery.hand_measurement import HandMeasurement
+from continuum.discovery.hand_measurement import HandMeasurement, check_measured, with_measured
 from continuum.discovery.hand_tests import hand_tests
 from continuum.discovery.missing_torque import missing_torque
 from continuum.discovery.power import powers
@@ -43,6 +43,7 @@ def diagnose(
     progress: Progress = silent,
     with_power: bool = True,
     measured: Sequence[HandMeasurement] = (),
+    zeroed: Collection[int] = (),
 ) -> Diagnosis:
     """Diagnose a model by measured data.
 
@@ -52,7 +53,9 @@ def diagnose(
         effects: names of those to try; all that are installed without.
         tolerance: open-loop error up to which a model is adequate [rad]; TOLERANCE times the noise without.
         progress: called with what is done, and the part of all that is over.
-        measured: values of effects that were measured by hand; sets that contradict them are excluded.
+        measured: values of effects that were measured by hand: every model of the diagnosis has them.
+        zeroed: recordings before which the sensors' zeros were set by hand, by number; sets that contradict these are
+            excluded.
         with_power: whether to work out what the recordings would have shown, and which run would tell more.
 
     Raises:
@@ -60,8 +63,12 @@ def diagnose(
     """
     began = time.process_time()
     _check(recordings, model, tolerance)
+    if not set(zeroed) <= set(range(len(recordings))):
+        raise InvalidValueError("zeroed recordings", sorted(zeroed), f"0 to {len(recordings) - 1}")
+    check_measured(measured, model)
+    model = with_measured(model, measured)
     search = _SEARCH if with_power else 1.0
-    found = examine(recordings, model, effects, lambda what, part: progress(what, search * part), measured)
+    found = examine(recordings, model, effects, lambda what, part: progress(what, search * part), measured, zeroed)
     progress("deciding", search)
     answer, best = _answer(found, recordings, model, tolerance)
     if with_power:
@@ -111,6 +118,7 @@ def _answer(
         after, model_of(problem, base.fit.state, (), model),
         model_of(problem, best.fit.state, best.candidate.effects, model), tuple(recordings),
         (), (), (), correlation_of(best.fit), (*odd, *_notes(recordings, found, best)), accepted, 0.0,
+        tuple(map(str, found.problem.measured)), tuple(recordings[k].name for k in sorted(found.problem.zeroed)),
     )  # fmt: skip
     return answer, best
 

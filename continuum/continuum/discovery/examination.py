@@ -7,10 +7,10 @@ from functools import cached_property
 
 from continuum.discovery.candidate import Candidate
 from continuum.discovery.fitted import Fitted
-from continuum.discovery.hand_misfit import misfit, probability
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem
 from continuum.discovery.search import Found
+from continuum.discovery.zeros_by_hand import agreement
 
 
 @dataclass(frozen=True)
@@ -26,17 +26,12 @@ class Examined:
     fit: Fitted
 
     @property
-    def misfit(self) -> float:
-        """Of values that were measured by hand: minus twice their log-likelihood, less a constant."""
-        return misfit(self.found.lin.problem, self.fit)
-
-    @property
     def candidate(self) -> Candidate:
         """For the decision."""
-        fit, measured = self.fit, probability(self.found.lin.problem, self.fit)
+        fit, zeros = self.fit, agreement(self.found.lin.problem, self.fit)
         effects = tuple(h.key for h in self.found.chosen)
         return Candidate(
-            effects, fit.errors, fit.observations, fit.occam, fit.of_effects, fit.agreement, fit.departure, measured
+            effects, fit.errors, fit.observations, fit.occam, fit.of_effects, fit.agreement, fit.departure, zeros
         )  # fmt: skip
 
 

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import chdtrc
 
 from continuum.arrays import Array
 from continuum.discovery.baseline import run_of
@@ -21,7 +20,6 @@ from continuum.discovery.decision import ALIKE, CHANCE, is_farther_by
 from continuum.discovery.designs import Design, designs
 from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.fitted import Fitted
-from continuum.discovery.hand_measurement import is_zero
 from continuum.discovery.hypotheses import PRIOR
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values
@@ -29,7 +27,7 @@ from continuum.discovery.output_error import DAMPING, ENOUGH, OutputError
 from continuum.discovery.power import POWER, powers
 from continuum.discovery.problem import Problem, ValueKey
 from continuum.discovery.result import Detectable, Experiment
-from continuum.discovery.unknowns import Unknown
+from continuum.discovery.zeros_by_hand import is_zero, probability, zeros_in
 from continuum.dynamics.joint_torques import JointTorques
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
@@ -134,8 +132,8 @@ def _simulated(found: Examination, fit: Fitted, design: Design) -> _Run | None:
         design.inputs if isinstance(design.inputs, JointTorques) else None,
     )  # fmt: skip
     run, way = run_of(recording, s.given, with_rates=False), Trajectory(still, 0 * still, 0 * still, 0 * still)
-    own = {key: (-1.0) ** k * _sd(problem, one, design) / PRIOR
-           for k, one in enumerate(fit.unknowns.own[0]) for key in one.places}  # fmt: skip
+    own = {key: (-1.0) ** k * one.sd / PRIOR for k, one in enumerate(fit.unknowns.own[0]) for key in one.places
+           if not _is_zeroed(problem, key, design)}  # fmt: skip
     shared = {key: value for key, value in fit.state.shared.items() if not _is_zeroed(problem, key, design)}
     state = replace(fit.state, shared=shared, own=(own,), ways=(way,))
     judge = found.judge.along(replace(problem, runs=(run,)), (recording,))
@@ -178,14 +176,14 @@ class _Trial:
             [any(_is_zeroed(problem, key, design) for key in one.places) for one in fit.unknowns.common]
         )
         values = np.where(measured, 0.0, fit.values.common)
-        sds = np.where(measured, [_sd(problem, one, design) for one in fit.unknowns.common], fit.sd)
+        sds = np.where(measured, [one.sd for one in fit.unknowns.common], fit.sd)
         if drawn:
             values = values + sds * np.random.default_rng(0).standard_normal(len(values)) * ~measured
             low, high = (np.array([getattr(one, end) for one in fit.unknowns.common]) for end in ("lower", "upper"))
             values = np.clip(values, low, high)
         known = zip(fit.unknowns.common, values, sds, strict=True)
         common = [replace(one, mean=float(value), sd=float(sd)) for one, value, sd in known]
-        own = [replace(one, mean=0.0, start=0.0, sd=_sd(problem, one, design)) for one in fit.unknowns.own[0]]
+        own = [replace(one, mean=0.0, start=0.0) for one in fit.unknowns.own[0]]
         state = replace(fit.state, own=({},), ways=(made.way,))
         none = np.zeros(len(self._judge.local_precision))
         start = Values(values, (np.zeros(len(own)),), (none,) * self._judge.segments)
@@ -212,11 +210,10 @@ class _Trial:
             left = normal.expected_residuals(there)
             noisy = [one.with_residuals(r.ravel()) for one, r in zip(segments, left, strict=True)]
         excess = 0.5 * np.log1p(np.array([np.mean(r**2) for r in left]) / judge.floor**2)
-        zeros = [value / one.sd for one, value in zip(fit.unknowns.common, there.common, strict=True)
-                 if any(_is_zeroed(judge.problem, key, self._design) for key in one.places)]  # fmt: skip
-        zeros += [value / one.sd for one, value in zip(fit.unknowns.own[0], there.own[0], strict=True)
-                  if any(_is_zeroed(judge.problem, key, self._design) for key in one.places)]  # fmt: skip
-        return _Refit(excess, bool(zeros) and float(chdtrc(len(zeros), np.sum(np.square(zeros)))) < CHANCE)
+        if not self._design.zeroed:
+            return _Refit(excess, False)
+        refitted = replace(fit, values=there, sd=np.sqrt(np.diag(normal.covariance)), own_sd=normal.own_sd())
+        return _Refit(excess, probability(zeros_in(refitted, 0)) < CHANCE)
 
     def shown(self, library: Library, hidden: set[str]) -> set[str]:
         """Labels of effects that the run would show at their typical sizes, of those whose size enters linearly."""
@@ -229,10 +226,3 @@ def _is_zeroed(problem: Problem, key: ValueKey, design: Design) -> bool:
     effect, name, _ = key
     sensors = {one.name: one.parameters for one in problem.structure.sensors}
     return design.zeroed and effect in sensors and is_zero(sensors[effect][name])
-
-
-def _sd(problem: Problem, one: Unknown, design: Design) -> float:
-    """Prior standard deviation of a value that the run has for itself; by hand a sensor's zero is known better."""
-    sensors = {effect.name: effect.parameters for effect in problem.structure.sensors}
-    by_hand = [sensors[key[0]][key[1]].by_hand for key in one.places if _is_zeroed(problem, key, design)]
-    return min([float(one.sd), *by_hand])

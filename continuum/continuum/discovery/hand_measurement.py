@@ -1,38 +1,46 @@
-"""Values of effects that somebody measured by hand."""
+"""Values of effects that somebody measured by hand: facts, which every model of a diagnosis has."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.dynamics.effect import Effect
-from continuum.dynamics.effect_lookup import effect_named, effect_names
-from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.errors import InvalidValueError
+from continuum.estimation.structure import absent_values
 
-_FORM = (
-    "EFFECT.PARAMETER[JOINT]@RECORDING=VALUE+-SD, as tip_payload.mass=0.05+-0.002, rest_angle.angle[3]=0 or "
-    "angle_offset.offset[3]@run_4=0"
+_FORM: Final = "NAME[JOINT]=VALUE UNIT, perhaps +-SD, as tip_payload.mass=50g, rest_angle.angle[3]=4+-0.5deg"
+_NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_MEASURED: Final = re.compile(
+    rf"(\w+)\.(\w+)(?:\[(\d+)\])?\s*=\s*({_NUMBER})\s*(?:(?:\+-|\+/-|±)\s*({_NUMBER}))?\s*([a-zA-Z%/]*)\s*"
 )
-_MEASURED = re.compile(r"(\w+)\.(\w+)(?:\[(\d+)\])?(?:@([^=]+))?\s*=\s*([^\s±]+?)\s*(?:(?:\+-|\+/-|±)\s*(\S+))?\s*")
+_UNITS: Final = {
+    "rad": {"rad": 1.0, "deg": np.pi / 180}, "kg": {"kg": 1.0, "g": 1e-3}, "s": {"s": 1.0, "ms": 1e-3},
+    "1": {"": 1.0, "%": 0.01},
+}  # fmt: skip
+"""Units in which a value may be given, by its SI unit; where there are several, one has to be."""
 
 
 @dataclass(frozen=True)
 class HandMeasurement:
-    """A value of the arm, or of a sensor in one recording.
+    """A value of the arm.
 
     Attributes:
         effect, parameter: what was measured.
         joint: where, from 0; None where it belongs to none.
         value, sd: with its standard deviation [unit of the parameter].
-        recording: in which, by name, of what differs from recording to recording; None of what does not.
 
     Raises:
-        InvalidValueError: no such effect, parameter or joint; a recording too many or too few; a value out of bounds; a
-            standard deviation that is not above 0.
+        InvalidValueError: no such effect, parameter or joint; one that cannot be measured by hand; a value out of
+            bounds; a standard deviation that is not above 0.
     """
 
     effect: str
@@ -40,20 +48,13 @@ class HandMeasurement:
     joint: int | None
     value: float
     sd: float
-    recording: str | None = None
 
     def __post_init__(self) -> None:
-        known = effect_named(self.effect).parameters
-        if self.parameter not in known:
-            raise InvalidValueError(f"parameter of {self.effect}", self.parameter, f"one of {', '.join(known)}")
-        spec = known[self.parameter]
-        if spec.per_recording == (self.recording is None):
-            raise InvalidValueError(
-                "measured value", self.name, f"with {'a' if spec.per_recording else 'no'} recording"
-            )
+        spec, _ = _measurable(self.effect, self.parameter)
         if spec.per_joint == (self.joint is None):
-            raise InvalidValueError("measured value", self.name, f"with {'a' if spec.per_joint else 'no'} joint")
-        if not spec.lower <= self.value <= spec.upper:
+            allowed = f"with {'a joint, as ' + self.name + '[1]' if spec.per_joint else 'no joint'}"
+            raise InvalidValueError("measured value", self.name, allowed)
+        if not spec.lower - self.sd <= self.value <= spec.upper:
             raise InvalidValueError(self.name, self.value, f"{spec.lower:g} to {spec.upper:g} {spec.unit}")
         if not 0 < self.sd < np.inf:
             raise InvalidValueError(f"standard deviation of {self.name}", self.sd, "a finite number > 0")
@@ -61,72 +62,95 @@ class HandMeasurement:
     @property
     def name(self) -> str:
         """As tables have it, joints from 1."""
-        where = f"[{self.joint + 1}]" if self.joint is not None else ""
-        return f"{self.effect}.{self.parameter}{where}" + (f"@{self.recording}" if self.recording is not None else "")
+        return f"{self.effect}.{self.parameter}" + (f"[{self.joint + 1}]" if self.joint is not None else "")
 
     @property
     def key(self) -> tuple[str, str, int]:
         """Effect, parameter and joint, -1 where it belongs to none."""
         return self.effect, self.parameter, -1 if self.joint is None else self.joint
 
+    @property
+    def is_none(self) -> bool:
+        """Whether it is no more than the instrument's error."""
+        return abs(self.value) <= 2 * self.sd
+
     def __str__(self) -> str:
-        return f"{self.name}={self.value:g}+-{self.sd:g}"
+        unit = effect_named(self.effect).parameters[self.parameter].unit
+        return f"{self.name} = {self.value:.4g} +- {self.sd:.2g}" + f" {unit}" * (unit != "1")
 
 
 def measurement_of(text: str) -> HandMeasurement:
     """A measurement as a person writes it; without a standard deviation that of the usual instrument.
 
     Raises:
-        InvalidValueError: another form, or as of `HandMeasurement`.
+        InvalidValueError: another form, no unit or an unknown one, or as of `HandMeasurement`.
     """
     found = _MEASURED.fullmatch(text)
     if found is None:
         raise InvalidValueError("measured value", text, _FORM)
-    effect, parameter, joint, recording, value, sd = found.groups()
-    spec = effect_named(effect).parameters.get(parameter)
-    try:
-        deviation = float(sd) if sd else (spec.by_hand if spec is not None else 1.0)
-        at = int(joint) - 1 if joint else None
-        return HandMeasurement(effect, parameter, at, float(value), deviation, recording)
-    except ValueError as error:
-        if isinstance(error, InvalidValueError):
-            raise
-        raise InvalidValueError("measured value", text, _FORM) from error
+    effect, parameter, joint, value, sd, unit = found.groups()
+    spec, by_hand = _measurable(effect, parameter)
+    units = _UNITS.get(spec.unit, {spec.unit: 1.0})
+    if unit not in units and float(value) != 0:
+        raise InvalidValueError(f"unit of {effect}.{parameter}", unit, " or ".join(one or "none" for one in units))
+    factor = units.get(unit, 1.0)
+    deviation = factor * float(sd) if sd else by_hand.sd
+    return HandMeasurement(effect, parameter, int(joint) - 1 if joint else None, factor * float(value), deviation)
 
 
-def zeros_set(recording: str, n_joints: int) -> list[HandMeasurement]:
-    """Of a recording before which the sensors' zeros were set by a protractor."""
-    return [
-        HandMeasurement(effect, name, joint, 0.0, spec.by_hand, recording)
-        for effect in effect_names()
-        for name, spec in effect_named(effect).parameters.items()
-        if is_zero(spec)
-        for joint in range(n_joints)
-    ]
+def _measurable(effect: str, parameter: str) -> tuple[Parameter, ByHand]:
+    """A parameter that all recordings have in common and that hands can measure."""
+    known = effect_named(effect).parameters
+    if parameter not in known:
+        raise InvalidValueError(f"parameter of {effect}", parameter, f"one of {', '.join(known)}")
+    spec = known[parameter]
+    if spec.by_hand is None:
+        able = [name for name, one in known.items() if one.by_hand and not one.per_recording]
+        raise InvalidValueError(
+            "measured value", f"{effect}.{parameter}",
+            f"of {effect}, {', '.join(able)}" if able else "another effect's: this one's counts from what is fitted",
+        )  # fmt: skip
+    if spec.per_recording:
+        allowed = "one that all recordings share; set the sensors' zeros and name the recording by --zeroed"
+        raise InvalidValueError("measured value", f"{effect}.{parameter}", allowed)
+    return spec, spec.by_hand
 
 
-def is_zero(spec: Parameter) -> bool:
-    """Whether a parameter is a sensor's zero, which a protractor shows."""
-    return spec.per_recording and spec.per_joint and spec.by_hand > 0
-
-
-def check_measured(
-    measured: Sequence[HandMeasurement], offered: Iterable[Effect], n_joints: int, recordings: Sequence[str]
-) -> None:
-    """Refuse what this arm does not have.
+def check_measured(measured: Sequence[HandMeasurement], model: Model) -> None:
+    """Refuse what this arm cannot have.
 
     Raises:
-        InvalidValueError: a joint beyond the last, an unknown recording, a value twice, or an effect that is not tried
-            on this arm.
+        InvalidValueError: a joint beyond the last, a value twice, or an effect that the model has already or cannot
+            have.
     """
-    names = {effect.name for effect in offered}
+    present = {active.effect.name for active in model.effects}
     for number, one in enumerate(measured):
-        if one.joint is not None and not 0 <= one.joint < n_joints:
-            raise InvalidValueError("joint of a measured value", one.joint + 1, f"1 to {n_joints}")
-        if one.effect not in names:
-            allowed = f"an effect that is tried on this arm and not in its model: {', '.join(sorted(names))}"
-            raise InvalidValueError("measured effect", one.effect, allowed)
-        if one.recording is not None and one.recording not in recordings:
-            raise InvalidValueError("recording of a measured value", one.recording, f"one of {', '.join(recordings)}")
-        if one.name in {other.name for other in measured[:number]}:
+        if one.joint is not None and not 0 <= one.joint < model.n_joints:
+            raise InvalidValueError("joint of a measured value", one.joint + 1, f"1 to {model.n_joints}")
+        if one.effect in present:
+            raise InvalidValueError("measured effect", one.effect, "none that the model has: change its value there")
+        if not effect_named(one.effect).acts_on(model.parameters):
+            raise InvalidValueError("measured effect", one.effect, "one that can act on this arm")
+        if one.key in {other.key for other in measured[:number]}:
             raise InvalidValueError("measured value", one.name, "each once")
+
+
+def with_measured(model: Model, measured: Sequence[HandMeasurement]) -> Model:
+    """The model with what was measured in it; what is no more than an instrument's error is none."""
+    values = dict[str, dict[str, Array]]()
+    for one in measured:
+        if not one.is_none:
+            absent = {name: np.array(v) for name, v in absent_values(effect_named(one.effect), model.n_joints).items()}
+            values.setdefault(one.effect, absent)[one.parameter][max(one.key[2], 0)] = one.value
+    added = tuple(ActiveEffect(effect_named(name), found) for name, found in values.items())
+    return replace(model, effects=(*model.effects, *added))
+
+
+def known_whole(effect: Effect, measured: Iterable[HandMeasurement], n_joints: int) -> bool:
+    """Whether measurements leave nothing of an effect to be looked for.
+
+    Of an effect with states, or one that delays, whatever it has more is known with its size.
+    """
+    those = [one for one in measured if one.effect == effect.name]
+    has_shape = bool(effect.n_states(n_joints)) or any(one.parameter == "delay" for one in those)
+    return has_shape and any(one.joint is None or not one.is_none for one in those)

@@ -8,18 +8,20 @@ from scipy.special import ndtri
 
 from continuum.discovery.decision import CHANCE
 from continuum.discovery.examination import Examination, Examined
-from continuum.discovery.hand_misfit import SPREAD, value_and_sd
+from continuum.discovery.fitted import Fitted
 from continuum.discovery.power import POWER
 from continuum.discovery.problem import ValueKey
 from continuum.discovery.result import HandTest
+from continuum.discovery.zeros_by_hand import SPREAD
 from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.parameters import ByHand
 
 
 def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest, ...]:
-    """Values that two sets make different, the most telling first.
+    """Values about which two sets differ, the most telling first.
 
-    What differs from recording to recording and is measured in one may be taken for what all share; such pairs are
-    left out.
+    What differs from recording to recording and is measured once may be taken for what all recordings share; such
+    pairs are left out.
 
     Args:
         found: what was examined.
@@ -27,28 +29,41 @@ def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest
     """
     if len(rivals) < 2:
         return ()
-    keys = [{h.key for h in one.found.chosen if not h.is_refit} for one in rivals]
-    rival_effects = {effect_named(h.effect).alike_in_all_runs for one in rivals for h in one.found.chosen}
-    tests, enough = list[HandTest](), float(ndtri(1 - CHANCE / 2) + ndtri(POWER))
-    for effect, name, joint in _measurable(keys[0] ^ keys[1], found.problem.structure.n):
-        spec = effect_named(effect).parameters[name]
-        (one, one_sd), (other, other_sd) = (value_and_sd(rival.fit, (effect, name, joint)) for rival in rivals)
-        variance = spec.by_hand**2 + (SPREAD * one_sd) ** 2 + (SPREAD * other_sd) ** 2
-        apart = abs(one - other) / variance**0.5
-        if effect not in rival_effects:
-            at = joint if joint >= 0 else None
-            text = effect_named(effect).experiment
-            tests.append(HandTest(effect, name, at, spec.unit, spec.by_hand, apart, apart > enough, text))
+    keys = [{h.key for h in one.found.chosen} for one in rivals]
+    taken_for = {effect_named(h.effect).alike_in_all_runs for one in rivals for h in one.found.chosen}
+    known, enough = {one.key for one in found.problem.measured}, float(ndtri(1 - CHANCE / 2) + ndtri(POWER))
+    tests = list[HandTest]()
+    for key, by_hand in _measurable(keys[0] ^ keys[1], found.problem.structure.n):
+        effect, name, joint = key
+        if effect in taken_for or key in known:
+            continue
+        (one, one_sd), (other, other_sd) = (value_and_sd(rival.fit, key) for rival in rivals)
+        variance = by_hand.sd**2 + (SPREAD * one_sd) ** 2 + (SPREAD * other_sd) ** 2
+        apart, unit = abs(one - other) / variance**0.5, effect_named(effect).parameters[name].unit
+        where = joint if joint >= 0 else None
+        text = by_hand.how if where is None else f"At joint {joint + 1}: {by_hand.how[:1].lower()}{by_hand.how[1:]}"
+        tests.append(HandTest(effect, name, where, unit, by_hand.sd, apart, apart > enough, text))
     return tuple(sorted(tests, key=lambda test: -test.apart))
 
 
-def _measurable(keys: Set[tuple[str, tuple[int, ...] | None]], n: int) -> Iterator[ValueKey]:
+def value_and_sd(fit: Fitted, key: ValueKey) -> tuple[float, float]:
+    """What a set makes of a value, and its standard deviation; a set without the effect says that there is none."""
+    effect, name, joint = key
+    active, variance = fit.state.active.get(effect, {}), 0.0
+    value = float(active[name][max(joint, 0)]) if name in active else fit.state.shared.get(key, 0.0)
+    for one, sd in zip(fit.unknowns.common, fit.sd, strict=True):
+        if key in one.places:
+            variance += float(((value if one.is_log else one.places[key]) * sd) ** 2)
+    return value, variance**0.5
+
+
+def _measurable(keys: Set[tuple[str, tuple[int, ...] | None]], n: int) -> Iterator[tuple[ValueKey, ByHand]]:
     """Values that effects at places change and hands can measure, each once."""
     seen = set[ValueKey]()
     for effect, joints in sorted(keys, key=str):
         for name, spec in effect_named(effect).parameters.items():
             places = (joints or range(n)) if spec.per_joint else (-1,)
             for key in ((effect, name, joint) for joint in places):
-                if spec.by_hand and not spec.per_recording and key not in seen:
+                if spec.by_hand is not None and not spec.per_recording and key not in seen:
                     seen.add(key)
-                    yield key
+                    yield key, spec.by_hand

@@ -8,8 +8,8 @@ relative change of one of those values.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -101,6 +101,32 @@ class Hypothesis:
 def friction_of_all(n: int) -> Hypothesis:
     """Friction of an arm whose model file has none: its sizes are coordinates of the baseline, at each joint."""
     return Hypothesis(FRICTION, tuple(range(n)), (), (), np.zeros(0), np.zeros(0))
+
+
+def not_measured(
+    hypotheses: Sequence[Hypothesis], measured: Collection[tuple[str, str, int]], columns: Collection[int]
+) -> list[Hypothesis]:
+    """What measurements by hand leave open of hypotheses.
+
+    Args:
+        hypotheses: of one library.
+        measured: values that are known, by effect, parameter and joint, -1 where it belongs to none.
+        columns: of these values.
+    """
+    places, found = {(effect, joint) for effect, _, joint in measured}, list[Hypothesis]()
+    for h in hypotheses:
+        left = [k for k, used in enumerate(h.columns) if not set(columns) & set(used)]
+        if h.start is not None and any((h.effect, joint) in places for joint in h.joints or (-1,)):
+            continue
+        if len(left) == len(h.columns):
+            found.append(h)
+        elif left:
+            some = tuple(h.columns[k] for k in left), tuple(h.coefficients[k] for k in left)
+            weights = tuple(h.weights[k] for k in left) if h.weights else ()
+            found.append(
+                replace(h, columns=some[0], coefficients=some[1], sd=h.sd[left], least=h.least[left], weights=weights)
+            )
+    return found
 
 
 def sizes_and_shapes(effect: Effect) -> tuple[list[str], list[str]]:

@@ -17,6 +17,7 @@ from continuum.discovery.hypotheses import (
     fitted_parameters,
     friction_of_all,
     grid,
+    not_measured,
     only,
     prior_sd,
     shape_variants,
@@ -39,6 +40,8 @@ class Library:
         covered: parameters that these change as well where they change alike at all joints.
         live: effects that have hypotheses; all without.
         lacks_friction: whether friction is a hypothesis, as `friction_of_all`.
+        measured: standard deviations of values that were measured by hand. They are no hypotheses; values that are
+            columns differ from what was measured as parts of one batch differ from each other.
     """
 
     def __init__(
@@ -50,7 +53,9 @@ class Library:
         covered: Collection[str],
         live: Collection[str] | None = None,
         lacks_friction: bool = False,
+        measured: Mapping[tuple[str, str, int], float] | None = None,
     ) -> None:
+        self._measured = measured or {}
         self.structure, self.active, self.ratio = structure, active, ratio
         self.columns, self.width, self.hypotheses = list[Column](), 0, list[Hypothesis]()
         self.at: dict[tuple[str, str, int], int] = {}  # columns of values, by effect, parameter and joint
@@ -67,8 +72,10 @@ class Library:
             self.hypotheses.append(friction_of_all(structure.n))
         self._baseline, self._live = list(range(self.width)), live
         self._covered = covered
+        known = {name for name, _, _ in self._measured}
         for effect in structure.offered:
-            if live is not None and effect.name not in live and not any(p.ordinary for p in effect.parameters.values()):
+            is_ordinary = any(p.ordinary for p in effect.parameters.values())
+            if live is not None and effect.name not in live and not is_ordinary and effect.name not in known:
                 continue
             if overrides(effect, "measure", "late"):
                 self._sensor(effect)
@@ -76,6 +83,9 @@ class Library:
                 self._stateful(effect)
             else:
                 self._plain(effect)
+        if self._measured:
+            columns = {column for key, column in self.at.items() if key in self._measured}
+            self.hypotheses = not_measured(self.hypotheses, self._measured, columns)
 
     def _add(self, column: Column) -> int:
         """Append columns; the first one's index."""
@@ -100,9 +110,15 @@ class Library:
                 if is_active or not changed or changed == first:
                     for k in range(directions.shape[1]):
                         self.at[(effect.name, name, k if spec[name].per_joint else -1)] = at[name] + k
-                if spec[name].ordinary and (not changed or changed == first):
-                    self.ordinary += [(at[name] + k, spec[name].ordinary) for k in range(directions.shape[1])]
+                if not changed or changed == first:
+                    sds = [self._sd(effect, name, k) for k in range(directions.shape[1])]
+                    self.ordinary += [(at[name] + k, sd) for k, sd in enumerate(sds) if sd]
             self._placed(effect, at, changed)
+
+    def _sd(self, effect: Effect, name: str, k: int) -> float:
+        """By which a value differs in any arm: as was measured, or as parts of one batch do."""
+        spec = effect.parameters[name]
+        return self._measured.get((effect.name, name, k if spec.per_joint else -1), spec.ordinary)
 
     def _placed(self, effect: Effect, at: Mapping[str, int], changed: Mapping[str, float]) -> None:
         """Hypotheses of an effect that is linear in its sizes: at each joint, and at all alike."""

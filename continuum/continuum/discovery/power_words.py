@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from continuum.discovery.result import Detectable, Diagnosis, Experiment, is_named
+from continuum.discovery.result import Detectable, Diagnosis, Experiment, HandTest, is_named
 
 _LISTED = 6  # effects that a sentence bears
 
@@ -31,10 +31,10 @@ def power_in_words(result: Diagnosis) -> tuple[list[tuple[str, str]], list[tuple
 
 def experiment_in_words(result: Diagnosis) -> str:
     """The run that tells most, and what it tells; empty where none was worked out."""
-    if len(result.sets) > 1 and is_named(result.verdict.kind):
-        return separating_in_words(result)
     if not result.experiments:
         return ""
+    if len(result.sets) > 1 and is_named(result.verdict.kind):
+        return separating_in_words(result)
     best = result.experiments[0]
     if not best.shows:
         return f"{best.name}. {best.instruction}"
@@ -52,11 +52,15 @@ def separating_in_words(result: Diagnosis) -> str:
         case Experiment() as run:
             return f"{run.name}. {repeated(run)} It should tell the likeliest causes apart."
         case test:
-            unit = f" {test.unit}" * (test.unit != "1")
-            return (
-                f"measure {test.name} by hand to {test.sd:g}{unit} (one standard deviation). {test.instruction} "
-                f"Then diagnose again with --measured {test.name}=VALUE."
-            )
+            return f"{test.instruction} Then diagnose again with {option(test)}."
+
+
+def option(test: HandTest) -> str:
+    """What to type with the value that was measured, in a unit that a mechanic reads from an instrument."""
+    unit, factor = {"rad": ("deg", math.degrees(1)), "kg": ("g", 1e3), "s": ("ms", 1e3), "1": ("%", 100.0)}.get(
+        test.unit, (test.unit, 1.0)
+    )
+    return f"--measured {test.name}=VALUE{unit} (to {factor * test.sd:.2g} {unit}, one standard deviation)"
 
 
 def repeated(run: Experiment) -> str:

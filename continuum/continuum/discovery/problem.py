@@ -36,6 +36,7 @@ class Problem:
         noise: of sensors; sigma is the unit of the levels, (n,) [N m].
         levels: multiples of that sigma.
         measured: values of effects that were measured by hand.
+        zeroed: recordings before which the sensors' zeros were set by hand, by number.
     """
 
     structure: Structure
@@ -44,6 +45,7 @@ class Problem:
     noise: NoiseModel
     levels: Array
     measured: tuple[HandMeasurement, ...] = ()
+    zeroed: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True)
@@ -158,6 +160,7 @@ def linearise(
     library = Library(
         s, state.active, state.ratio, problem.coordinates.columns(point.values), problem.coordinates.covered, live,
         problem.coordinates.lacks_friction,
+        {one.key: one.sd for one in problem.measured},
     )  # fmt: skip
     theta = np.stack([_theta(library, state.shared, own, state.held) for own in state.own])
     runs = []

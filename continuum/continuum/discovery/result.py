@@ -192,6 +192,8 @@ class Diagnosis:
         notes: on the data, one sentence each.
         tolerance: open-loop error up to which a model is adequate [rad].
         seconds: of processor time.
+        measured: values that were measured by hand, as text; every model here has them.
+        zeroed: recordings before which the sensors' zeros were set by hand.
     """
 
     verdict: Verdict
@@ -212,6 +214,8 @@ class Diagnosis:
     notes: tuple[str, ...]
     tolerance: float
     seconds: float
+    measured: tuple[str, ...] = ()
+    zeroed: tuple[str, ...] = ()
 
     @property
     def causes(self) -> tuple[Cause, ...]:

@@ -5,12 +5,19 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.dynamics.expressions import Numbers
 from continuum.errors import InvalidValueError
+
+
+class ByHand(NamedTuple):
+    """A measurement by hand: its standard deviation [unit of the parameter], and what to do, one sentence."""
+
+    sd: float
+    how: str
 
 
 @dataclass(frozen=True)
@@ -28,7 +35,8 @@ class Parameter:
         per_recording: differs from recording to recording, as a sensor's offset after each start.
         ordinary: standard deviation by which parts of one batch differ; a diagnosis allows for it and names nothing.
         shape: says what an effect looks like, not how large it is, though its default is 0.
-        by_hand: standard deviation with which it can be measured by hand [unit]; 0 where it cannot.
+        by_hand: how it can be measured by hand, and how exactly; None where it cannot, or where its number counts from
+            what a fit changes.
         optional: without a default and not required: an arm may have no such thing, its model then no such value.
     """
 
@@ -44,7 +52,7 @@ class Parameter:
     optional: bool = False
     ordinary: float = 0.0
     shape: bool = False
-    by_hand: float = 0.0
+    by_hand: ByHand | None = None
 
     @property
     def another_value(self) -> float:

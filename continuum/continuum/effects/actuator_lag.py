@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from continuum.dynamics.effect import Own
 from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects.parts.cable_states import LEAST_LAG, CableStates
 from continuum.effects.parts.cables import led
@@ -22,7 +22,21 @@ class ActuatorLag(CableStates):
 
     name = "actuator_lag"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "lag": Parameter("t_a", "s", 0.0, 1.0, False, "time constant of the motors", 0.0, 0.03, by_hand=0.005)
+        "lag": Parameter(
+            "t_a",
+            "s",
+            0.0,
+            1.0,
+            False,
+            "time constant of the motors",
+            0.0,
+            0.03,
+            by_hand=ByHand(
+                0.005,
+                "Hold the arm still, step the command, and record the tension at the base of the cable with a load "
+                "cell: the time until it has changed by 63 %.",
+            ),
+        )
     }
     uses_cables = True
     needs_tension = True

@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.reading import Reading
 
 
@@ -20,7 +20,16 @@ class AngleOffset(Effect):
     name = "angle_offset"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "offset": Parameter(
-            "o", "rad", -1.0, 1.0, True, "added to a joint's measured angle", 0.0, 0.03, True, by_hand=0.005
+            "o",
+            "rad",
+            -1.0,
+            1.0,
+            True,
+            "added to a joint's measured angle",
+            0.0,
+            0.03,
+            True,
+            by_hand=ByHand(0.005, "Read the resting angle on a protractor: what the sensor shows, less that."),
         )
     }
     source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3 and 4"

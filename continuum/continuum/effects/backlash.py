@@ -23,7 +23,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, Own
 from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.parameters import Parameter, Parameters
+from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 from continuum.dynamics.planar.eq12_spring_torque import spring_torque
 from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, joint_friction
 from continuum.dynamics.planar.instant import Instant
@@ -42,7 +42,21 @@ class Backlash(Effect):
 
     name = "backlash"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "gap": Parameter("delta", "rad", 0.0, 0.5, True, "play of a joint to each side", 0.0, 0.02, by_hand=0.003)
+        "gap": Parameter(
+            "delta",
+            "rad",
+            0.0,
+            0.5,
+            True,
+            "play of a joint to each side",
+            0.0,
+            0.02,
+            by_hand=ByHand(
+                0.003,
+                "Turn the resting joint to and fro by hand, gently, and read its free play on a dial gauge or "
+                "protractor: half of that.",
+            ),
+        )
     }
     source = "Nordin and Gutman, Automatica 38, 2002, 1633-1649"
     in_words = "A joint has play: for a small way it moves without its spring and friction."

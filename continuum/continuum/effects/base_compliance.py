@@ -40,9 +40,7 @@ class BaseCompliance(Effect):
 
     name = "base_compliance"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "compliance": Parameter(
-            "e", "rad/(N m)", 0.0, 2.0, False, "turn of the base plate per moment", 0.0, 0.04, by_hand=0.005
-        ),
+        "compliance": Parameter("e", "rad/(N m)", 0.0, 2.0, False, "turn of the base plate per moment", 0.0, 0.04),
         "frequency": Parameter(
             "w_0", "rad/s", 20.0, 1e3, False, "at which the plate alone swings on its mount", 100.0, 30.0
         ),

@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.parameters import Parameter, Parameters
+from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class BaseTilt(Effect):
@@ -19,7 +19,20 @@ class BaseTilt(Effect):
 
     name = "base_tilt"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "angle": Parameter("beta_e", "rad", -1.0, 1.0, False, "added to the hang angle", 0.0, 0.035, by_hand=0.005)
+        "angle": Parameter(
+            "beta_e",
+            "rad",
+            -1.0,
+            1.0,
+            False,
+            "added to the hang angle",
+            0.0,
+            0.035,
+            by_hand=ByHand(
+                0.005,
+                "Put a spirit level on the base plate: its tilt in the arm's plane beyond the model file's hang angle.",
+            ),
+        )
     }
     source = "thesis Eq. 12, G; Khalil and Dombre, Modeling, Identification and Control of Robots, 2002, ch. 9"
     in_words = "The base plate is not level, so the arm hangs askew."

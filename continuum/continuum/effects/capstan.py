@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.parameters import Parameter, Parameters
+from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class Capstan(Effect):
@@ -28,7 +28,11 @@ class Capstan(Effect):
             0.0,
             0.1,
             ordinary=0.02,
-            by_hand=0.03,
+            by_hand=ByHand(
+                0.03,
+                "Pull the cable over a disc at a known angle with a force gauge at either end: the logarithm of the "
+                "ratio of their forces over that angle, less the model file's friction.",
+            ),
         )
     }
     uses_cables = True

@@ -37,9 +37,7 @@ class ElasticCable(CableStates):
 
     name = "elastic_cable"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "lag": Parameter(
-            "t_e", "s", 0.0, 1.0, False, "time in which the motor evens out a stretch", 0.0, 0.01, by_hand=0.003
-        ),
+        "lag": Parameter("t_e", "s", 0.0, 1.0, False, "time in which the motor evens out a stretch", 0.0, 0.01),
         "stiffness": Parameter("k", "N/m", 10.0, 1e6, False, "stiffness of a cable", 1e3, 1e3),
     }
     uses_cables = True

@@ -20,9 +20,7 @@ class HardeningSpring(Effect):
 
     name = "hardening_spring"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "cubic": Parameter(
-            "K_3", "N m/rad3", -2.0, 100.0, False, "cubic stiffness of all joints", 0.0, 2.0, by_hand=0.5
-        )
+        "cubic": Parameter("K_3", "N m/rad3", -2.0, 100.0, False, "cubic stiffness of all joints", 0.0, 2.0)
     }
     source = "Kovacic and Brennan (eds.), The Duffing Equation, Wiley 2011, ch. 2"
     in_words = "The springs grow stiffer the further they are bent."

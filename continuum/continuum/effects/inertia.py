@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.parameters import Parameter, Parameters
+from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class Inertia(Effect):
@@ -29,7 +29,7 @@ class Inertia(Effect):
             0.0,
             0.1,
             ordinary=0.01,
-            by_hand=0.01,
+            by_hand=ByHand(0.01, "Weigh the link by itself: its mass over that in the model file, less 1."),
         ),
         "inertia": Parameter(
             "e_I", "1", -0.95, 50.0, True, "own inertia of a link by its model's, less 1", 0.0, 0.5, ordinary=0.03

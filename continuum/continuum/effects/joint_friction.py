@@ -23,16 +23,7 @@ class JointFriction(Effect):
             "e_mu", "1", -1.0, 20.0, True, "viscous friction by its model's, less 1", 0.0, 0.5, ordinary=0.05
         ),
         "coulomb": Parameter(
-            "e_c",
-            "1",
-            -1.0,
-            20.0,
-            True,
-            "Coulomb friction by its model's, less 1",
-            0.0,
-            0.5,
-            ordinary=0.03,
-            by_hand=0.15,
+            "e_c", "1", -1.0, 20.0, True, "Coulomb friction by its model's, less 1", 0.0, 0.5, ordinary=0.03
         ),
     }
     source = "thesis Eq. 13; Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, 1083-1138"

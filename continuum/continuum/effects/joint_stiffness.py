@@ -19,16 +19,7 @@ class JointStiffness(Effect):
     name = "joint_stiffness"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "excess": Parameter(
-            "e_K",
-            "1",
-            -0.95,
-            20.0,
-            True,
-            "stiffness of a joint by its model's, less 1",
-            0.0,
-            0.2,
-            ordinary=0.02,
-            by_hand=0.05,
+            "e_K", "1", -0.95, 20.0, True, "stiffness of a joint by its model's, less 1", 0.0, 0.2, ordinary=0.02
         )
     }
     source = "thesis Eq. 12; Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 10 (rate of a spring)"

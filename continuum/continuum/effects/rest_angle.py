@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.parameters import Parameter, Parameters
+from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class RestAngle(Effect):
@@ -28,7 +28,10 @@ class RestAngle(Effect):
             "added to the angle of a joint's relaxed spring",
             0.0,
             0.05,
-            by_hand=0.01,
+            by_hand=ByHand(
+                0.01,
+                "Lay the arm on its side on a smooth table, cables slack, and read the joint's angle on a protractor.",
+            ),
         )
     }
     source = "thesis Eq. 12; Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 10 (set of springs)"

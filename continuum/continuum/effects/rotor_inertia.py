@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.parameters import Parameter, Parameters
+from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class RotorInertia(Effect):
@@ -21,7 +21,19 @@ class RotorInertia(Effect):
     name = "rotor_inertia"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "ratio": Parameter(
-            "e_J", "1", 0.0, 100.0, True, "missing inertia of a drive over its link's", 0.0, 0.3, by_hand=0.05
+            "e_J",
+            "1",
+            0.0,
+            100.0,
+            True,
+            "missing inertia of a drive over its link's",
+            0.0,
+            0.3,
+            by_hand=ByHand(
+                0.05,
+                "Take the rotor's inertia from the drive's data sheet, times the gear ratio squared, over the link's"
+                " inertia about its joint, less what the model file has.",
+            ),
         )
     }
     source = "Armstrong, Khatib and Burdick, IEEE ICRA 1986, 510-518 (drives' inertia of the PUMA 560)"

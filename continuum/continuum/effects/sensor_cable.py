@@ -30,12 +30,8 @@ class SensorCable(Effect):
 
     name = "sensor_cable"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "preload": Parameter(
-            "tau_0", "N m", -1.0, 1.0, False, "torque of the cable in the straight arm", 0.0, 0.02, by_hand=0.004
-        ),
-        "stiffness": Parameter(
-            "k", "N m/rad", 0.0, 100.0, False, "stiffness of the cable at joint 1", 0.0, 0.1, by_hand=0.02
-        ),
+        "preload": Parameter("tau_0", "N m", -1.0, 1.0, False, "torque of the cable in the straight arm", 0.0, 0.02),
+        "stiffness": Parameter("k", "N m/rad", 0.0, 100.0, False, "stiffness of the cable at joint 1", 0.0, 0.1),
         "viscous": Parameter("c", "N m s/rad", 0.0, 10.0, False, "viscous drag of the cable", 0.0, 0.01),
         "dry": Parameter("tau", "N m", 0.0, 10.0, False, "dry friction in the cable", 0.0, 0.02),
         "lever": Parameter(

@@ -17,7 +17,7 @@ from typing import ClassVar
 
 from continuum.dynamics.effect import Effect, Own
 from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.reading import Reading
 
 
@@ -26,7 +26,19 @@ class SensorDelay(Effect):
 
     name = "sensor_delay"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "delay": Parameter("t_d", "s", 0.0, 0.2, False, "by which all sensors are late", 0.0, 0.01, by_hand=0.003),
+        "delay": Parameter(
+            "t_d",
+            "s",
+            0.0,
+            0.2,
+            False,
+            "by which all sensors are late",
+            0.0,
+            0.01,
+            by_hand=ByHand(
+                0.003, "Tap the arm and compare the sensors' answer with that of a contact on the same clock."
+            ),
+        ),
         "lag": Parameter("t_j", "s", 0.0, 0.1, True, "by which a joint's angle comes later than others", 0.0, 0.01),
     }
     needs_tension = True

@@ -20,7 +20,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, Own
-from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.reading import Reading
 
 
@@ -30,7 +30,17 @@ class SensorScale(Effect):
     name = "sensor_scale"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "gain": Parameter(
-            "e_s", "1", -0.5, 0.5, True, "measured motion of a link by the true one, less 1", 0.0, 0.05, by_hand=0.01
+            "e_s",
+            "1",
+            -0.5,
+            0.5,
+            True,
+            "measured motion of a link by the true one, less 1",
+            0.0,
+            0.05,
+            by_hand=ByHand(
+                0.01, "Turn the link by 90 degrees against a stop: what the sensor shows over that, less 1."
+            ),
         )
     }
     source = "Tedaldi, Pretto and Menegatti, IEEE ICRA 2014 (calibration of inertial sensors)"

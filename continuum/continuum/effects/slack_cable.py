@@ -36,9 +36,7 @@ class SlackCable(Effect):
 
     name = "slack_cable"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "slack": Parameter(
-            "s", "m", 0.0, 0.2, False, "by which a cable that is not pulled hangs loose", 0.0, 0.01, by_hand=0.002
-        ),
+        "slack": Parameter("s", "m", 0.0, 0.2, False, "by which a cable that is not pulled hangs loose", 0.0, 0.01),
         "speed": Parameter("v", "m/s", 0.02, 5.0, False, "at which a motor winds up what hangs loose", 0.3, 0.2),
         "least": Parameter("u_0", "N", 0.01, 5.0, False, "tension below which a motor lets the cable hang", 0.3, 0.3),
         "blur": Parameter("b", "1", 0.04, 1.0, False, "part of u_0 around it in which a motor changes over", 0.1, 0.1),

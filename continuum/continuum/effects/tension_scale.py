@@ -16,7 +16,7 @@ import numpy as np
 
 from continuum.dynamics.effect import Effect, Own
 from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.parameters import Parameter
+from continuum.dynamics.parameters import ByHand, Parameter
 
 
 class TensionScale(Effect):
@@ -33,7 +33,7 @@ class TensionScale(Effect):
             "pull of cable 1 as recorded by the true one, less 1",
             0.0,
             0.1,
-            by_hand=0.02,
+            by_hand=ByHand(0.02, "Hang a known weight on cable 1: what is recorded over its weight, less 1."),
         ),
         "gain_2": Parameter(
             "e_2",
@@ -44,7 +44,7 @@ class TensionScale(Effect):
             "pull of cable 2 as recorded by the true one, less 1",
             0.0,
             0.1,
-            by_hand=0.02,
+            by_hand=ByHand(0.02, "Hang a known weight on cable 2: what is recorded over its weight, less 1."),
         ),
     }
     uses_cables = True

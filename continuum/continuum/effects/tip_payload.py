@@ -14,7 +14,7 @@ import numpy as np
 
 from continuum.dynamics.effect import Effect, Own
 from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.parameters import Parameter, Parameters
+from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class TipPayload(Effect):
@@ -31,7 +31,7 @@ class TipPayload(Effect):
             "mass at the centre of the tip disc, or at the end of a last link without",
             0.0,
             0.05,
-            by_hand=0.002,
+            by_hand=ByHand(0.002, "Take off what hangs on the tip and weigh it."),
         )
     }
     source = "Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119 (loads)"

@@ -6,7 +6,7 @@ Effects with states are run along the motion one by one. Those that act on senso
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -57,13 +57,20 @@ class Structure:
         model: of the arm; effects that it has already stay as they are.
         effects: names of those that may be added; all that are installed without.
         with_tension: whether a cable ever pulls; else effects that need it are left out.
+        partly: effects that may be added though the model has them, at other joints for instance.
 
     Attributes:
         offered, left_out: effects that may be added, and those that only a tension would show.
     """
 
-    def __init__(self, model: Model, effects: Sequence[str] | None = None, with_tension: bool = True) -> None:
-        n, present = model.n_joints, {active.effect.name for active in model.effects}
+    def __init__(
+        self,
+        model: Model,
+        effects: Sequence[str] | None = None,
+        with_tension: bool = True,
+        partly: Collection[str] = (),
+    ) -> None:
+        n, present = model.n_joints, {active.effect.name for active in model.effects} - set(partly)
         names = effect_names() if effects is None else effects
         offered = [effect_named(name) for name in names if name not in present]
         drives = model.inputs is InputKind.JOINT_TORQUES
@@ -76,7 +83,8 @@ class Structure:
         ]
         unpulled = [effect for effect in offered if effect.needs_tension and not with_tension]
         self.left_out = [effect for effect in unpulled if not (effect.uses_cables and drives)]
-        known = [*(active.effect for active in model.effects), *self.offered]
+        others = [active.effect for active in model.effects if active.effect.name not in {e.name for e in self.offered}]
+        known = [*others, *self.offered]
         values = {active.effect.name: dict(active.values) for active in model.effects}
         plain = [e for e in known if e.n_states(n) == 0 and overrides(e, *_MECHANICAL)]
         active = tuple(ActiveEffect(e, values.get(e.name) or absent_values(e, n)) for e in plain)

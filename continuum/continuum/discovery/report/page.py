@@ -53,6 +53,7 @@ def _first(result: Diagnosis) -> dict[str, Any]:
         "title": sentences.title(result, contradictions),
         "verdict": sentences.verdict_sentence(result, contradictions),
         "reliability": sentences.reliability(result),
+        "by_hand": sentences.by_hand(result),
         "warnings": sentences.warnings(result, contradictions),
         "extended": result.is_extended,
         "what": sentences.extension(result),

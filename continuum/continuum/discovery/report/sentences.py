@@ -74,9 +74,9 @@ def verdict_sentence(result: Diagnosis, contradictions: Sequence[str]) -> str:
 
 
 def reliability(result: Diagnosis) -> str:
-    """How often such a verdict is right, one sentence; empty where nobody knows."""
+    """How often such a verdict is right, one sentence; empty where nobody knows, as with what hands measured."""
     record = track_record(result.verdict.kind)
-    if record is None:
+    if record is None or result.measured or result.zeroed:
         return ""
     interval = percent_interval(record.low, record.high)
     right = _RIGHT[result.verdict.kind].format(record.right)
@@ -84,6 +84,14 @@ def reliability(result: Diagnosis) -> str:
     if result.verdict.kind is Kind.UNKNOWN:
         return f"How far to trust this: {arms} {right}."
     return f"How far to trust this: {arms} {right} ({percent(record.right / record.n)} %, 95 % interval {interval} %)."
+
+
+def by_hand(result: Diagnosis) -> str:
+    """What the verdict rests on besides the recordings, one sentence; empty where nothing."""
+    zeros = f"sensors' zeros were set before {listed(result.zeroed)}" if result.zeroed else ""
+    measured = f"every simulation has {listed(result.measured)}" if result.measured else ""
+    found = "; ".join(filter(None, [measured, zeros]))
+    return f"Measured by hand: {found}." if found else ""
 
 
 def power_sentence(result: Diagnosis) -> str:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.power_words import repeated
+from continuum.discovery.power_words import option, repeated
 from continuum.discovery.report.names import capital, effect_in_words, label_in_words, listed
-from continuum.discovery.report.quantities import number, scale_of
 from continuum.discovery.result import Cause, Diagnosis, Experiment
 from continuum.discovery.words import MORE_RUNS
 from continuum.dynamics.effect_lookup import effect_named
@@ -99,10 +98,7 @@ def _separating(result: Diagnosis) -> list[Step]:
         case Experiment() as run:
             return [Step(repeated(run), "Tells the explanations apart.")]
         case test:
-            scale = scale_of(test.unit, effect_named(test.effect).parameters[test.parameter].meaning, test.parameter)
-            to = f"{number(scale(test.sd), 1)} {scale.unit}".rstrip()
-            return [Step(test.instruction, f"Tells the explanations apart if it is exact to {to}. Then diagnose again "
-                         f"with --measured {test.name}=VALUE.")]  # fmt: skip
+            return [Step(test.instruction, f"Tells the explanations apart. Then diagnose again with {option(test)}.")]
 
 
 def _in_doubt(result: Diagnosis) -> list[Cause]:
