@@ -1,8 +1,8 @@
 """The next run or measurement by hand that a diagnosis proposes, made in simulation: does it separate the causes?
 
-    python3 -m tools.bench_discovery.next_experiment OUT.jsonl [CASES]
+    python3 -m tools.bench_discovery.next_experiment OUT.jsonl [CASES [PART PARTS]]
 
-Cases are those of the benchmark that were ambiguous.
+Cases are those of the benchmark that were ambiguous; of several processes each takes a part.
 """
 
 from __future__ import annotations
@@ -142,10 +142,11 @@ def _holds(result: Diagnosis, hidden: list[dict[str, Any]]) -> bool:
     return any(is_exactly(hidden, one["effects"]) for one in as_mapping(result)["sets"])
 
 
-def main(out: Path, cases: int) -> None:
-    plans = {one.plan.seed: one.plan for one in load(RESULTS) if one.verdict and one.verdict["verdict"] == "ambiguous"}
+def main(out: Path, cases: int, part: int, parts: int) -> None:
+    seen = [one.plan for one in load(RESULTS) if one.verdict and one.verdict["verdict"] == "ambiguous"]
+    plans = list({plan.seed: plan for plan in seen}.values())[part - 1 :: parts]
     found = list[Separation]()
-    for plan in plans.values():
+    for plan in plans:
         if len(found) == cases:
             break
         if (one := separation(plan)) is not None:
@@ -158,4 +159,5 @@ def main(out: Path, cases: int) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 30)
+    of = [int(text) for text in sys.argv[2:]]
+    main(Path(sys.argv[1]), *(of[:1] or [30]), *(of[1:3] or [1, 1]))
