@@ -85,7 +85,7 @@ def _score_calls(answer: Callable[[int], Answer], sample: Sample, tolerance: flo
         times[k] = time.thread_time() - began
         answers.append(given)
     solved = [says_so and arrived(sample, k, w, tolerance) for k, (w, _, says_so) in enumerate(answers)]
-    return _score(times, np.array([iterations for _, iterations, _ in answers], dtype=float), np.array(solved))
+    return score_of(times, np.array([iterations for _, iterations, _ in answers], dtype=float), np.array(solved))
 
 
 def score_helix() -> tuple[Score, Score, float]:
@@ -107,15 +107,16 @@ def score_helix() -> tuple[Score, Score, float]:
         result = solver.solve(Target(position), w)
         times[k] = time.thread_time() - began
         w, iterations[k], solved[k] = result.configuration, result.iterations, result.solved
-    single = _score(times, iterations, solved)
+    single = score_of(times, iterations, solved)
     began = time.thread_time()
     batch = solver.follow(Targets(positions), begin)
     each = np.full(len(positions), (time.thread_time() - began) / len(positions))
     worst = np.max(np.linalg.norm(arm_pose(batch.configurations, arm)[:, :3, 3] - positions, axis=-1))
-    return single, _score(each, batch.iterations.astype(float), batch.solved), float(worst)
+    return single, score_of(each, batch.iterations.astype(float), batch.solved), float(worst)
 
 
-def _score(times: Array, iterations: Array, solved: Array) -> Score:
+def score_of(times: Array, iterations: Array, solved: Array) -> Score:
+    """Of processor times [s], iterations and whether targets were reached, (n,) each."""
     return Score(
         float(np.mean(solved)),
         len(solved),
