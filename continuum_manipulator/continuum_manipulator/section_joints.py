@@ -95,6 +95,16 @@ def read_bends(index: Mapping[str, int], positions: Sequence[float], section: Se
     return allen_from_jones(*_phi_and_thetas("position", index, positions, _theta_names(index, section), section))
 
 
+def read_bend_rates(
+    index: Mapping[str, int], positions: Sequence[float], velocities: Sequence[float], section: Section
+) -> Array:
+    """Rates (n_joints, 2) [rad/s] of what :func:`read_bends` reads, of a message that has the section's joints."""
+    thetas = _theta_names(index, section)
+    phi, angles = _phi_and_thetas("position", index, positions, thetas, section)
+    phi_rate, rates = _phi_and_thetas("velocity", index, velocities, thetas, section)
+    return allen_rates(np.full_like(angles, phi), angles, np.full_like(angles, phi_rate), rates)
+
+
 def read_names(message: JointState) -> dict[str, int]:
     """Where each joint's name stands in a message whose arrays are one entry a name; rates and efforts may be missing.
 

@@ -80,6 +80,12 @@ def generate_launch_description() -> LaunchDescription:
                 "markers", default_value="true", choices=list(BOOLEANS), description="markers of cables and curvature"
             ),
             DeclareLaunchArgument(
+                "tip",
+                default_value="false",
+                choices=list(BOOLEANS),
+                description="pose and twist of the tip, of the joints",
+            ),
+            DeclareLaunchArgument(
                 "rviz", default_value="false", choices=list(BOOLEANS), description="RViz with the arm"
             ),
             DeclareLaunchArgument(
@@ -127,6 +133,9 @@ def nodes(context: LaunchContext) -> list[Node | IncludeLaunchDescription]:
     needed = [*(f"section_{number}" for number in numbers), "robot", "cable_tangler"]
     if is_true(given["markers"]):
         started += [node("markers", "markers", arm_file)]
+    if is_true(given["tip"]):
+        started += [node("forward_kinematics", "forward_kinematics", arm_file)]
+        needed += ["forward_kinematics"]
     if given["record"]:
         folder = ParameterValue(str(Path(given["record"]).expanduser().absolute()), value_type=str)
         started += [node("recorder", "recorder", {"output": folder})]

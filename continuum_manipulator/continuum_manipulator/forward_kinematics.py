@@ -1,0 +1,81 @@
+"""Node of forward kinematics: joints to where the tip is and how it moves."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from scipy.spatial.transform import Rotation
+from sensor_msgs.msg import JointState
+
+from continuum.arrays import Array
+from continuum.kinematics.joint_chain import joint_chain, tip_pose, tip_twist
+from continuum_manipulator.nodekit import messages
+from continuum_manipulator.nodekit.checked_node import CheckedNode
+from continuum_manipulator.nodekit.faults import MessageFault
+from continuum_manipulator.nodekit.stamps import StampJoiner, nanoseconds
+from continuum_manipulator.section_joints import read_bend_rates, read_bends, read_names
+from continuum_manipulator.tip_targets import BASE_FRAME
+
+
+class _Joints(NamedTuple):
+    """Bends (n_joints, 2) [rad] of a section's joints, and their rates [rad/s] where they are known."""
+
+    bends: Array
+    rates: Array | None
+
+
+class ForwardKinematicsNode(CheckedNode):
+    """``joint_states`` to ``tip_pose`` and ``tip_twist`` (Eqs. 10 and 11), in ``base_link``.
+
+    Joints of a section need not bend alike. Sections may come in one message or in one each: they are joined by stamp.
+    Without velocities of all joints there is no twist.
+    """
+
+    NAME = "forward_kinematics"
+    HAS_ARM = True
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._chain = joint_chain(self.arm)
+        self._instants: StampJoiner[int, _Joints] = StampJoiner(range(self.arm.n_sections))
+        self.diagnostics.values |= {
+            "instants waiting for a section": lambda: self._instants.waiting,
+            "instants given up with a section missing": lambda: self._instants.incomplete + self._instants.late,
+        }
+        self._publish_pose = self.offer(PoseStamped, "tip_pose")
+        self._publish_twist = self.offer(TwistStamped, "tip_twist")
+        self.listen(JointState, "joint_states", self._on_joints)
+
+    def _on_joints(self, message: JointState) -> None:
+        messages.stamped(message.header.stamp)
+        index, found = read_names(message), dict[int, _Joints]()
+        for i, section in enumerate(self.arm.sections):
+            bends = read_bends(index, message.position, section)
+            if bends is not None:
+                rates = (
+                    read_bend_rates(index, message.position, message.velocity, section) if message.velocity else None
+                )
+                found[i] = _Joints(bends, rates)
+        if not found:
+            raise MessageFault(messages.MISSING_NAME, "no joint of this arm is in the message")
+        for i, joints in found.items():
+            instant = self._instants.add(i, nanoseconds(message.header.stamp), joints)
+            if instant is not None:
+                self._answer([instant[k] for k in range(self.arm.n_sections)], message)
+
+    def _answer(self, sections: list[_Joints], message: JointState) -> None:
+        bends, rates = [one.bends for one in sections], [one.rates for one in sections if one.rates is not None]
+        found, pose = tip_pose(bends, self._chain), PoseStamped()
+        pose.header.stamp, pose.header.frame_id = message.header.stamp, BASE_FRAME
+        place, turn = pose.pose.position, pose.pose.orientation
+        place.x, place.y, place.z = map(float, found[:3, 3])
+        turn.x, turn.y, turn.z, turn.w = map(float, Rotation.from_matrix(found[:3, :3]).as_quat(canonical=True))
+        self._publish_pose(pose)
+        if len(rates) == len(bends):
+            velocity, twist = tip_twist(bends, rates, self._chain), TwistStamped()
+            twist.header = pose.header
+            linear, angular = twist.twist.linear, twist.twist.angular
+            linear.x, linear.y, linear.z = map(float, velocity[:3])
+            angular.x, angular.y, angular.z = map(float, velocity[3:])
+            self._publish_twist(twist)
