@@ -103,6 +103,30 @@ def friction_of_all(n: int) -> Hypothesis:
     return Hypothesis(FRICTION, tuple(range(n)), (), (), np.zeros(0), np.zeros(0))
 
 
+def at_values(
+    effect: Effect,
+    joints: tuple[int, ...] | None,
+    value: int,
+    logs: Sequence[tuple[int, str, tuple[int, ...]]],
+    start: Mapping[str, Array],
+) -> Hypothesis:
+    """An effect with states at given values: its whole torque, and relative changes of these values.
+
+    Args:
+        effect, joints: which, and where.
+        value: column of the torque.
+        logs: columns of the relative changes, with parameter and joints.
+        start: the values.
+    """
+    first = next(iter(effect.parameters))
+    changes = (Coefficient("log", effect.name, which, where) for _, which, where in logs)
+    return Hypothesis(
+        effect.name, joints, ((value,), *((at,) for at, _, _ in logs)),
+        (Coefficient("value", effect.name, first, joints or ()), *changes), np.ones(1 + len(logs)),
+        np.array([0.0, *(-np.inf for _ in logs)]), start=dict(start),
+    )  # fmt: skip
+
+
 def not_measured(
     hypotheses: Sequence[Hypothesis], measured: Collection[tuple[str, str, int]], columns: Collection[int]
 ) -> list[Hypothesis]:

@@ -14,6 +14,7 @@ from continuum.discovery.hypotheses import (
     TOLERANCE,
     Coefficient,
     Hypothesis,
+    at_values,
     fitted_parameters,
     friction_of_all,
     grid,
@@ -279,21 +280,7 @@ class Library:
         logs: Sequence[tuple[int, str, tuple[int, ...]]],
         start: Mapping[str, Array],
     ) -> None:
-        name = next(iter(effect.parameters))
-        self.hypotheses.append(
-            Hypothesis(
-                effect.name,
-                joints,
-                ((value,), *((at,) for at, _, _ in logs)),
-                (
-                    Coefficient("value", effect.name, name, joints or ()),
-                    *(Coefficient("log", effect.name, which, where) for _, which, where in logs),
-                ),
-                np.ones(1 + len(logs)),
-                np.array([0.0, *(-np.inf for _ in logs)]),
-                start=dict(start),
-            )
-        )
+        self.hypotheses.append(at_values(effect, joints, value, logs, start))
 
     def held_vector(self, held: Mapping[str, float]) -> Array:
         """Coefficients of the columns of torque that are in the nominal motion, (P,)."""
