@@ -148,6 +148,14 @@ def test_zeros_that_were_set_exclude_offsets_in_that_recording() -> None:
     assert not any(label.startswith("angle_offset") for label in named(result))
 
 
+def test_values_in_each_recording_hold_the_one_that_all_may_share() -> None:
+    """A base plate that hangs askew alike in all runs is not hung differently in every run."""
+    tilted = ARM.with_values({"hang_angle": ARM.parameters.hang_angle + 0.06})
+    result = diagnose(releases(tilted, 1.2, -0.9, 0.8), ARM, with_power=False)
+    assert "base_tilt" in named(result)
+    assert "remounted_base" not in named(result)
+
+
 def test_zeros_are_as_far_as_chance_has_them_as_often_as_is_said() -> None:
     random = np.random.default_rng(3)
     drawn = random.normal(0, np.hypot(0.005, SPREAD * 0.004), (4000, 3))

@@ -25,9 +25,9 @@ from continuum.discovery.decision import Kind
 from continuum.discovery.designs import Design, designs
 from continuum.discovery.experiments import rival_of
 from continuum.discovery.hand_measurement import HandMeasurement
-from continuum.discovery.result import Cause, Diagnosis, Experiment, HandTest, is_named
+from continuum.discovery.result import Cause, Diagnosis, Experiment, HandTest, Removal, is_named
 from continuum.discovery.verdict_json import as_mapping
-from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model_file import load_model
 from tools.bench_discovery.answer import is_exactly
 from tools.bench_discovery.cases import MAKERS, MODEL
@@ -44,8 +44,8 @@ class Separation:
 
     Attributes:
         plan: of the case.
-        before, after: verdict and labels of its sets.
-        experiment: run or measured value that was proposed and made; the best run where none was proposed.
+        before, after: labels of its sets.
+        experiment: run, measured value or effect to be taken off that was proposed; the best run where none was.
         runs: of it that were proposed, 0 where it is not expected to separate; one is made then. 1 of a measurement.
         separated: whether the likeliest set and its rival are no longer both possible, and the true one was not lost.
         kept: whether the true set, where it was possible, still is, or is named.
@@ -71,7 +71,13 @@ def separation(plan: Plan) -> Separation | None:
         if len(first.sets) < 2 or first.verdict.kind.value != "ambiguous" or not first.experiments:
             return None
         best = first.separating or first.experiments[0]
-        if isinstance(best, HandTest):
+        effects, taken_off = None, set[tuple[str, int | None]]()
+        if isinstance(best, Removal):
+            left = tuple(name for name in plan.effects if name != best.effect)
+            again = MAKERS[plan.plant](left, plan.size, plan.recordings, plan.seed, plan.noise)
+            recordings = [read_recording(str(path)) for path in plant.write_case(again, Path(folder) / "again")]
+            effects, taken_off = [name for name in effect_names() if name != best.effect], {(best.effect, None)}
+        elif isinstance(best, HandTest):
             measured.append(_measured(best, hidden, np.random.default_rng(plan.seed)))
         else:
             design = next(one for one in designs(model, recordings) if one.name == best.name)
@@ -80,14 +86,15 @@ def separation(plan: Plan) -> Separation | None:
                 further.write_bytes(_made(plan, case.truth, design, number))
                 recordings.append(read_recording(str(further)))
                 zeroed += [len(recordings) - 1] * design.zeroed
-        second = diagnose(recordings, model, with_power=False, measured=measured, zeroed=zeroed)
-    known = {(one.effect, one.joint) for one in measured if not one.is_none}
+        second = diagnose(recordings, model, effects, with_power=False, measured=measured, zeroed=zeroed)
+    known = taken_off | {(one.effect, one.joint) for one in measured if not one.is_none}
     rivals = [_without(causes, known) for causes in _rivals(first)]
     both = all(rival in _answers(second) for rival in rivals)
     left = [one for one in hidden if (one["name"], one["joint"] and one["joint"] - 1) not in known]
     kept = not _holds(first, hidden) or _holds(second, left) or _holds(second, hidden)
     runs = best.runs if isinstance(best, Experiment) else 1
-    return Separation(str(plan), _labels(first), _labels(second), best.name, runs, kept and not both, kept)
+    name = best.effect if isinstance(best, Removal) else best.name
+    return Separation(str(plan), _labels(first), _labels(second), name, runs, kept and not both, kept)
 
 
 def _made(plan: Plan, truth: plant.case.Truth, design: Design, number: int) -> bytes:

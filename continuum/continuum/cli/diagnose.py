@@ -53,6 +53,10 @@ def add_to(commands: Any) -> None:
         "where there is none; may be repeated; without +-SD as exact as the usual instrument",
     )  # fmt: skip
     parser.add_argument(
+        "--without", metavar="EFFECT", action="append", default=[],
+        help="an effect that these recordings cannot have, as it was taken off the arm; may be repeated",
+    )  # fmt: skip
+    parser.add_argument(
         "--zeroed", metavar="DATA", action="append", default=[],
         help="one of the recordings, before which the sensors' zeros were set by a protractor; may be repeated",
     )  # fmt: skip
@@ -82,13 +86,19 @@ def run(options: argparse.Namespace) -> int:
     from continuum.discovery.hand_measurement import measurement_of
     from continuum.discovery.report import write_report
     from continuum.discovery.verdict_json import write_json
+    from continuum.dynamics.effect_lookup import effect_named, effect_names
     from continuum.dynamics.model_file import save_model
 
     measured = [measurement_of(text) for text in options.measured]
     zeroed = [_number_of(path, options.data) for path in options.zeroed]
+    effects = [name for name in effect_names() if name not in options.without]
+    for name in options.without:
+        effect_named(name)
     tolerance = None if options.tolerance is None else math.radians(options.tolerance)
     with told() as tell:
-        result = diagnose(recordings, model, tolerance=tolerance, progress=tell, measured=measured, zeroed=zeroed)
+        result = diagnose(
+            recordings, model, effects, tolerance=tolerance, progress=tell, measured=measured, zeroed=zeroed
+        )
     if options.json is not None:
         write_json(result, options.json, _made(options))
     if options.report is not None:
@@ -120,6 +130,7 @@ def _made(options: argparse.Namespace) -> dict[str, Any]:
         "model": model,
         "tolerance_deg": options.tolerance,
         "measured": options.measured,
+        "without": options.without,
         "zeroed": [printable(Path(path).name) for path in options.zeroed],
     }
 

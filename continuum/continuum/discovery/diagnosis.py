@@ -17,7 +17,7 @@ from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.experiments import experiments, rivals
 from continuum.discovery.extended import model_of
 from continuum.discovery.hand_measurement import HandMeasurement, check_measured, with_measured
-from continuum.discovery.hand_tests import hand_tests
+from continuum.discovery.hand_tests import hand_tests, removals
 from continuum.discovery.missing_torque import missing_torque
 from continuum.discovery.power import powers
 from continuum.discovery.result import Cause, Diagnosis, Share, is_named
@@ -81,7 +81,7 @@ def diagnose(
         sets = [found.by_key[frozenset(key)] for key in answer.verdict.sets] or [best]
         answer = replace(
             answer, power=power, experiments=experiments(found, sets, library, recordings, power),
-            hand_tests=hand_tests(found, rivals(sets)),
+            hand_tests=hand_tests(found, rivals(sets)), removals=removals(rivals(sets)),
         )  # fmt: skip
     return replace(answer, seconds=time.process_time() - began)
 
@@ -118,7 +118,7 @@ def _answer(
         after, model_of(problem, base.fit.state, (), model),
         model_of(problem, best.fit.state, best.candidate.effects, model), tuple(recordings),
         (), (), (), correlation_of(best.fit), (*odd, *_notes(recordings, found, best)), accepted, 0.0,
-        tuple(map(str, found.problem.measured)), tuple(recordings[k].name for k in sorted(found.problem.zeroed)),
+        (), tuple(map(str, found.problem.measured)), tuple(recordings[k].name for k in sorted(found.problem.zeroed)),
     )  # fmt: skip
     return answer, best
 

@@ -10,7 +10,8 @@ from continuum.arrays import Array
 from continuum.discovery.candidate import mean_error
 from continuum.discovery.normal_equations import Values
 from continuum.discovery.problem import State
-from continuum.discovery.unknowns import Unknowns
+from continuum.discovery.unknowns import Unknown, Unknowns
+from continuum.dynamics.effect_lookup import effect_named
 
 
 @dataclass(frozen=True)
@@ -93,11 +94,23 @@ class Fitted:
 
     @property
     def of_effects(self) -> frozenset[object]:
-        """What the set's effects change."""
-        return frozenset(one.place for one in self.unknowns.all if one.hypothesis)
+        """What the set's effects change; values in each recording hold the one that all recordings may share."""
+        own = [one for one in self.unknowns.all if one.hypothesis]
+        shared = {place for one in own if one.of_run is not None and (place := _alike_in_all_runs(one)) is not None}
+        return frozenset(one.place for one in own) | shared
 
     @property
     def start(self) -> dict[tuple[object, ...], float]:
         """Where a fit of another set may begin, by `Unknown.key`."""
         values = np.concatenate([self.values.common, *self.values.own])
         return {one.key: float(value) for one, value in zip(self.unknowns.all, values, strict=True)}
+
+
+def _alike_in_all_runs(one: Unknown) -> tuple[object, ...] | None:
+    """Place of the value that all recordings share where a value in each is the same; None where there is no such."""
+    ((effect, _, joint), factor), *_ = one.places.items()
+    name = effect_named(effect).alike_in_all_runs
+    if not name:
+        return None
+    parameter = next(iter(effect_named(name).parameters))
+    return (((name, parameter, joint), factor), one.is_log, None)

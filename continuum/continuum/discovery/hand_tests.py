@@ -1,4 +1,4 @@
-"""Measurements by hand that would tell two possible sets of effects apart."""
+"""Measurements by hand, and removals, that would tell two possible sets of effects apart."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.power import POWER
 from continuum.discovery.problem import ValueKey
-from continuum.discovery.result import HandTest
+from continuum.discovery.result import HandTest, Removal
 from continuum.discovery.zeros_by_hand import SPREAD
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import ByHand
@@ -44,6 +44,13 @@ def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest
         text = by_hand.how if where is None else f"At joint {joint + 1}: {by_hand.how[:1].lower()}{by_hand.how[1:]}"
         tests.append(HandTest(effect, name, where, unit, by_hand.sd, apart, apart > enough, text))
     return tuple(sorted(tests, key=lambda test: -test.apart))
+
+
+def removals(rivals: Sequence[Examined]) -> tuple[Removal, ...]:
+    """Effects of one of two sets that can be taken off the arm."""
+    names = [{h.effect for h in one.found.chosen} for one in rivals]
+    own = sorted(names[0] ^ names[1]) if len(names) > 1 else []
+    return tuple(Removal(name, text) for name in own if (text := effect_named(name).removal))
 
 
 def value_and_sd(fit: Fitted, key: ValueKey) -> tuple[float, float]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from continuum.discovery.result import Detectable, Diagnosis, Experiment, HandTest, is_named
+from continuum.discovery.result import Detectable, Diagnosis, Experiment, HandTest, Removal, is_named
 
 _LISTED = 6  # effects that a sentence bears
 
@@ -51,8 +51,15 @@ def separating_in_words(result: Diagnosis) -> str:
             return "no usual run or measurement tells the likeliest causes apart; do what is said above."
         case Experiment() as run:
             return f"{run.name}. {repeated(run)} It should tell the likeliest causes apart."
+        case Removal() as removal:
+            return f"{removal.instruction} {again(removal)}"
         case test:
             return f"{test.instruction} Then diagnose again with {option(test)}."
+
+
+def again(removal: Removal) -> str:
+    """What to do when an effect was taken off."""
+    return f"Make the same recordings again, and diagnose these alone with --without {removal.effect}."
 
 
 def option(test: HandTest) -> str:

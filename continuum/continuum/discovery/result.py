@@ -172,6 +172,19 @@ class HandTest:
 
 
 @dataclass(frozen=True)
+class Removal:
+    """An effect that can be taken off the arm; the same recordings without it leave one of the two likeliest sets.
+
+    Attributes:
+        effect: which.
+        instruction: what to do, one sentence for a mechanic.
+    """
+
+    effect: str
+    instruction: str
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """The answer.
 
@@ -192,6 +205,7 @@ class Diagnosis:
         notes: on the data, one sentence each.
         tolerance: open-loop error up to which a model is adequate [rad].
         seconds: of processor time.
+        removals: effects whose removal would tell the likeliest sets apart.
         measured: values that were measured by hand, as text; every model here has them.
         zeroed: recordings before which the sensors' zeros were set by hand.
     """
@@ -214,6 +228,7 @@ class Diagnosis:
     notes: tuple[str, ...]
     tolerance: float
     seconds: float
+    removals: tuple[Removal, ...] = ()
     measured: tuple[str, ...] = ()
     zeroed: tuple[str, ...] = ()
 
@@ -235,14 +250,16 @@ class Diagnosis:
         return self.recordings[0].n_joints
 
     @property
-    def separating(self) -> Experiment | HandTest | None:
+    def separating(self) -> Experiment | HandTest | Removal | None:
         """What tells the two likeliest sets apart with the least work; None where nothing does.
 
-        A run that is made once or twice, else a measurement by hand, else more runs.
+        A run that is made once or twice, else a measurement by hand, else more runs, else all runs without an effect.
         """
         run = next((one for one in self.experiments if one.runs), None)
         test = next((one for one in self.hand_tests if one.decides), None)
-        return run if run is not None and (run.runs <= _FEW or test is None) else test
+        if run is not None and (run.runs <= _FEW or test is None):
+            return run
+        return test or next(iter(self.removals), None)
 
     @property
     def is_extended(self) -> bool:

@@ -58,6 +58,7 @@ def as_mapping(result: Diagnosis) -> dict[str, Any]:
         "power": [_detectable(one) for one in result.power],
         "experiments": [_experiment(one) for one in result.experiments],
         "measurements_by_hand": [_hand_test(one) for one in result.hand_tests],
+        "removals": [{"effect": one.effect, "instruction": one.instruction} for one in result.removals],
         "measured": list(result.measured),
         "zeroed": list(result.zeroed),
         "notes": list(result.notes),

@@ -36,6 +36,7 @@ class Effect:
         in_words_if_lacking: the same where the model has nothing of its kind; empty where that cannot be.
         looks_like: what it does to the data, one sentence.
         experiment: what to measure so that it stands out from what resembles it, one sentence.
+        removal: how to take it off the arm for further recordings, one sentence; empty where that cannot be done.
         beware: what no effect here is and would look the same, one sentence; empty where nothing is known to.
         alike_in_all_runs: the effect that it is where its values are the same in all recordings; empty where there is
             none. Such values are that one's to explain.
@@ -61,6 +62,7 @@ class Effect:
     in_words_if_lacking: ClassVar[str] = ""
     looks_like: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
+    removal: ClassVar[str] = ""
     beware: ClassVar[str] = ""
     alike_in_all_runs: ClassVar[str] = ""
     state_spread: ClassVar[float] = 0.0

@@ -47,6 +47,7 @@ class HeldCable(Effect):
     in_words = "A cable that should hang loose goes taut when the arm bends far."
     looks_like = "Beyond a certain bend to one side the arm is held back and thrown back, all joints at once."
     experiment = "Take the cables off, or give them more slack, and release again."
+    removal = "Take the cables off the arm."
 
     def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
         """-J_s^T W B T, (n,) [N m]: not by way of the commanded tensions, whose corner at 0 is where k begins."""

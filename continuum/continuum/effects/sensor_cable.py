@@ -42,6 +42,7 @@ class SensorCable(Effect):
     in_words = "The charging cable of the sensors holds back the first joint."
     looks_like = "Joint 1 alone is stiffer, damped more and drawn to one side."
     experiment = "Take the charging cable off, or tie it elsewhere, and release again."
+    removal = "Take the charging cable off."
     beware = (
         "Whatever else pushes or rubs at the first joint looks nearly the same, a pad that it leans on, for instance."
     )

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.power_words import option, repeated
+from continuum.discovery.power_words import again, option, repeated
 from continuum.discovery.report.names import capital, effect_in_words, label_in_words, listed
-from continuum.discovery.result import Cause, Diagnosis, Experiment
+from continuum.discovery.result import Cause, Diagnosis, Experiment, Removal
 from continuum.discovery.words import MORE_RUNS
 from continuum.dynamics.effect_lookup import effect_named
 
@@ -97,6 +97,8 @@ def _separating(result: Diagnosis) -> list[Step]:
             return []
         case Experiment() as run:
             return [Step(repeated(run), "Tells the explanations apart.")]
+        case Removal() as removal:
+            return [Step(f"{removal.instruction} {again(removal)}", "Tells the explanations apart.")]
         case test:
             return [Step(test.instruction, f"Tells the explanations apart. Then diagnose again with {option(test)}.")]
 
