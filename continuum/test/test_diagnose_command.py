@@ -85,6 +85,40 @@ def test_a_diagnosis_is_told_and_written(tmp_path: Path, model: Path, capsys: Ca
     assert load_model(out["yaml"]).n_joints == N
 
 
+def test_what_is_known_besides_the_recordings_is_used_and_said(
+    tmp_path: Path, model: Path, capsys: Captured, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A recording is one by any path that leads to it; what was measured is in the files that are written."""
+    files = releases(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    words = ["--measured", "tip_payload.mass=3+-0.5g", "--zeroed", "./run_2.csv", "--without", "backlash"]
+    out = {name: tmp_path / f"out.{name}" for name in ("json", "html", "yaml")}
+    words += ["--json", str(out["json"]), "--report", str(out["html"]), "--extended", str(out["yaml"])]
+    assert main(["diagnose", *files, "--model", str(model), *words]) in EXIT_CODES.values()
+    found = json.loads(out["json"].read_text(encoding="utf-8"))
+    assert (found["zeroed"], found["made"]["without"]) == (["run_2"], ["backlash"])
+    assert "backlash" not in {one["effect"] for one in found["power"]}
+    (text,) = found["measured"]
+    assert text in capsys.readouterr().out
+    assert text in unescape(out["html"].read_text(encoding="utf-8"))
+    (payload,) = (one for one in load_model(out["yaml"]).effects if one.effect.name == "tip_payload")
+    assert 0.001 < payload.values["mass"][0] < 0.005
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--measured", "tip_payload.mass=3"], ["--measured", "tip_payload.mass[1]=3g"], ["--measured", "tip_payload"],
+        ["--measured", "rest_angle.angle[9]=1deg"], ["--zeroed", "run_3.csv"], ["--without", "payload"],
+    ],
+)  # fmt: skip
+def test_what_cannot_be_known_is_refused_in_one_line(
+    tmp_path: Path, model: Path, capsys: Captured, words: list[str]
+) -> None:
+    assert main(["diagnose", *releases(tmp_path), "--model", str(model), *words]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
 def test_an_arm_of_another_number_of_joints_is_refused(tmp_path: Path, capsys: Captured) -> None:
     assert main(["diagnose", *releases(tmp_path)]) == 2
     told = capsys.readouterr().err

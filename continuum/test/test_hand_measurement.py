@@ -48,6 +48,13 @@ def test_what_is_written_is_read_again_in_either_unit(one: HandMeasurement, sign
     np.testing.assert_allclose([found.value, found.sd], [one.value, one.sd], rtol=1e-12, atol=1e-300)
 
 
+@pytest.mark.parametrize(("effect", "name"), PLACES)
+def test_an_instrument_sees_an_effect_of_typical_size(effect: str, name: str) -> None:
+    spec = effect_named(effect).parameters[name]
+    assert spec.by_hand is not None
+    assert 0 < 2 * spec.by_hand.sd < (spec.typical or np.inf)
+
+
 @given(st.text(max_size=30))
 def test_any_text_is_read_or_refused(text: str) -> None:
     with contextlib.suppress(InvalidValueError):
