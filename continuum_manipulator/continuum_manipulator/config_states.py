@@ -1,11 +1,22 @@
-"""The message ``continuum_msgs/ConfigStates`` from a section's configuration."""
+"""The message ``continuum_msgs/ConfigStates``, from a section's configuration and to it."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from continuum.arm import Section
-from continuum.kinematics.configuration import arc_length, arc_rates, curvature, jones_from_allen, jones_rates
+from continuum.kinematics.configuration import (
+    allen_from_jones,
+    allen_rates,
+    arc_length,
+    arc_rates,
+    curvature,
+    jones_from_allen,
+    jones_rates,
+)
+from continuum_manipulator.nodekit import messages
 from continuum_manipulator.section_joints import Configuration
 from continuum_msgs.msg import ConfigStates
 
@@ -24,6 +35,21 @@ def config_states(state: Configuration, section: Section, number: int) -> Config
     for name, rate in zip(RATES, _rates(state, section), strict=True):
         setattr(message, name, float(rate))
     return message
+
+
+def read_config(message: ConfigStates) -> Configuration:
+    """A commanded configuration: u and v, or where these are NaN phi and theta; rates where all of theirs are numbers.
+
+    Raises:
+        MessageFault: neither pair is finite.
+    """
+    if math.isnan(message.u) and math.isnan(message.v):
+        phi, theta = messages.finite("phi and theta", [message.phi, message.theta])
+        rates = np.array([message.phi_rate, message.theta_rate])
+        known = bool(np.all(np.isfinite(rates)))
+        return Configuration(allen_from_jones(phi, theta), allen_rates(phi, theta, *rates) if known else None)
+    w, rates = messages.finite("u and v", [message.u, message.v]), np.array([message.u_rate, message.v_rate])
+    return Configuration(w, rates if np.all(np.isfinite(rates)) else None)
 
 
 def _rates(state: Configuration, section: Section) -> tuple[float, ...]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+from builtin_interfaces.msg import Time
 from sensor_msgs.msg import JointState
 
 from continuum.kinematics.cables import configuration_cable_jacobian, configuration_from_cables
 from continuum.kinematics.routing import cables_through, section_length_rates, section_lengths
 from continuum.parameter_spec import ParameterSpec
 from continuum_manipulator.command_checks import check_configuration, check_fit, check_lengths, check_rates
-from continuum_manipulator.config_states import config_states
+from continuum_manipulator.config_states import config_states, read_config
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
@@ -21,8 +22,8 @@ from continuum_msgs.msg import CableStates, ConfigStates
 class SectionNode(CheckedNode):
     """``joint_states`` to ``section_config_states`` and ``section_cable_states``, and back.
 
-    ``section_cable_commands`` for this section become ``section_joint_states``. One message in gives one out of each,
-    with the same stamp.
+    ``section_cable_commands`` for this section become ``section_joint_states``, and ``section_config_commands`` these
+    and ``section_cable_states``. One message in gives one out of each, with the same stamp.
     """
 
     NAME = "section"
@@ -43,6 +44,7 @@ class SectionNode(CheckedNode):
         self._publish_joints = self.offer(JointState, "section_joint_states")
         self.listen(JointState, "joint_states", self._on_joints)
         self.listen(CableStates, "section_cable_commands", self._on_cables)
+        self.listen(ConfigStates, "section_config_commands", self._on_config)
 
     def in_words(self) -> str:
         """Which section of the arm it is."""
@@ -58,15 +60,17 @@ class SectionNode(CheckedNode):
                 raise MessageFault(messages.MISSING_NAME, "no joint of this arm is in the message")
             self.diagnostics.ignored["joint_states"] += 1
             return
-        config = config_states(state, self._section, self._number)
-        config.header.stamp = message.header.stamp
-        cables = CableStates(section=self._number, name=self._cables)
-        cables.header.stamp = message.header.stamp
-        cables.position = section_lengths(state.w, self.arm, self._number - 1)
-        if state.rate is not None:
-            cables.velocity = section_length_rates(state.w, state.rate, self.arm, self._number - 1)
-        self._publish_config(config)
-        self._publish_cables(cables)
+        self._publish_state(state, message.header.stamp)
+
+    def _on_config(self, message: ConfigStates) -> None:
+        if checked_section(message.section, self.arm) != self._number:
+            self.diagnostics.ignored["section_config_commands"] += 1
+            return
+        messages.stamped(message.header.stamp)
+        state = read_config(message)
+        check_configuration(state.w, [self._section])
+        self._publish_state(state, message.header.stamp)
+        self._publish_joint_states(state, message.header.stamp)
 
     def _on_cables(self, message: CableStates) -> None:
         if checked_section(message.section, self.arm) != self._number:
@@ -88,10 +92,24 @@ class SectionNode(CheckedNode):
             velocities = messages.finite("velocity", np.asarray(message.velocity)[own])
             rate = configuration_cable_jacobian(lengths, self._section) @ velocities
             check_rates(rate)
-        state = Configuration(w, rate)
+        self._publish_joint_states(Configuration(w, rate), message.header.stamp)
+
+    def _publish_state(self, state: Configuration, stamp: Time) -> None:
+        """Publish configuration and cables."""
+        config = config_states(state, self._section, self._number)
+        cables = CableStates(section=self._number, name=self._cables)
+        config.header.stamp = cables.header.stamp = stamp
+        cables.position = section_lengths(state.w, self.arm, self._number - 1)
+        if state.rate is not None:
+            cables.velocity = section_length_rates(state.w, state.rate, self.arm, self._number - 1)
+        self._publish_config(config)
+        self._publish_cables(cables)
+
+    def _publish_joint_states(self, state: Configuration, stamp: Time) -> None:
+        """Publish joints."""
         positions, velocities = joint_values(state, self._section)
         joints = JointState(name=self._joints, position=positions)
-        joints.header.stamp = message.header.stamp
+        joints.header.stamp = stamp
         if velocities is not None:
             joints.velocity = velocities
         self._publish_joints(joints)

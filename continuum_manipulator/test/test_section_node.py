@@ -8,7 +8,7 @@ from arm_messages import ARM, NAMES, cables, instant_of, joint_state, postures, 
 from harness import ARM_FILE, NodeProcess, Probe, running
 from sensor_msgs.msg import JointState
 
-from continuum.kinematics.configuration import arc_length, curvature, jones_from_allen
+from continuum.kinematics.configuration import arc_length, curvature, jones_from_allen, jones_rates
 from continuum.kinematics.routing import cables_through, section_length_rates, section_lengths
 from continuum_manipulator.section_joints import joint_names, read_joints
 from continuum_msgs.msg import CableStates, ConfigStates
@@ -160,3 +160,44 @@ def test_bad_commands_are_dropped(bench):
     assert [instant_of(message) for message in bench.joints] == [1]
     assert stamp(1) == bench.joints[0].header.stamp
     bench.node.wait_for_line(f"name is empty; list the cables: {', '.join(SECTION.cable_names)}")
+
+
+def config(instant: int, **values: float) -> ConfigStates:
+    """A command; what is not given is NaN."""
+    names = ("u", "v", "phi", "theta", "u_rate", "v_rate", "phi_rate", "theta_rate")
+    message = ConfigStates(section=NUMBER)
+    for name, value in (dict.fromkeys(names, math.nan) | values).items():
+        setattr(message, name, float(value))
+    message.header.stamp = stamp(instant)
+    return message
+
+
+def test_a_commanded_configuration_becomes_joints_and_cables(bench):
+    """In either parametrisation; both say the same of one configuration."""
+    say = bench.probe.speaker(ConfigStates, "section_config_commands").publish
+    w, rate = np.array([0.3, -0.5]), np.array([0.2, 0.7])
+    phi, theta = jones_from_allen(w)
+    phi_rate, theta_rate = jones_rates(w, rate)
+    for heard in (bench.joints, bench.cables, bench.configs):
+        heard.clear()
+    say(config(400, u=0.3, v=-0.5, u_rate=0.2, v_rate=0.7))
+    say(config(401, phi=phi, theta=theta, phi_rate=phi_rate, theta_rate=theta_rate))
+    bench.probe.wait_until(lambda: len(bench.joints) == len(bench.cables) == 2, "two answers")
+    for joints, answer in zip(bench.joints, bench.cables, strict=True):
+        index = {name: k for k, name in enumerate(joints.name)}
+        read = read_joints(index, joints.position, joints.velocity, SECTION)
+        np.testing.assert_allclose(read.w, w, atol=1e-12)
+        np.testing.assert_allclose(read.rate, rate, atol=1e-12)
+        np.testing.assert_allclose(answer.position, section_lengths(w, ARM, NUMBER - 1), rtol=1e-12)
+        np.testing.assert_allclose(answer.velocity, section_length_rates(w, rate, ARM, NUMBER - 1), atol=1e-12)
+
+
+def test_configurations_that_cannot_be_are_dropped_and_the_node_lives(bench):
+    say = bench.probe.speaker(ConfigStates, "section_config_commands").publish
+    bench.joints.clear()
+    for bad in (config(500), config(501, u=0.1), config(502, u=9.0, v=0.0), config(503, phi=math.inf, theta=0.1)):
+        say(bad)
+    say(config(504, u=0.1, v=0.0))
+    bench.probe.wait_until(lambda: bench.joints, "an answer")
+    bench.probe.listen_until_quiet()
+    assert [instant_of(message) for message in bench.joints] == [504]
