@@ -91,13 +91,13 @@ def test_what_is_known_besides_the_recordings_is_used_and_said(
     """A recording is one by any path that leads to it; what was measured is in the files that are written."""
     files = releases(tmp_path)
     monkeypatch.chdir(tmp_path)
-    words = ["--measured", "tip_payload.mass=3+-0.5g", "--zeroed", "./run_2.csv", "--without", "backlash"]
+    words = ["--measured", "tip_payload.mass=3+-0.5g", "--zeroed", "./run_2.csv", "--without", "sensor_cable"]
     out = {name: tmp_path / f"out.{name}" for name in ("json", "html", "yaml")}
     words += ["--json", str(out["json"]), "--report", str(out["html"]), "--extended", str(out["yaml"])]
     assert main(["diagnose", *files, "--model", str(model), *words]) in EXIT_CODES.values()
     found = json.loads(out["json"].read_text(encoding="utf-8"))
-    assert (found["zeroed"], found["made"]["without"]) == (["run_2"], ["backlash"])
-    assert "backlash" not in {one["effect"] for one in found["power"]}
+    assert (found["zeroed"], found["made"]["without"]) == (["run_2"], ["sensor_cable"])
+    assert "sensor_cable" not in {one["effect"] for one in found["power"]}
     (text,) = found["measured"]
     assert text in capsys.readouterr().out
     assert text in unescape(out["html"].read_text(encoding="utf-8"))

@@ -20,6 +20,7 @@ from continuum.discovery.result import Diagnosis
 from continuum.discovery.zeros_by_hand import SPREAD, agreement, probability
 from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model_file import load_model
+from continuum.dynamics.parameters import RATIO
 from continuum.errors import InvalidValueError
 
 ARM = load_model("lamecc_prototype.yaml")
@@ -41,8 +42,9 @@ def measurements(draw: st.DrawFn) -> HandMeasurement:
 
 @given(measurements(), st.sampled_from(["+-", "±", "+/-", " +- "]), st.booleans())
 def test_what_is_written_is_read_again_in_either_unit(one: HandMeasurement, sign: str, is_si: bool) -> None:
-    si = effect_named(one.effect).parameters[one.parameter].unit
-    unit, factor = ("" if si == "1" else si, 1.0) if is_si else SAID[si]
+    spec = effect_named(one.effect).parameters[one.parameter]
+    is_ratio = spec.meaning.endswith(RATIO)
+    unit, factor = ("" if spec.unit == "1" else spec.unit, 1.0) if is_si and not is_ratio else SAID[spec.unit]
     found = measurement_of(f"{one.name}={one.value / factor!r}{sign}{one.sd / factor!r} {unit}")
     assert (found.effect, found.parameter, found.joint) == (one.effect, one.parameter, one.joint)
     np.testing.assert_allclose([found.value, found.sd], [one.value, one.sd], rtol=1e-12, atol=1e-300)
@@ -68,7 +70,7 @@ def test_any_text_is_read_or_refused(text: str) -> None:
         "payload.mass=1kg", "tip_payload.mass=-1kg", "tip_payload.mass=nan", "tip_payload.mass=1+-0kg",
         "tip_payload.mass=5", "tip_payload.mass=5deg", "tip_payload.mass[1]=1kg", "rest_angle.angle=0",
         "rest_angle.angle[3]=0.6", "angle_offset.offset[1]=0", "joint_stiffness.excess[1]=0",
-        "elastic_cable.stiffness=5",
+        "elastic_cable.stiffness=5", "inertia.mass[5]=0.2", "inertia.mass[5]=200g",
     ],
 )  # fmt: skip
 def test_a_measurement_that_cannot_be_is_refused(text: str) -> None:
@@ -143,6 +145,20 @@ def test_a_measured_part_of_an_effect_leaves_the_rest_of_it_open() -> None:
     )
     assert "rest_angle@5" in named(result)
     assert "rest_angle@3" not in named(result)
+
+
+def test_a_value_that_the_recordings_contradict_is_questioned() -> None:
+    recordings = examined()[1]
+    result = diagnose(recordings, ARM, with_power=False, measured=[measurement_of("rest_angle.angle[3]=8+-0.2deg")])
+    assert any("measure it again" in note for note in result.notes)
+    right = diagnose(recordings, ARM, with_power=False, measured=[measurement_of("rest_angle.angle[3]=4deg")])
+    assert not any("measure it again" in note for note in right.notes)
+
+
+@pytest.mark.parametrize("effect", ["inertia", "payload"])
+def test_only_what_can_be_taken_off_can_be_left_out(effect: str) -> None:
+    with pytest.raises(InvalidValueError):
+        diagnose(examined()[1], ARM, without=[effect])
 
 
 def test_zeros_that_were_set_exclude_offsets_in_that_recording() -> None:

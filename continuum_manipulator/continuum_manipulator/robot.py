@@ -88,6 +88,10 @@ class RobotNode(CheckedNode):
         self._poses = self.listen(PoseStamped, "traj_pose", self._on_pose)
         self._twists = self.listen(TwistStamped, "traj_twist", self._on_twist)
 
+    def in_words(self) -> str:
+        """Which solver answers."""
+        return f"solver {self.values['solver']}"
+
     def _tracker_of_choice(self) -> Tracker:
         use_direction, tolerance = self.values["target"] == "position_direction", self.values["tolerance"]
         if self.values["solver"] == "fabrikc":

@@ -27,7 +27,7 @@ from continuum.discovery.experiments import rival_of
 from continuum.discovery.hand_measurement import HandMeasurement
 from continuum.discovery.result import Cause, Diagnosis, Experiment, HandTest, Removal, is_named
 from continuum.discovery.verdict_json import as_mapping
-from continuum.dynamics.effect_lookup import effect_named, effect_names
+from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model_file import load_model
 from tools.bench_discovery.answer import is_exactly
 from tools.bench_discovery.cases import MAKERS, MODEL
@@ -71,12 +71,12 @@ def separation(plan: Plan) -> Separation | None:
         if len(first.sets) < 2 or first.verdict.kind.value != "ambiguous" or not first.experiments:
             return None
         best = first.separating or first.experiments[0]
-        effects, taken_off = None, set[tuple[str, int | None]]()
+        taken_off = set[tuple[str, int | None]]()
         if isinstance(best, Removal):
             left = tuple(name for name in plan.effects if name != best.effect)
             again = MAKERS[plan.plant](left, plan.size, plan.recordings, plan.seed, plan.noise)
             recordings = [read_recording(str(path)) for path in plant.write_case(again, Path(folder) / "again")]
-            effects, taken_off = [name for name in effect_names() if name != best.effect], {(best.effect, None)}
+            taken_off = {(best.effect, None)}
         elif isinstance(best, HandTest):
             measured.append(_measured(best, hidden, np.random.default_rng(plan.seed)))
         else:
@@ -86,7 +86,8 @@ def separation(plan: Plan) -> Separation | None:
                 further.write_bytes(_made(plan, case.truth, design, number))
                 recordings.append(read_recording(str(further)))
                 zeroed += [len(recordings) - 1] * design.zeroed
-        second = diagnose(recordings, model, effects, with_power=False, measured=measured, zeroed=zeroed)
+        without = [name for name, _ in taken_off]
+        second = diagnose(recordings, model, with_power=False, measured=measured, zeroed=zeroed, without=without)
     known = taken_off | {(one.effect, one.joint) for one in measured if not one.is_none}
     rivals = [_without(causes, known) for causes in _rivals(first)]
     both = all(rival in _answers(second) for rival in rivals)

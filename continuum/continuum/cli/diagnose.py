@@ -49,12 +49,13 @@ def add_to(commands: Any) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--measured", metavar="NAME=VALUE", action="append", default=[],
-        help="an effect's value that was measured by hand, as tip_payload.mass=50g or rest_angle.angle[3]=4+-0.5deg; 0 "
-        "where there is none; may be repeated; without +-SD as exact as the usual instrument",
+        help="an effect's value that was measured by hand, as tip_payload.mass=50g, rest_angle.angle[3]=4+-0.5deg or "
+        "inertia.mass[5]=12%% (more than in the model file); 0 where there is none; may be repeated; without +-SD as "
+        "exact as the usual instrument. docs/discovery.md lists what can be given",
     )  # fmt: skip
     parser.add_argument(
         "--without", metavar="EFFECT", action="append", default=[],
-        help="an effect that these recordings cannot have, as it was taken off the arm; may be repeated",
+        help="an effect that was taken off the arm for all of these recordings, as sensor_cable; may be repeated",
     )  # fmt: skip
     parser.add_argument(
         "--zeroed", metavar="DATA", action="append", default=[],
@@ -86,19 +87,16 @@ def run(options: argparse.Namespace) -> int:
     from continuum.discovery.hand_measurement import measurement_of
     from continuum.discovery.report import write_report
     from continuum.discovery.verdict_json import write_json
-    from continuum.dynamics.effect_lookup import effect_named, effect_names
     from continuum.dynamics.model_file import save_model
 
     measured = [measurement_of(text) for text in options.measured]
     zeroed = [_number_of(path, options.data) for path in options.zeroed]
-    effects = [name for name in effect_names() if name not in options.without]
-    for name in options.without:
-        effect_named(name)
     tolerance = None if options.tolerance is None else math.radians(options.tolerance)
     with told() as tell:
         result = diagnose(
-            recordings, model, effects, tolerance=tolerance, progress=tell, measured=measured, zeroed=zeroed
-        )
+            recordings, model, tolerance=tolerance, progress=tell, measured=measured, zeroed=zeroed,
+            without=options.without,
+        )  # fmt: skip
     if options.json is not None:
         write_json(result, options.json, _made(options))
     if options.report is not None:
@@ -169,8 +167,8 @@ def show(result: Diagnosis) -> None:
     )
 
     print(f"{result.verdict.kind.value.upper()}\n\n{verdict_in_words(result)}\n")
-    if result.measured:
-        print(f"Measured by hand, and in every model here: {', '.join(result.measured)}\n")
+    if result.known:
+        print(f"Known besides the recordings: {'; '.join(result.known)}.\n")
     if result.verdict.kind is Kind.AMBIGUOUS:
         for causes, p in zip(result.sets, result.verdict.probabilities, strict=True):
             print(

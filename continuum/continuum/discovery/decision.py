@@ -48,7 +48,7 @@ class Verdict:
             unknown.
         probabilities: of these among each other.
         complete: whether nothing that matters stays unknown.
-        steady: whether segments agree about the sizes of the first set's effects.
+        steady: whether there is a set about the sizes of whose effects segments agree.
         helps: the set that helps most where the cause is unknown; empty where none does.
     """
 
@@ -102,7 +102,7 @@ def decide(
     weights = np.array([exp(-farther[id(one)]) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
     best = sets[0]
-    steady = best.agreement > CHANCE
+    steady = any(one.agreement > CHANCE for one in sets)
     complete = best.error < (1 + ALIKE) * floor and steady
     kind = Kind.AMBIGUOUS if len(sets) > 1 else Kind.CAUSE
     return Verdict(kind, tuple(one.effects for one in sets), probabilities, complete, steady)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -22,6 +22,7 @@ from continuum.discovery.missing_torque import missing_torque
 from continuum.discovery.power import powers
 from continuum.discovery.result import Cause, Diagnosis, Share, is_named
 from continuum.discovery.search import Progress, with_library
+from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
 from continuum.recordings.cable_sides import refuse_swapped_cables
@@ -32,6 +33,8 @@ TOLERANCE = 3.0
 """Open-loop error up to which a model is adequate, where no other is asked for, in units of the angles' noise: an error
 that no single reading shows. What sensors may be off by slowly is accepted in any case."""
 
+_PULLED = 2.4
+"""Standard deviations from a measured value at which the bound of 2.5 is what holds it."""
 _SEARCH = 0.65  # part of a diagnosis's time that the search takes, where power is worked out too
 
 
@@ -44,6 +47,7 @@ def diagnose(
     with_power: bool = True,
     measured: Sequence[HandMeasurement] = (),
     zeroed: Collection[int] = (),
+    without: Collection[str] = (),
 ) -> Diagnosis:
     """Diagnose a model by measured data.
 
@@ -56,6 +60,7 @@ def diagnose(
         measured: values of effects that were measured by hand: every model of the diagnosis has them.
         zeroed: recordings before which the sensors' zeros were set by hand, by number; sets that contradict these are
             excluded.
+        without: effects that were taken off the arm.
         with_power: whether to work out what the recordings would have shown, and which run would tell more.
 
     Raises:
@@ -66,9 +71,10 @@ def diagnose(
     if not set(zeroed) <= set(range(len(recordings))):
         raise InvalidValueError("zeroed recordings", sorted(zeroed), f"0 to {len(recordings) - 1}")
     check_measured(measured, model)
+    names = _left(effects, without, measured)
     model = with_measured(model, measured)
     search = _SEARCH if with_power else 1.0
-    found = examine(recordings, model, effects, lambda what, part: progress(what, search * part), measured, zeroed)
+    found = examine(recordings, model, names, lambda what, part: progress(what, search * part), measured, zeroed)
     progress("deciding", search)
     answer, best = _answer(found, recordings, model, tolerance)
     if with_power:
@@ -83,7 +89,20 @@ def diagnose(
             answer, power=power, experiments=experiments(found, sets, library, recordings, power),
             hand_tests=hand_tests(found, rivals(sets)), removals=removals(rivals(sets)),
         )  # fmt: skip
-    return replace(answer, seconds=time.process_time() - began)
+    return replace(answer, without=tuple(without), seconds=time.process_time() - began)
+
+
+def _left(
+    effects: Sequence[str] | None, without: Collection[str], measured: Sequence[HandMeasurement]
+) -> Sequence[str] | None:
+    """Names of the effects that are tried."""
+    for name in without:
+        if not effect_named(name).removal:
+            able = [one for one in effect_names() if effect_named(one).removal]
+            raise InvalidValueError("effect taken off the arm", name, f"one that can be: {', '.join(able)}")
+        if name in {one.effect for one in measured}:
+            raise InvalidValueError("measured effect", name, "none that was taken off the arm")
+    return [name for name in effects or effect_names() if name not in without] if without else effects
 
 
 def _answer(
@@ -159,10 +178,23 @@ def _notes(recordings: Sequence[Recording], found: Examination, best: Examined) 
         )
     if len(recordings) < 3:
         notes.append("few recordings: nothing shows that the answer holds for another run")
+    notes += _pulled(found, best)
     local = sorted({h.effect for h in best.found.chosen if h.local})
     if local:
         notes.append(f"{', '.join(local)}: each recording has its own value, which a model file leaves at zero")
     return tuple(notes)
+
+
+def _pulled(found: Examination, best: Examined) -> Iterator[str]:
+    """Measured values that the recordings would have elsewhere, farther than their standard deviations allow."""
+    fit = best.fit
+    for one in found.problem.measured:
+        for unknown, value in zip(fit.unknowns.common, fit.values.common, strict=True):
+            if one.key in unknown.places and abs(value - unknown.mean) > _PULLED * one.sd:
+                yield (
+                    f"{one}: the recordings ask for {one.value + value:.4g} or beyond, more than {_PULLED:g} standard "
+                    "deviations away; measure it again, nothing else here is sure before that is cleared up"
+                )
 
 
 def _check(recordings: Sequence[Recording], model: Model, tolerance: float | None) -> None:

@@ -96,7 +96,7 @@ class Fitted:
     def of_effects(self) -> frozenset[object]:
         """What the set's effects change; values in each recording hold the one that all recordings may share."""
         own = [one for one in self.unknowns.all if one.hypothesis]
-        shared = {place for one in own if one.of_run is not None and (place := _alike_in_all_runs(one)) is not None}
+        shared = {place for one in own if one.of_run is not None for place in _shared(one)}
         return frozenset(one.place for one in own) | shared
 
     @property
@@ -106,11 +106,11 @@ class Fitted:
         return {one.key: float(value) for one, value in zip(self.unknowns.all, values, strict=True)}
 
 
-def _alike_in_all_runs(one: Unknown) -> tuple[object, ...] | None:
-    """Place of the value that all recordings share where a value in each is the same; None where there is no such."""
+def _shared(one: Unknown) -> list[tuple[object, ...]]:
+    """Places of what a value in each recording is where all are the same: of the effect itself, and of another one."""
     ((effect, _, joint), factor), *_ = one.places.items()
-    name = effect_named(effect).alike_in_all_runs
-    if not name:
-        return None
-    parameter = next(iter(effect_named(name).parameters))
-    return (((name, parameter, joint), factor), one.is_log, None)
+    found, name = [(*one.place[:-1], None)], effect_named(effect).alike_in_all_runs
+    if name:
+        parameter = next(iter(effect_named(name).parameters))
+        found.append((((name, parameter, joint), factor), one.is_log, None))
+    return found

@@ -13,7 +13,7 @@ from continuum.arrays import Array
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model import ActiveEffect, Model
-from continuum.dynamics.parameters import ByHand, Parameter
+from continuum.dynamics.parameters import RATIO, ByHand, Parameter
 from continuum.errors import InvalidValueError
 from continuum.estimation.structure import absent_values
 
@@ -24,9 +24,9 @@ _MEASURED: Final = re.compile(
 )
 _UNITS: Final = {
     "rad": {"rad": 1.0, "deg": np.pi / 180}, "kg": {"kg": 1.0, "g": 1e-3}, "s": {"s": 1.0, "ms": 1e-3},
-    "1": {"": 1.0, "%": 0.01},
+    "1": {"": 1.0, "%": 0.01}, "%": {"%": 0.01},
 }  # fmt: skip
-"""Units in which a value may be given, by its SI unit; where there are several, one has to be."""
+"""Units in which a value may be given, by its SI unit; a ratio less one is given in percent."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def measurement_of(text: str) -> HandMeasurement:
         raise InvalidValueError("measured value", text, _FORM)
     effect, parameter, joint, value, sd, unit = found.groups()
     spec, by_hand = _measurable(effect, parameter)
-    units = _UNITS.get(spec.unit, {spec.unit: 1.0})
+    units = _UNITS["%"] if spec.meaning.endswith(RATIO) else _UNITS.get(spec.unit, {spec.unit: 1.0})
     if unit not in units and float(value) != 0:
         raise InvalidValueError(f"unit of {effect}.{parameter}", unit, " or ".join(one or "none" for one in units))
     factor = units.get(unit, 1.0)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 
 from continuum.discovery.result import Detectable, Diagnosis, Experiment, HandTest, Removal, is_named
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.parameters import RATIO
 
+RECORD_AGAIN = "Make the same recordings again, and diagnose these alone."
 _LISTED = 6  # effects that a sentence bears
 
 
@@ -20,7 +23,8 @@ def power_in_words(result: Diagnosis) -> tuple[list[tuple[str, str]], list[tuple
         if seen:
             best = min(seen, key=lambda one: one.smallest)
             missing = [one.joints[0] for one in places if not one.is_shown and one.joints and len(one.joints) == 1]
-            rest = f"; not at joint {', '.join(str(j + 1) for j in sorted(set(missing)))}" if missing else ""
+            alone = " alone" if best.joints is not None and len(best.joints) > 1 else ""
+            rest = f"; not at joint {', '.join(str(j + 1) for j in sorted(set(missing)))}{alone}" if missing else ""
             shown.append((effect, f"{_size_in_words(best)}{_at(best)}{rest}"))
         else:
             best = min(places, key=lambda one: one.smallest)
@@ -41,7 +45,7 @@ def experiment_in_words(result: Diagnosis) -> str:
     effects = list(dict.fromkeys(label.partition("@")[0] for label in best.shows))
     more = f" and {len(effects) - _LISTED} more" if len(effects) > _LISTED else ""
     listed = ", ".join(effects[:_LISTED]) + more
-    return f"{best.name}. {best.instruction} It would show {listed}, which these recordings cannot, or at fewer joints."
+    return f"{best.name}. {best.instruction} It would show {listed} where these recordings cannot."
 
 
 def separating_in_words(result: Diagnosis) -> str:
@@ -52,22 +56,15 @@ def separating_in_words(result: Diagnosis) -> str:
         case Experiment() as run:
             return f"{run.name}. {repeated(run)} It should tell the likeliest causes apart."
         case Removal() as removal:
-            return f"{removal.instruction} {again(removal)}"
+            return f"{removal.instruction} {RECORD_AGAIN} Diagnose these with --without {removal.effect}."
         case test:
             return f"{test.instruction} Then diagnose again with {option(test)}."
 
 
-def again(removal: Removal) -> str:
-    """What to do when an effect was taken off."""
-    return f"Make the same recordings again, and diagnose these alone with --without {removal.effect}."
-
-
 def option(test: HandTest) -> str:
     """What to type with the value that was measured, in a unit that a mechanic reads from an instrument."""
-    unit, factor = {"rad": ("deg", math.degrees(1)), "kg": ("g", 1e3), "s": ("ms", 1e3), "1": ("%", 100.0)}.get(
-        test.unit, (test.unit, 1.0)
-    )
-    return f"--measured {test.name}=VALUE{unit} (to {factor * test.sd:.2g} {unit}, one standard deviation)"
+    unit = {"rad": "deg", "kg": "g", "s": "ms", "1": "%"}.get(test.unit, test.unit)
+    return f"--measured {test.name}=VALUE{unit}"
 
 
 def repeated(run: Experiment) -> str:
@@ -78,6 +75,8 @@ def repeated(run: Experiment) -> str:
 def _size_in_words(one: Detectable) -> str:
     if one.unit == "rad":
         return f"{math.degrees(one.smallest):.2g} degrees"
+    if effect_named(one.effect).parameters[one.parameter].meaning.endswith(RATIO):
+        return f"{100 * one.smallest:.2g} %"
     return f"{one.smallest:.2g}" + f" {one.unit}" * (one.unit != "1")
 
 

@@ -207,6 +207,7 @@ class Diagnosis:
         seconds: of processor time.
         removals: effects whose removal would tell the likeliest sets apart.
         measured: values that were measured by hand, as text; every model here has them.
+        without: effects that were taken off the arm.
         zeroed: recordings before which the sensors' zeros were set by hand.
     """
 
@@ -231,6 +232,16 @@ class Diagnosis:
     removals: tuple[Removal, ...] = ()
     measured: tuple[str, ...] = ()
     zeroed: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
+
+    @property
+    def known(self) -> tuple[str, ...]:
+        """What the answer rests on besides the recordings, a phrase each."""
+        return (
+            *(f"{one} is in every model" for one in self.measured),
+            *(f"the sensors' zeros were set by hand before {one}" for one in self.zeroed),
+            *(f"{one} was taken off the arm" for one in self.without),
+        )
 
     @property
     def causes(self) -> tuple[Cause, ...]:

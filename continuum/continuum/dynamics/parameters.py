@@ -12,6 +12,9 @@ import numpy as np
 from continuum.dynamics.expressions import Numbers
 from continuum.errors import InvalidValueError
 
+RATIO = ", less 1"
+"""How the meaning of a parameter ends that is a ratio less one."""
+
 
 class ByHand(NamedTuple):
     """A measurement by hand: its standard deviation [unit of the parameter], and what to do, one sentence."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Final, NamedTuple
 
+from continuum.dynamics.parameters import RATIO
+
 _DEGREES: Final = 180 / math.pi
 _UNITS: Final = {
     "rad": (_DEGREES, "°"),
@@ -16,8 +18,6 @@ _UNITS: Final = {
 }
 """Factors and units in the place of SI ones. Per-radian units stay: stiffness is given so on data sheets."""
 _EXPONENTS: Final = str.maketrans("23", "²³")
-_RATIO = ", less 1"
-"""How the meaning of a parameter ends that is a ratio less one."""
 
 
 class Scale(NamedTuple):
@@ -38,7 +38,7 @@ def scale_of(unit: str, meaning: str, name: str = "") -> Scale:
         meaning: of the parameter; a ratio less one is shown in percent.
         name: of the parameter; a frequency is shown in Hz.
     """
-    if unit == "1" and meaning.endswith(_RATIO):
+    if unit == "1" and meaning.endswith(RATIO):
         return Scale(100.0, "%")
     if unit == "rad/s" and name.endswith("frequency"):
         return Scale(1 / math.tau, "Hz")
@@ -47,9 +47,9 @@ def scale_of(unit: str, meaning: str, name: str = "") -> Scale:
 
 def meaning_in_words(meaning: str) -> str:
     """The meaning of a parameter; of a ratio less one, which is shown in percent, as a comparison."""
-    if not meaning.endswith(_RATIO):
+    if not meaning.endswith(RATIO):
         return meaning
-    return meaning.removesuffix(_RATIO).replace(" by ", " compared with ", 1)
+    return meaning.removesuffix(RATIO).replace(" by ", " compared with ", 1)
 
 
 def decimals_of(step: float, digits: int = 2) -> int:

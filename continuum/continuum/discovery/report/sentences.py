@@ -76,7 +76,7 @@ def verdict_sentence(result: Diagnosis, contradictions: Sequence[str]) -> str:
 def reliability(result: Diagnosis) -> str:
     """How often such a verdict is right, one sentence; empty where nobody knows, as with what hands measured."""
     record = track_record(result.verdict.kind)
-    if record is None or result.measured or result.zeroed:
+    if record is None or result.known:
         return ""
     interval = percent_interval(record.low, record.high)
     right = _RIGHT[result.verdict.kind].format(record.right)
@@ -88,10 +88,7 @@ def reliability(result: Diagnosis) -> str:
 
 def by_hand(result: Diagnosis) -> str:
     """What the verdict rests on besides the recordings, one sentence; empty where nothing."""
-    zeros = f"sensors' zeros were set before {listed(result.zeroed)}" if result.zeroed else ""
-    measured = f"every simulation has {listed(result.measured)}" if result.measured else ""
-    found = "; ".join(filter(None, [measured, zeros]))
-    return f"Measured by hand: {found}." if found else ""
+    return f"Known besides the recordings: {'; '.join(result.known)}." if result.known else ""
 
 
 def power_sentence(result: Diagnosis) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.power_words import again, option, repeated
+from continuum.discovery.power_words import RECORD_AGAIN, option, repeated
 from continuum.discovery.report.names import capital, effect_in_words, label_in_words, listed
 from continuum.discovery.result import Cause, Diagnosis, Experiment, Removal
 from continuum.discovery.words import MORE_RUNS
@@ -16,10 +16,11 @@ _LISTED: Final = 4
 
 
 class Step(NamedTuple):
-    """Something to do, and a sentence that says what for, which may be empty."""
+    """Something to do, a sentence that says what for, and the option with which to diagnose again; may be empty."""
 
     instruction: str
     purpose: str
+    option: str = ""
 
 
 REPEAT: Final = Step(
@@ -52,9 +53,9 @@ def next_steps(result: Diagnosis) -> list[Step]:
         case Kind.CAUSE:
             return [*by_hand, *repeating]
         case Kind.AMBIGUOUS:
-            first = _separating(result)
-            said = {step.instruction for step in first}
-            return [*first, *(step for step in by_hand if step.instruction not in said), *repeating]
+            named = getattr(result.separating, "effect", None)
+            others = [step for step, c in zip(by_hand, _in_doubt(result), strict=True) if c.effect != named]
+            return [*_separating(result), *others, *repeating]
         case _:
             return [Step(MORE_RUNS, ""), *telling[:1]]
 
@@ -98,9 +99,10 @@ def _separating(result: Diagnosis) -> list[Step]:
         case Experiment() as run:
             return [Step(repeated(run), "Tells the explanations apart.")]
         case Removal() as removal:
-            return [Step(f"{removal.instruction} {again(removal)}", "Tells the explanations apart.")]
+            command = f"--without {removal.effect}"
+            return [Step(f"{removal.instruction} {RECORD_AGAIN}", "Tells the explanations apart.", command)]
         case test:
-            return [Step(test.instruction, f"Tells the explanations apart. Then diagnose again with {option(test)}.")]
+            return [Step(test.instruction, "Tells the explanations apart.", option(test))]
 
 
 def _in_doubt(result: Diagnosis) -> list[Cause]:
