@@ -10,6 +10,7 @@ import numpy as np
 from continuum.discovery.decision import Kind
 from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_named
 from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.parameters import RATIO
 from continuum.identification.nrmse import nrmse
 
 MORE_RUNS = "Record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
@@ -108,7 +109,8 @@ def estimate_in_words(one: Estimate) -> str:
     interval = f" ({one.low:.4g} to {one.high:.4g})" if math.isfinite(one.low) else ""
     unit = f" {one.unit}" * (one.unit != "1")
     degrees = f" = {math.degrees(one.value):.3g} degrees" if one.unit == "rad" else ""
-    return f"{one.value:.4g}{interval}{unit}{degrees}"
+    percent = f" = {100 * one.value:+.3g} %" if one.meaning.endswith(RATIO) else ""
+    return f"{one.value:.4g}{interval}{unit}{degrees}{percent}"
 
 
 def lookalikes(result: Diagnosis) -> list[str]:

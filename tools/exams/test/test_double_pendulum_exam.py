@@ -144,7 +144,14 @@ def test_a_difference_as_large_as_that_between_starts_is_chance() -> None:
 
 def estimate(text: str, value: float, joint: int | None = None, unit: str = "N m", recording: str = "") -> object:
     return type("Made", (SimpleNamespace,), {"__str__": lambda self: text})(
-        name=text, joint=joint, recording=recording, value=value, low=value - 0.01, high=value + 0.01, unit=unit
+        name=text,
+        joint=joint,
+        recording=recording,
+        value=value,
+        low=value - 0.01,
+        high=value + 0.01,
+        meaning="",
+        unit=unit,
     )
 
 

@@ -56,7 +56,7 @@ def test_the_plant_moves_as_the_model_but_for_the_payload(made: tuple[Path, Mode
 
 def answer(payload: float, kind: str, *sets: tuple[str, ...]) -> Answer:
     """With payloads of 0.09 to 0.11 kg in its sets."""
-    mass = SimpleNamespace(value=0.1, low=0.09, high=0.11, unit="kg")
+    mass = SimpleNamespace(value=0.1, low=0.09, high=0.11, unit="kg", meaning="mass")
     causes = [[SimpleNamespace(effect=name, label=name, estimates=(mass,)) for name in names] for names in sets]
     verdict = SimpleNamespace(kind=Kind(kind), probabilities=[1 / len(sets) for _ in sets], complete=True)
     error = SimpleNamespace(of_segments=0.01)
