@@ -28,7 +28,7 @@ from tools.one_line import in_one_line
 
 PAGE = Path("docs/discovery-benchmark.md")
 RESULTS = Path("data/discovery_benchmark.jsonl")
-RECORD = Path("continuum/continuum/discovery/track_record.json")
+RECORD = Path("continuum/continuum/discovery/report/track_record.json")
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

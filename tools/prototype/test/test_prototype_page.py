@@ -40,7 +40,7 @@ def diagnosis(kind: Kind, *sets: tuple[Cause, ...]) -> Diagnosis:
     sigma, course = np.full(5, 0.03), (np.zeros((49, 5)),)
     return Diagnosis(
         verdict, sets, closed, (sigma, 0.5 * sigma), (course, course), (), before, after, MODEL, MODEL,
-        (Recording("rep7", TIMES, THETA),), (), (), ((), np.zeros((0, 0))), ("few recordings",), 0.01, 1.0,
+        (Recording("rep7", TIMES, THETA),), (), (), (), ((), np.zeros((0, 0))), ("few recordings",), 0.01, 1.0,
     )  # fmt: skip
 
 
