@@ -60,6 +60,7 @@ def _first(result: Diagnosis) -> dict[str, Any]:
         "charts": figures.first_charts(result),
         "joint": worst.joint + 1,
         "run": result.recordings[worst.run].name,
+        "rms": tables.error_rows(result)[worst.run].rms,
         "sets": tables.set_rows(result) if kind is Kind.AMBIGUOUS else [],
         "weights": [tenths(p) for p in result.verdict.probabilities],
         "shares": tables.share_rows(result) if result.is_extended else [],
