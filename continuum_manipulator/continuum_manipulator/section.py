@@ -62,21 +62,25 @@ class SectionNode(CheckedNode):
             return
         self._publish_state(state, message.header.stamp)
 
-    def _on_config(self, message: ConfigStates) -> None:
+    def _is_for_another(self, message: CableStates | ConfigStates, topic: str) -> bool:
+        """Whether a stamped command is for another section of the arm."""
         if checked_section(message.section, self.arm) != self._number:
-            self.diagnostics.ignored["section_config_commands"] += 1
-            return
+            self.diagnostics.ignored[topic] += 1
+            return True
         messages.stamped(message.header.stamp)
+        return False
+
+    def _on_config(self, message: ConfigStates) -> None:
+        if self._is_for_another(message, "section_config_commands"):
+            return
         state = read_config(message)
         check_configuration(state.w, [self._section])
         self._publish_state(state, message.header.stamp)
         self._publish_joint_states(state, message.header.stamp)
 
     def _on_cables(self, message: CableStates) -> None:
-        if checked_section(message.section, self.arm) != self._number:
-            self.diagnostics.ignored["section_cable_commands"] += 1
+        if self._is_for_another(message, "section_cable_commands"):
             return
-        messages.stamped(message.header.stamp)
         messages.named(message.name, "cables", self._section.cable_names)
         messages.same_length("position", message.position, message.name)
         messages.same_length("velocity", message.velocity, message.name, optional=True)

@@ -172,10 +172,8 @@ class _Fits:
         promised = promises(self.judge, about.fit, found.lin.library)
         self.log.append(f"about {found.label}: {_labels(promised)}")
         worth = [one for one in promised if is_worth(one.gain / RUNNER_UP, one.observations)]
-        if not worth and self._is_unexplained(
-            about
-        ):  # far from the truth few residuals are independent, steps too short
-            worth = promised[:1]
+        if not worth and self._is_unexplained(about):
+            worth = promised[:1]  # far from the truth few residuals are independent, and steps are too short
         gains = [(one.gain, one.hypothesis) for one in worth]
         for number, one in enumerate(with_one_more(self._problem, found, gains)):
             self._progress(f"simulating with {one.label}", 0.3 + 0.05 * number + 0.2 * bool(found.chosen))

@@ -84,17 +84,17 @@ def diagnose(
         known = powers(found.judge, best.fit, library, found.baseline.fit) if best.fit.completed else []
         power = detectable(found.problem, [one for one in known if one.hypothesis.key not in named])
         progress("next experiment", 0.85)
-        sets = [found.by_key[frozenset(key)] for key in answer.verdict.sets] or [best]
+        compared = rivals([found.by_key[frozenset(key)] for key in answer.verdict.sets] or [best])
         answer = replace(
-            answer, power=power, experiments=experiments(found, sets, library, recordings, power),
-            hand_tests=hand_tests(found, rivals(sets)), removals=removals(rivals(sets)),
+            answer, power=power, experiments=experiments(found, compared, library, recordings, power),
+            hand_tests=hand_tests(found, compared), removals=removals(compared),
         )  # fmt: skip
     return replace(answer, without=tuple(without), seconds=time.process_time() - began)
 
 
 def _left(
     effects: Sequence[str] | None, without: Collection[str], measured: Sequence[HandMeasurement]
-) -> Sequence[str] | None:
+) -> Sequence[str]:
     """Names of the effects that are tried."""
     for name in without:
         if not effect_named(name).removal:
@@ -102,7 +102,8 @@ def _left(
             raise InvalidValueError("effect taken off the arm", name, f"one that can be: {', '.join(able)}")
         if name in {one.effect for one in measured}:
             raise InvalidValueError("measured effect", name, "none that was taken off the arm")
-    return [name for name in effects or effect_names() if name not in without] if without else effects
+    names = effect_names() if effects is None else effects
+    return [name for name in names if name not in without]
 
 
 def _answer(

@@ -25,7 +25,7 @@ class Examined:
     found: Found
     fit: Fitted
 
-    @property
+    @cached_property
     def candidate(self) -> Candidate:
         """For the decision."""
         fit, zeros = self.fit, agreement(self.found.lin.problem, self.fit)

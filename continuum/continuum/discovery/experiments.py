@@ -40,7 +40,7 @@ _REFITS = 8  # of a set to a run; the weights of residuals rise from one to the 
 
 def experiments(
     found: Examination,
-    sets: Sequence[Examined],
+    compared: Sequence[Examined],
     library: Library,
     recordings: Sequence[Recording],
     power: Sequence[Detectable],
@@ -49,12 +49,12 @@ def experiments(
 
     Args:
         found: what was examined.
-        sets: possible ones, the best first.
+        compared: the two sets that are to be told apart, as `rivals` has them; or one.
         library: hypotheses about the first.
         recordings: that were made.
         power: what they would have shown.
     """
-    hidden, compared, out = {one.label for one in power if not one.is_shown}, rivals(sets), list[Experiment]()
+    hidden, out = {one.label for one in power if not one.is_shown}, list[Experiment]()
     gained = float(np.log(found.baseline.fit.error / compared[0].fit.error))
     for design in designs(found.problem.structure.given, recordings):
         runs = [_simulated(found, one.fit, design) for one in compared]
