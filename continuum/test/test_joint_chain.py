@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
-from continuum_laws.samples import arm_of
+from continuum_laws.samples import arm_of as plain_arm
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from continuum.arm import Arm
 from continuum.kinematics.chain import arm_jacobian, arm_pose
 from continuum.kinematics.discs import arm_disc_poses, even_bends
 from continuum.kinematics.joint_chain import joint_chain, tip_pose, tip_twist
 
 LAW = settings(max_examples=40, deadline=None)
+
+
+def arm_of(n: int) -> Arm:
+    """Sections turned about the tip before them, each by another angle."""
+    return Arm(tuple(replace(section, twist=0.7 - k) for k, section in enumerate(plain_arm(n).sections)))
 
 
 def drawn(n: int, seed: int) -> tuple[list[np.ndarray], list[np.ndarray]]:
