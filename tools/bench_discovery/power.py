@@ -17,8 +17,8 @@ from typing import Any, Final, NamedTuple
 from blind import plant
 
 from continuum.cli.diagnose import read_recording
-from continuum.discovery.candidates import refitted
 from continuum.discovery.power import Power, powers
+from continuum.discovery.refit import refitted
 from continuum.discovery.search import with_library
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model_file import load_model

@@ -16,9 +16,9 @@ from scipy.special import stdtrit
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Key, log_errors, mean_error
-from continuum.discovery.candidates import refitted
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.output_error import OutputError
+from continuum.discovery.refit import refitted
 from continuum.discovery.search import Found
 from tools.exams.pendulum_runs import nominal, recordings
 

@@ -8,14 +8,13 @@ from math import log
 
 import numpy as np
 
-from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of, with_linear_inputs
 from continuum.discovery.decision import ALIKE, CHANCE, PRICE, is_farther, is_needless, is_probable, is_worth
 from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.fitted import Fitted
-from continuum.discovery.hand_measurement import HandMeasurement, known_whole
+from continuum.discovery.hand_measurement import HandMeasurement
 from continuum.discovery.mirrored import mirrored
 from continuum.discovery.output_error import OutputError
-from continuum.discovery.problem import Problem, linearise
+from continuum.discovery.refit import problem_for, refit
 from continuum.discovery.score_test import Promise, promises
 from continuum.discovery.search import (
     MOST,
@@ -28,10 +27,7 @@ from continuum.discovery.search import (
     with_unseen,
 )
 from continuum.discovery.sensitivities import is_linear
-from continuum.dynamics.dry_friction import with_dry_friction
-from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model import Model
-from continuum.estimation.structure import Structure
 from continuum.recordings.recording import Recording
 
 
@@ -49,58 +45,12 @@ def examine(
 ) -> Examination:
     """Search for sets of effects and simulate each open loop; the model has what was measured by hand."""
     progress("compiling", 0.0)
-    problem = replace(_problem(recordings, model, effects, measured), zeroed=frozenset(zeroed))
+    problem = replace(problem_for(recordings, model, effects, measured), zeroed=frozenset(zeroed))
     progress("baseline", 0.1)
-    fits = _Fits(*_baseline(problem, recordings), progress)
+    fits = _Fits(*refit(problem, recordings), progress)
     fits.search()
     base, *others = fits.examined
     return Examination(fits.judge.problem, fits.judge, base, tuple(others), tuple(fits.log))
-
-
-def refitted(recordings: Sequence[Recording], model: Model) -> tuple[Examined, OutputError]:
-    """The refitted model, and what fitted it; with friction where the model file lacks it."""
-    start, judge, _ = _baseline(_problem(recordings, model, None), recordings)
-    return start, judge
-
-
-def _problem(
-    recordings: Sequence[Recording],
-    model: Model,
-    effects: Sequence[str] | None,
-    measured: Sequence[HandMeasurement] = (),
-) -> Problem:
-    dry, n = with_dry_friction(model), model.n_joints
-    names = effect_names() if effects is None else effects
-    offered = [name for name in names if not known_whole(effect_named(name), measured, n)]
-    partly = {one.effect for one in measured}
-    structure = Structure(dry, offered, has_tension(recordings, dry), partly)
-    return replace(problem_of(structure, recordings), measured=tuple(measured))
-
-
-def _baseline(problem: Problem, recordings: Sequence[Recording]) -> tuple[Examined, OutputError, OutputError | None]:
-    """The refitted model alone, inputs taken as they simulate nearer: held from row to row, or linear between rows.
-
-    Where the model file lacks friction, with friction: without it little tells.
-
-    Returns:
-        The baseline, what fits by these inputs, and what does by the others.
-    """
-    judge, found = OutputError(problem, tuple(recordings)), _refitted(problem)
-    fit, linear = judge.fit(found, ()), with_linear_inputs(problem)
-    if linear is None:
-        return Examined(found, fit), judge, None
-    fit, other = fit if fit.settled else judge.further(found, fit), judge.around(linear)
-    nearer = other.fit(found, [fit])
-    if nearer.error < fit.error:
-        found = _refitted(linear)
-        return Examined(found, other.fit(found, [nearer])), other, judge
-    return Examined(found, fit), judge, other
-
-
-def _refitted(problem: Problem) -> Found:
-    """The model with the springs and the friction that the filter finds."""
-    lin = linearise(problem, fitted_baseline(problem))
-    return Found(lin, tuple(h for h in lin.library.hypotheses if h.is_refit))
 
 
 class _Fits:

@@ -23,6 +23,7 @@ from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.problem import Problem, State
 from continuum.discovery.search import Found
 from continuum.discovery.segment import Segment, cut
+from continuum.discovery.starts import AT_REST, FAR_AT_REST, as_given, at_rest
 from continuum.discovery.unknowns import Start, Unknowns, linear_unknown
 from continuum.dynamics.trajectory import Trajectory as Motion
 from continuum.recordings.recording import Recording
@@ -33,11 +34,9 @@ in 2 s segments fits ended 1.5 to 4 times above the noise, by joints that came t
 ENOUGH = 16
 """Segments that are simulated, spread evenly over all recordings, or two of each where these are many: the time of a
 fit does not grow with their length. What is a recording's own is tried on another of its segments."""
-_AT_REST = (-0.2, 0.3)
-"""Where Stribeck's torque begins (multi-start), in dry frictions above the model file's. A smoothed motion tells little
-of friction near rest, and a fit finds it from within some 0.3."""
 _FIRST = 2  # steps, after which the nearest start is followed, and what is far is given up
 _ITERATIONS = 5  # further steps at most
+_MOST = 12  # steps of a fit that nothing is compared with
 _FAR = 2.0  # times the error of another set's fit, with which a set is not fitted further
 _SETTLED = 1.0  # fall of minus the log-posterior: less moves no decision
 _STILL = 2  # steps in a row with less, after which a fit ends
@@ -126,10 +125,10 @@ class OutputError:
         if near and all(one.state.ways is not found.lin.state.ways for one in near):
             starts.insert(0, ({}, None))
         if near and not near[0].key:  # what the baseline takes for friction of all joints may be one joint's
-            starts.append((self._as_given(found), None))
+            starts.append((as_given(self.problem, found), None))
         if not near:
-            at_rest = [self._at_rest(found, rise) for rise in _AT_REST]
-            starts = [(start, None) for start in (self._as_given(found), *at_rest)]
+            rises = [at_rest(self.problem, found, rise) for rise in AT_REST]
+            starts = [(start, None) for start in (as_given(self.problem, found), *rises)]
         nearest = min((one.error for one in near), default=self.floor)
         best = self._optimum(self._begun(found, *starts[0]), _FIRST)
         for start in starts[1:]:
@@ -149,6 +148,15 @@ class OutputError:
         """Go on with a set's fit, or begin it where another ended, while it errs by less than ``least`` [rad]."""
         there = self._optimum(self._begun(found, *self._start(found, fit)), _FIRST)
         return self._fitted(there if there.error > least else self._optimum(there, _ITERATIONS - _FIRST))
+
+    def multi_start(self, found: Found) -> Fitted:
+        """Fit a set from where a search left it, from the model file's values and from other frictions near rest.
+
+        Every start is followed to its end, as an identification can afford.
+        """
+        rises = [at_rest(self.problem, found, rise) for rise in FAR_AT_REST]
+        begun = [self._begun(found, start, None) for start in ({}, as_given(self.problem, found), *rises)]
+        return self._fitted(min((self._optimum(one, _MOST) for one in begun), key=lambda one: one.error))
 
     def whole(self, fit: Fitted) -> OpenLoop:
         """Every recording simulated from where its first segment begins."""
@@ -171,18 +179,6 @@ class OutputError:
                 begin = next(local)
                 found.append(None if len(found) % every else simulation.readings(one, begin))
         return found
-
-    def _as_given(self, found: Found) -> Start:
-        """The model file's own values."""
-        return {one.key: 0.0 for one in Unknowns(self.problem, found, {}).common if one.hypothesis is None}
-
-    def _at_rest(self, found: Found, rise: float) -> Start:
-        """Friction near rest, Stribeck's torque by so much above the model file's."""
-        begin = {"stribeck": rise, "speed": 0.0}
-        unknowns = Unknowns(self.problem, found, {}).common
-        return {
-            one.key: begin[name] for one in unknowns for effect, name, _ in one.places if not effect and name in begin
-        }
 
     def _start(self, found: Found, fit: Fitted) -> tuple[Start, Sequence[Array] | None]:
         """Where another set's fit ended: common and own unknowns, and those of segments about the same trajectories.

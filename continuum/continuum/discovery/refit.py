@@ -1,0 +1,72 @@
+"""The refitted model: springs and friction as the recordings ask for, before any effect is added."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of, with_linear_inputs
+from continuum.discovery.examination import Examined
+from continuum.discovery.hand_measurement import HandMeasurement, known_whole
+from continuum.discovery.output_error import OutputError
+from continuum.discovery.problem import Problem, linearise
+from continuum.discovery.search import Found
+from continuum.dynamics.dry_friction import with_dry_friction
+from continuum.dynamics.effect_lookup import effect_named, effect_names
+from continuum.dynamics.model import Model
+from continuum.estimation.structure import Structure
+from continuum.recordings.recording import Recording
+
+
+def problem_for(
+    recordings: Sequence[Recording],
+    model: Model,
+    effects: Sequence[str] | None = None,
+    measured: Sequence[HandMeasurement] = (),
+) -> Problem:
+    """All that is fixed before a fit.
+
+    Args:
+        recordings: runs of the arm.
+        model: with nominal values, and with what was measured by hand.
+        effects: names of those that may be added; all that are installed without.
+        measured: values of effects that were measured by hand.
+    """
+    dry, n = with_dry_friction(model), model.n_joints
+    names = effect_names() if effects is None else effects
+    offered = [name for name in names if not known_whole(effect_named(name), measured, n)]
+    partly = {one.effect for one in measured}
+    structure = Structure(dry, offered, has_tension(recordings, dry), partly)
+    return replace(problem_of(structure, recordings), measured=tuple(measured))
+
+
+def refit(problem: Problem, recordings: Sequence[Recording]) -> tuple[Examined, OutputError, OutputError | None]:
+    """The refitted model alone, inputs taken as they simulate nearer: held from row to row, or linear between rows.
+
+    Where the model file lacks friction, with friction: without it little tells.
+
+    Returns:
+        The baseline, what fits by these inputs, and what does by the others.
+    """
+    judge, found = OutputError(problem, tuple(recordings)), _smoothed(problem)
+    fit, linear = judge.fit(found, ()), with_linear_inputs(problem)
+    if linear is None:
+        return Examined(found, fit), judge, None
+    fit, other = fit if fit.settled else judge.further(found, fit), judge.around(linear)
+    nearer = other.fit(found, [fit])
+    if nearer.error < fit.error:
+        found = _smoothed(linear)
+        return Examined(found, other.fit(found, [nearer])), other, judge
+    return Examined(found, fit), judge, other
+
+
+def refitted(recordings: Sequence[Recording], model: Model) -> tuple[Examined, OutputError]:
+    """The refitted model, and what fitted it."""
+    start, judge, _ = refit(problem_for(recordings, model), recordings)
+    return start, judge
+
+
+def _smoothed(problem: Problem) -> Found:
+    """The model with the springs and the friction that the filter finds."""
+    lin = linearise(problem, fitted_baseline(problem))
+    return Found(lin, tuple(h for h in lin.library.hypotheses if h.is_refit))
