@@ -6,7 +6,7 @@ IN_WORKSPACE := source install/setup.bash &&
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-discovery \
-  bench-inertial bench-link bench-viewer fuzz prototype exams figures api check check-old format lock clean seeded-faults
+  bench-inertial bench-link bench-viewer fuzz prototype exams figures equations api check check-old format lock clean seeded-faults
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -78,6 +78,9 @@ exams: setup ## arms that nobody of this project made (3 minutes); overwrites do
 
 figures: reproduction prototype ## make every picture of docs/pictures again, and with two of them their pages (5 minutes)
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.figures $(ARGS)
+
+equations: setup ## look up where the thesis's equations, tables and figures are in the code; overwrites docs/equations.md
+	@$(IN_WORKSPACE) python3 -m tools.equations $(ARGS)
 
 api: setup ## the library's reference from its docstrings, in out/api/index.html
 	@$(IN_WORKSPACE) python3 -m tools.api $(ARGS)

@@ -11,8 +11,9 @@ from dynamics_laws import prototype_model
 from continuum.arrays import Array
 from continuum.discovery.decision import Kind, Verdict
 from continuum.discovery.fitted import OpenLoop
-from continuum.discovery.result import Cause, Detectable, Diagnosis, Estimate, Share
+from continuum.discovery.result import Cause, Detectable, Diagnosis, Share
 from continuum.dynamics.effect_lookup import effect_named
+from continuum.identification.estimate import Estimate
 from continuum.recordings.recording import Recording
 
 N = 3

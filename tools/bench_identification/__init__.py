@@ -1,1 +1,1 @@
-"""How the estimate by smoothing compares with the thesis's particle swarm, and how long a diagnosis takes."""
+"""How the library's identification compares with the thesis's particle swarm, on arms whose truth is known."""

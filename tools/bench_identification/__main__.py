@@ -1,4 +1,4 @@
-"""`make bench-identification`: smoothing against the thesis's swarm, and a diagnosis's time; docs/identification.md.
+"""`make bench-identification`: the library's fit and the thesis's swarm on the same releases; docs/identification.md.
 
 Overwrites docs/identification.md, which is under version control, unless `--out` names another file.
 """
@@ -6,18 +6,13 @@ Overwrites docs/identification.md, which is under version control, unless `--out
 from __future__ import annotations
 
 import argparse
-import json
-import subprocess
 import sys
-import tempfile
-import time
 from pathlib import Path
 
-from continuum.cli.diagnose import EXIT_CODES
 from continuum.whole_file import write_whole
-from tools.bench_identification.arms import eight_releases, measured_arm
-from tools.bench_identification.page import Comparison, Diagnosed, goals, page
-from tools.bench_identification.two_ways import by_smoothing, by_swarm
+from tools.bench_identification.answers import by_fit, by_swarm
+from tools.bench_identification.arms import measured_arm
+from tools.bench_identification.page import Comparison, goals, page
 from tools.one_line import in_one_line
 
 PAGE = Path("docs/identification.md")
@@ -32,31 +27,14 @@ def main() -> None:
     compared = []
     for seed in range(options.seed, options.seed + options.arms):
         arm = measured_arm(seed)
-        compared.append(Comparison(arm, by_smoothing(arm), by_swarm(arm, seed)))
-        print(_line(compared[-1]), flush=True)
-    diagnosed = _diagnosed(options.seed)
-    for what, wanted, reached, met in goals(compared, diagnosed):
-        print(f"{what}: {reached} (goal {wanted}), {met.strip('*')}")
-    write_whole(options.out, page(compared, diagnosed))
+        compared.append(Comparison(by_fit(arm), by_swarm(arm, seed)))
+        fit, swarm = compared[-1].fit, compared[-1].swarm
+        worst = [f"{100 * max(map(abs, one.errors)):.1f} %" for one in (fit, swarm)]
+        print(f"arm {seed}: fit {fit.seconds:.1f} s, worst {worst[0]}; swarm {swarm.seconds:.1f} s, worst {worst[1]}")
+    for line in goals(compared):
+        print(line)
+    write_whole(options.out, page(compared))
     print(f"written: {options.out}")
-
-
-def _line(one: Comparison) -> str:
-    return (
-        f"smoothing {one.smoothing.seconds:.1f} s; swarm {one.swarm.simulations} simulations, {one.swarm.seconds:.1f} s"
-    )
-
-
-def _diagnosed(seed: int) -> Diagnosed:
-    with eight_releases(seed) as files, tempfile.TemporaryDirectory() as folder:
-        verdict = Path(folder) / "verdict.json"
-        command = ["continuum", "diagnose", "--json", str(verdict), *map(str, files)]
-        began = time.perf_counter()
-        code = subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode
-        seconds = time.perf_counter() - began
-        if code not in EXIT_CODES.values():
-            raise RuntimeError(f"continuum diagnose ended with exit code {code}")
-        return Diagnosed(seconds, json.loads(verdict.read_text(encoding="utf-8"))["verdict"])
 
 
 if __name__ == "__main__":

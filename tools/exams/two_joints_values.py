@@ -6,10 +6,11 @@ from math import degrees
 
 import numpy as np
 
-from continuum.discovery.result import Diagnosis, Estimate
+from continuum.discovery.result import Diagnosis
 from continuum.discovery.words import estimate_in_words
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.planar.eq12_gravity_torque import gravity_torque
+from continuum.identification.estimate import Estimate
 from tools.exams.pendulum_runs import GIVEN, MAKERS_FRICTION
 from tools.exams.two_joints import ALTERED, LAG, TURN
 from tools.markdown import paragraph, table

@@ -20,9 +20,10 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery import Diagnosis, diagnose
 from continuum.discovery.decision import Kind
-from continuum.discovery.result import Cause, Estimate, is_named
+from continuum.discovery.result import Cause, is_named
 from continuum.discovery.words import estimate_in_words
 from continuum.dynamics.model_file import load_model
+from continuum.identification.estimate import Estimate
 from continuum.recordings.motion_columns import TIME, angle_column, torque_column
 from continuum.recordings.recording_csv import read_recording_csv
 from continuum.whole_file import write_table

@@ -20,12 +20,12 @@ from continuum.discovery.hand_measurement import HandMeasurement, check_measured
 from continuum.discovery.hand_tests import hand_tests, removals
 from continuum.discovery.missing_torque import missing_torque
 from continuum.discovery.power import powers
+from continuum.discovery.refit import check_recordings
 from continuum.discovery.result import Cause, Diagnosis, Share, is_named
 from continuum.discovery.search import Progress, with_library
 from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
-from continuum.recordings.cable_sides import refuse_swapped_cables
 from continuum.recordings.rate_ratio import odd_rates
 from continuum.recordings.recording import Recording
 
@@ -67,7 +67,9 @@ def diagnose(
         InvalidValueError: no recording, another number of joints or kind of inputs than the model's, a recording twice.
     """
     began = time.process_time()
-    _check(recordings, model, tolerance)
+    check_recordings(recordings, model)
+    if tolerance is not None and not 0 < tolerance < np.inf:
+        raise InvalidValueError("tolerance", tolerance, "an angle > 0 [rad]")
     if not set(zeroed) <= set(range(len(recordings))):
         raise InvalidValueError("zeroed recordings", sorted(zeroed), f"0 to {len(recordings) - 1}")
     check_measured(measured, model)
@@ -196,16 +198,3 @@ def _pulled(found: Examination, best: Examined) -> Iterator[str]:
                     f"{one}: the recordings ask for {one.value + value:.4g} or beyond, more than {_PULLED:g} standard "
                     "deviations away; measure it again, nothing else here is sure before that is cleared up"
                 )
-
-
-def _check(recordings: Sequence[Recording], model: Model, tolerance: float | None) -> None:
-    if not recordings:
-        raise InvalidValueError("recordings", 0, "one or more")
-    if tolerance is not None and not 0 < tolerance < np.inf:
-        raise InvalidValueError("tolerance", tolerance, "an angle > 0 [rad]")
-    for number, one in enumerate(recordings):
-        one.inputs_for(model)
-        refuse_swapped_cables(one)
-        for other in recordings[:number]:
-            if np.array_equal(one.theta, other.theta):
-                raise InvalidValueError("recordings", f"{other.name} and {one.name}", "different runs: these are one")

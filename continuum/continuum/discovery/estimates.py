@@ -11,10 +11,10 @@ from continuum.discovery.coordinates import PARAMETER
 from continuum.discovery.fitted import Fitted
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.problem import Problem, point_of
-from continuum.discovery.result import Estimate
 from continuum.discovery.unknowns import Unknown
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import PARAMETERS, Parameter
+from continuum.identification.estimate import Estimate
 
 _Z = 1.96
 _IN_PARAMETERS = ("viscous", "coulomb")  # kinds of coordinates that are a parameter's change

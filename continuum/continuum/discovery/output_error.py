@@ -149,14 +149,21 @@ class OutputError:
         there = self._optimum(self._begun(found, *self._start(found, fit)), _FIRST)
         return self._fitted(there if there.error > least else self._optimum(there, _ITERATIONS - _FIRST))
 
-    def multi_start(self, found: Found) -> Fitted:
-        """Fit a set from where a search left it, from the model file's values and from other frictions near rest.
+    def multi_start(self, found: Found, near: Sequence[Fitted] = ()) -> Fitted:
+        """Fit a set from where other fits ended, from the model file's values and from other frictions near rest.
 
         Every start is followed to its end, as an identification can afford.
         """
         rises = [at_rest(self.problem, found, rise) for rise in FAR_AT_REST]
-        begun = [self._begun(found, start, None) for start in ({}, as_given(self.problem, found), *rises)]
-        return self._fitted(min((self._optimum(one, _MOST) for one in begun), key=lambda one: one.error))
+        starts = [(start, None) for start in ({}, as_given(self.problem, found), *rises)]
+        return min(
+            (self.followed(found, *start) for start in (*starts, *(self._start(found, one) for one in near))),
+            key=lambda one: one.error,
+        )
+
+    def followed(self, found: Found, start: Start, local: Sequence[Array] | None) -> Fitted:
+        """Fit a set from one start to its end."""
+        return self._fitted(self._optimum(self._begun(found, start, local), _MOST))
 
     def whole(self, fit: Fitted) -> OpenLoop:
         """Every recording simulated from where its first segment begins."""
@@ -282,14 +289,6 @@ class OutputError:
         agreement = left.probability([i for i, one in enumerate(unknowns.common) if one.hypothesis is not None])
         correlation = normal.covariance / np.outer(plain, plain)
         return Fitted(
-            state,
-            unknowns,
-            values,
-            sd,
-            correlation,
-            normal.own_sd(),
-            left.errors,
-            scale.observations,
-            agreement,
+            state, unknowns, values, sd, correlation, normal.own_sd(), left.errors, scale.observations, agreement,
             at.settled,
-        )
+        )  # fmt: skip

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of, with_linear_inputs
 from continuum.discovery.examination import Examined
 from continuum.discovery.hand_measurement import HandMeasurement, known_whole
@@ -14,8 +16,27 @@ from continuum.discovery.search import Found
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model import Model
+from continuum.errors import InvalidValueError
 from continuum.estimation.structure import Structure
+from continuum.recordings.cable_sides import refuse_swapped_cables
 from continuum.recordings.recording import Recording
+
+
+def check_recordings(recordings: Sequence[Recording], model: Model) -> None:
+    """Whether a model can be fitted to recordings.
+
+    Raises:
+        InvalidValueError: no recording, another number of joints or kind of inputs than the model's, cables that are
+            swapped, or a recording twice.
+    """
+    if not recordings:
+        raise InvalidValueError("recordings", 0, "one or more")
+    for number, one in enumerate(recordings):
+        one.inputs_for(model)
+        refuse_swapped_cables(one)
+        for other in recordings[:number]:
+            if np.array_equal(one.theta, other.theta):
+                raise InvalidValueError("recordings", f"{other.name} and {one.name}", "different runs: these are one")
 
 
 def problem_for(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -11,50 +10,13 @@ from continuum.arrays import Array
 from continuum.discovery.decision import Kind, Verdict
 from continuum.discovery.fitted import OpenLoop
 from continuum.dynamics.model import Model
+from continuum.identification.estimate import Estimate
 from continuum.recordings.recording import Recording
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _FEW = 2  # runs, which are less work than to take an arm apart
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """One value with its 95 % interval.
-
-    Attributes:
-        name: parameter of Eq. 12, or effect and parameter with a dot between.
-        joint: from 0; None where it belongs to none, or to all alike.
-        recording: which has it for itself; empty where all have the same.
-        value, low, high: in its unit; the ends are NaN where no interval is known.
-        unit: SI.
-        meaning: one sentence.
-        start: what the model file has; NaN where it has none.
-        lower, upper: bounds within which it was sought.
-    """
-
-    name: str
-    joint: int | None
-    recording: str
-    value: float
-    low: float
-    high: float
-    unit: str
-    meaning: str
-    start: float = math.nan
-    lower: float = -math.inf
-    upper: float = math.inf
-
-    @property
-    def is_at_bound(self) -> bool:
-        """Whether a bound stopped it, so that it may be wrong."""
-        near = 1e-6 * max(abs(self.value), 1e-12)
-        return abs(self.value - self.lower) <= near or abs(self.value - self.upper) <= near
-
-    def __str__(self) -> str:
-        where = "" if self.joint is None else f"[{self.joint + 1}]"
-        return f"{self.name}{where}" + f" in {self.recording}" * bool(self.recording)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.result import Cause, Detectable, Diagnosis, Estimate, Experiment, HandTest, Share, is_named
+from continuum.discovery.result import Cause, Detectable, Diagnosis, Experiment, HandTest, Share, is_named
+from continuum.identification.estimate import Estimate
 from continuum.identification.nrmse import nrmse
 from continuum.whole_file import write_whole
 

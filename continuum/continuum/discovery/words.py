@@ -8,9 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.result import Cause, Diagnosis, Estimate, Share, is_named
+from continuum.discovery.result import Cause, Diagnosis, Share, is_named
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import RATIO
+from continuum.identification.estimate import Estimate
 from continuum.identification.nrmse import nrmse
 
 MORE_RUNS = "Record three more runs or more, of other motions, each with the arm at rest at its beginning or end."

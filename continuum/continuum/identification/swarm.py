@@ -63,8 +63,12 @@ def swarm_identification(
     space: FreeSpace,
     random: np.random.Generator,
     settings: SwarmSettings | None = None,
+    progress: Callable[[float], None] | None = None,
 ) -> SwarmResult:
-    """Identify the unknowns of ``space`` within a factor of three of their origin, and within their bounds."""
+    """Identify the unknowns of ``space`` within a factor of three of their origin, and within their bounds.
+
+    ``progress`` is called with the part of the iterations that is over.
+    """
     settings = settings or SwarmSettings()
     simulations = 0
 
@@ -74,7 +78,7 @@ def swarm_identification(
         return float(np.mean([_run_objective(simulator, run, space.common_values(coordinates)) for run in recordings]))
 
     place, best = particle_swarm(
-        objective, np.maximum(space.lower, -0.95), np.minimum(space.upper, 2.0), random, settings
+        objective, np.maximum(space.lower, -0.95), np.minimum(space.upper, 2.0), random, settings, progress
     )
     return SwarmResult(place, best, simulations)
 
@@ -85,6 +89,7 @@ def particle_swarm(
     upper: Array,
     random: np.random.Generator,
     settings: SwarmSettings,
+    progress: Callable[[float], None] | None = None,
 ) -> tuple[Array, float]:
     """Lowest place (k,) found within bounds, and the objective there.
 
@@ -94,7 +99,9 @@ def particle_swarm(
     speed = np.zeros_like(place)
     own_place, own_best = place.copy(), np.array([objective(x) for x in place])
     before = np.inf
-    for _ in range(settings.iterations):
+    for iteration in range(settings.iterations):
+        if progress is not None:
+            progress(iteration / settings.iterations)
         leader = int(np.argmin(own_best))
         spread = np.std(place, axis=0) / np.maximum(np.abs(np.mean(place, axis=0)), 1e-12)
         if before - own_best[leader] < settings.objective_tolerance and np.all(spread < settings.spread_tolerance):

@@ -11,8 +11,9 @@ import pytest
 from continuum.discovery import Diagnosis
 from continuum.discovery.decision import Kind, Verdict
 from continuum.discovery.fitted import OpenLoop
-from continuum.discovery.result import Cause, Estimate, Share
+from continuum.discovery.result import Cause, Share
 from continuum.dynamics.model_file import load_model
+from continuum.identification.estimate import Estimate
 from continuum.recordings.recording import Recording
 from tools.prototype.account import DATA, Account, Predicted
 from tools.prototype.page import page

@@ -16,9 +16,9 @@ BEFORE, AFTER, MEASURED = "before", "after", "measured"
 """Classes of the page's style sheet."""
 NOISE_SIGMAS: Final = 1.96
 """Half-width of the band that holds 95 % of the sensors' noise, in standard deviations."""
-_TIME = "time [s]"
+TIME = "time [s]"
 _FIRST = (400.0, 230.0)  # width and height [px]: two beside each other on a screen, one below the other on a phone
-_SMALL = (320.0, 130.0)
+SMALL = (320.0, 130.0)
 
 
 class Place(NamedTuple):
@@ -58,14 +58,14 @@ def charts_of_run(result: Diagnosis, run: int) -> list[JointCharts]:
     """All joints of a recording."""
     places = [Place(run, joint) for joint in range(result.recordings[run].n_joints)]
     kinds = ([kind(result, place) for place in places] for kind in (_angles, _residuals, _torques))
-    return [JointCharts(*(chart(one, *_SMALL) for one in three)) for three in zip(*map(shared, kinds), strict=True)]
+    return [JointCharts(*(chart(one, *SMALL) for one in three)) for three in zip(*map(shared, kinds), strict=True)]
 
 
 def torques_over_angle(result: Diagnosis) -> list[Chart]:
     """Missing torque at each joint over its angle, of all recordings."""
     n = result.n_joints
     axes = [Axes(f"joint {j + 1}: missing torque [mN m]", "angle [°]", tuple(_over_angle(result, j))) for j in range(n)]
-    return [chart(one, *_SMALL) for one in shared(axes)]
+    return [chart(one, *SMALL) for one in shared(axes)]
 
 
 def _over_angle(result: Diagnosis, joint: int) -> list[Line]:
@@ -99,7 +99,7 @@ def _over_time(
 ) -> Axes:
     times = result.recordings[place.run].times
     lines = tuple(Line(style, times, values[:, place.joint]) for style, values in curves)
-    return Axes(f"joint {place.joint + 1}: {what}", _TIME, lines, band, (float(times[0]), float(times[-1])))
+    return Axes(f"joint {place.joint + 1}: {what}", TIME, lines, band, (float(times[0]), float(times[-1])))
 
 
 def _loops(result: Diagnosis) -> list[tuple[str, OpenLoop]]:

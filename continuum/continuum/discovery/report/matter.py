@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Final
 
 from continuum.discovery.report.quantities import meaning_in_words, scale_of, with_interval
-from continuum.discovery.result import Cause, Estimate
+from continuum.discovery.result import Cause
 from continuum.discovery.words import matter_in_words, places
+from continuum.identification.estimate import Estimate
 
 _MOST: Final = 2
 """Values that a sentence bears."""

@@ -5,14 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import jinja2
-
 from continuum.discovery.decision import Kind
 from continuum.discovery.report import figures, power_tables, sentences, steps, tables, values
+from continuum.discovery.report.environment import environment
 from continuum.discovery.report.names import capital, with_names
 from continuum.discovery.report.quantities import tenths
 from continuum.discovery.result import Diagnosis
-from continuum.printable import one_line
 from continuum.recordings.rate_ratio import odd_rates
 from continuum.whole_file import write_whole
 
@@ -28,20 +26,8 @@ def write_report(result: Diagnosis, path: str | Path, made: str) -> None:
     Raises:
         FileError: the file cannot be written.
     """
-    template = _environment().get_template("report.html")
+    template = environment().get_template("report.html")
     write_whole(path, template.render(_first(result), **_details(result), made=made) + "\n")
-
-
-def _environment() -> jinja2.Environment:
-    """Escapes all that is put into the page; names of recordings, of which any character may be part, stay one line."""
-    return jinja2.Environment(
-        loader=jinja2.PackageLoader(__package__),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-        finalize=lambda value: one_line(value) if type(value) is str else value,
-    )
 
 
 def _first(result: Diagnosis) -> dict[str, Any]:

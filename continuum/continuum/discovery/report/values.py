@@ -15,7 +15,8 @@ from continuum.discovery.report.quantities import (
     with_decimals,
     with_interval,
 )
-from continuum.discovery.result import Cause, Diagnosis, Estimate
+from continuum.discovery.result import Cause, Diagnosis
+from continuum.identification.estimate import Estimate
 
 
 class ValueRow(NamedTuple):

@@ -1,0 +1,168 @@
+"""`continuum identify`: springs and friction of an arm from its releases, and how well they predict others."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from continuum.cli.diagnose import read_recording
+from continuum.cli.tables import print_pairs, print_table
+from continuum.errors import InvalidValueError
+from continuum.output_files import check_apart, check_writable
+from continuum.printable import printable
+
+if TYPE_CHECKING:
+    from continuum.dynamics.model import Model
+    from continuum.identification.identified import Identified
+    from continuum.identification.scores import Score
+    from continuum.recordings.recording import Recording
+
+
+def add_to(commands: Any) -> None:
+    """Add this subcommand to the parser's."""
+    parser = commands.add_parser(
+        "identify", help="springs and friction from recordings, and how well they predict", description=__doc__,
+        epilog="Thesis chapters 3.3 and 4.2: Table 3 (values), Table 4 (NRMSE of every run, Eq. 19), Fig. 9 "
+        "(--report). Exit codes: 0 done, 2 wrong usage, file or value.",
+    )  # fmt: skip
+    parser.add_argument(
+        "data", metavar="RUN", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
+    )
+    parser.add_argument(
+        "--model", metavar="FILE.yaml", default="lamecc_prototype.yaml",
+        help="model file with masses, lengths and first values, or one of the library's; default %(default)s",
+    )  # fmt: skip
+    parser.add_argument(
+        "--method", choices=("fit", "swarm"), default="fit",
+        help="fit: maximum likelihood of open-loop simulations, with intervals; swarm: the thesis's particle swarm "
+        "(Table 2), which lowers Eq. 19 of the rates; default %(default)s",
+    )  # fmt: skip
+    parser.add_argument(
+        "--identify", metavar="N,N,..", help="runs that values are identified from, by number from 1; default all, or "
+        "those that --validate does not name",
+    )  # fmt: skip
+    parser.add_argument(
+        "--validate", metavar="N,N,..", help="runs that are predicted only; default those that --identify does not name"
+    )
+    parser.add_argument(
+        "--per-joint", action="store_true",
+        help="spring, viscous and Coulomb friction of every joint; without it, those that all joints share",
+    )  # fmt: skip
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the swarm; default %(default)s")
+    parser.add_argument("--out", metavar="MODEL.yaml", help="write the model with the identified values")
+    parser.add_argument("--report", metavar="PAGE.html", help="write a page with both tables and every run's angles")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Identify, predict, print, and write what was asked for."""
+    from continuum.dynamics.model_file import load_model, save_model
+    from continuum.identification.scores import scores
+
+    check_writable(options.out)
+    check_writable(options.report)
+    check_apart((options.out, options.report), (*options.data, options.model))
+    if options.seed < 0:
+        raise InvalidValueError("--seed", options.seed, "a whole number >= 0")
+    fitted = chosen_runs(options.identify, options.validate, len(options.data))
+    model, recordings = load_model(options.model), [read_recording(path) for path in options.data]
+    for recording in recordings:
+        for note in recording.notes:
+            print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
+    from continuum.discovery.refit import check_recordings  # here, so that what is refused need not wait for numba
+
+    check_recordings(recordings, model)
+    began = time.process_time()
+    identified = _identified(options, [recordings[k] for k in fitted], model)
+    seconds = time.process_time() - began
+    predicted = scores(identified.model, recordings)
+    if options.out is not None:
+        save_model(identified.model, options.out)
+    if options.report is not None:
+        from continuum.discovery.report.identification_page import write_identification
+
+        write_identification(identified, predicted, fitted, options.report, _made(options, seconds))
+    show(identified, predicted, fitted)
+    print_pairs([("method", identified.method), ("processor time", f"{seconds:.1f} s")])
+    written = [path for path in (options.out, options.report) if path is not None]
+    print(f"written: {', '.join(map(printable, written))}" if written else "nothing written; --out names a model file")
+    return 0
+
+
+def chosen_runs(identify: str | None, validate: str | None, n_runs: int) -> list[int]:
+    """Runs that values are identified from, counted from 0; the others are predicted.
+
+    Args:
+        identify, validate: run numbers from 1 with commas between them; None leaves the choice to the other one.
+        n_runs: how many there are.
+
+    Raises:
+        InvalidValueError: no such run, one twice or in both, one in neither, or none to identify from.
+    """
+    if validate is not None and n_runs < 2:
+        raise InvalidValueError("number of runs", n_runs, "two or more with --validate, one of them to identify from")
+    numbers = {}
+    for option, text in (("--identify", identify), ("--validate", validate)):
+        if text is not None:
+            numbers[option] = _numbers(option, text, n_runs)
+    if not numbers:
+        return [*range(n_runs)]
+    everything, predicted = {*range(n_runs)}, numbers.get("--validate", [])
+    fitted = numbers.get("--identify", sorted(everything - {*predicted}))
+    if not fitted:
+        raise InvalidValueError("--validate", validate, f"fewer than all {n_runs} runs: one or more to identify from")
+    if both := {*fitted} & {*predicted}:
+        raise InvalidValueError("--validate", validate, f"none of --identify {identify}, as run {min(both) + 1} is")
+    if validate is not None and (rest := everything - {*fitted, *predicted}):
+        raise InvalidValueError("--validate", validate, f"every run that --identify leaves, as run {min(rest) + 1}")
+    return fitted
+
+
+def _numbers(option: str, text: str, n_runs: int) -> list[int]:
+    """Runs, from 0."""
+    parts = [part.strip() for part in text.split(",")]
+    numbers = [int(part) - 1 if part.isascii() and part.isdigit() else -1 for part in parts]
+    if len({*numbers}) < len(numbers) or not {*numbers} <= {*range(n_runs)}:
+        allowed = (
+            f"numbers from 1 to {n_runs}, as many runs are given, each once" if n_runs > 1 else "1: one run is given"
+        )
+        raise InvalidValueError(option, text, allowed)
+    return numbers
+
+
+def _identified(options: argparse.Namespace, recordings: Sequence[Recording], model: Model) -> Identified:
+    """By the method that was asked for."""
+    from continuum.cli.progress import told
+
+    with told() as tell:
+        if options.method == "swarm":
+            from continuum.identification.thesis_swarm import swarm_parameters
+
+            return swarm_parameters(recordings, model, options.seed, options.per_joint, tell)
+        from continuum.discovery.parameter_fit import fit_parameters
+
+        return fit_parameters(recordings, model, options.per_joint, tell)
+
+
+def show(identified: Identified, predicted: Sequence[Score], fitted: Sequence[int]) -> None:
+    """Print Table 3, Table 4 and what they say."""
+    from continuum.discovery.report.identification_page import remarks, score_rows, value_rows
+
+    print_table(("Table 3", "unit", "start", "value", "95 % interval"), value_rows(identified))
+    print()
+    print_table(("Table 4", "use", "position NRMSE", "rate NRMSE", "RMSE [deg]"), score_rows(predicted, fitted))
+    print()
+    for line in remarks(identified, predicted, fitted):
+        print(line)
+
+
+def _made(options: argparse.Namespace, seconds: float) -> str:
+    """How the page was made, one line."""
+    import importlib.metadata
+
+    version, model = importlib.metadata.version("continuum"), printable(Path(options.model).name)
+    return f"Made by continuum {version} of model {model}; {seconds:.1f} s of processor time."

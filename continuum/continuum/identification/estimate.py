@@ -1,0 +1,44 @@
+"""One value with its 95 % interval."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One value with its 95 % interval.
+
+    Attributes:
+        name: parameter of Eq. 12, or effect and parameter with a dot between.
+        joint: from 0; None where it belongs to none, or to all alike.
+        recording: which has it for itself; empty where all have the same.
+        value, low, high: in its unit; the ends are NaN where no interval is known.
+        unit: SI.
+        meaning: one sentence.
+        start: what the model file has; NaN where it has none.
+        lower, upper: bounds within which it was sought.
+    """
+
+    name: str
+    joint: int | None
+    recording: str
+    value: float
+    low: float
+    high: float
+    unit: str
+    meaning: str
+    start: float = math.nan
+    lower: float = -math.inf
+    upper: float = math.inf
+
+    @property
+    def is_at_bound(self) -> bool:
+        """Whether a bound stopped it, so that it may be wrong."""
+        near = 1e-6 * max(abs(self.value), 1e-12)
+        return abs(self.value - self.lower) <= near or abs(self.value - self.upper) <= near
+
+    def __str__(self) -> str:
+        where = "" if self.joint is None else f"[{self.joint + 1}]"
+        return f"{self.name}{where}" + f" in {self.recording}" * bool(self.recording)

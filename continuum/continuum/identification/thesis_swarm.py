@@ -1,0 +1,71 @@
+"""The thesis's identification as it stands: its five parameters by its particle swarm (Table 2), lowering Eq. 19."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+
+from continuum.dynamics.dry_friction import with_dry_friction
+from continuum.dynamics.integration.tolerances import Tolerances
+from continuum.dynamics.model import Model
+from continuum.dynamics.parameters import PARAMETERS
+from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.values import parameter_slots
+from continuum.identification.estimate import Estimate
+from continuum.identification.free import THESIS_PARAMETERS, Free, FreeSpace
+from continuum.identification.identified import Identified, with_identified
+from continuum.identification.swarm import SwarmSettings, swarm_identification
+from continuum.recordings.recording import Recording
+
+_TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
+_SINGLY = ("stiffness", "viscous_friction", "coulomb_friction")  # what may be each joint's
+
+
+def swarm_parameters(
+    recordings: Sequence[Recording],
+    model: Model,
+    seed: int,
+    per_joint: bool = False,
+    progress: Callable[[str, float], None] | None = None,
+    settings: SwarmSettings | None = None,
+) -> Identified:
+    """Identify the five parameters within a factor of three of the model's; a swarm knows no intervals.
+
+    Args:
+        recordings: runs to be fitted, each starting at rest from its first measured angles.
+        model: with nominal values.
+        seed: of the random numbers.
+        per_joint: whether springs, viscous and Coulomb friction are each joint's.
+        progress: called with what is done, and the part of all that is over.
+        settings: of the swarm; Table 2's without.
+
+    Raises:
+        InvalidValueError: a recording that does not fit the model.
+    """
+    settings = settings or SwarmSettings()
+    simulator = Simulator(with_dry_friction(model), _TOLERANCES)
+    singly = _SINGLY if per_joint else ()
+    unknowns = [
+        Free(name, joint)
+        for name in THESIS_PARAMETERS
+        for joint in (range(model.n_joints) if name in singly else (None,))
+    ]
+    space = FreeSpace(simulator.model, unknowns)
+    tell = None if progress is None else partial(progress, "particle swarm")
+    found = swarm_identification(simulator, recordings, space, np.random.default_rng(seed), settings, tell)
+    values, slots, start = space.common_values(found.coordinates), parameter_slots(simulator.model), model.values()
+    estimates = []
+    for one in unknowns:
+        spec, which = PARAMETERS[one.name], slice(None) if one.joint is None else one.joint
+        given = np.broadcast_to(start[one.name], (model.n_joints,))[which]
+        value = float(np.mean(values[slots[one.name]][which]))
+        estimates.append(
+            Estimate(
+                one.name, one.joint, "", value, np.nan, np.nan, spec.unit, spec.meaning, float(np.mean(given)),
+                spec.lower, spec.upper,
+            )
+        )  # fmt: skip
+    identified = with_identified(model, estimates, "identified from recordings by a particle swarm")
+    return Identified(f"particle swarm, {found.simulations} simulations", identified, tuple(estimates))
