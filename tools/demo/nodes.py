@@ -19,7 +19,9 @@ END_TIMEOUT = 20.0
 _DEATH = re.compile(r"^\[ERROR\] \[(?P<label>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)", re.M)
 
 
-def run_nodes(trajectory_file: Path, arm_file: Path, out: Path, domain: int, n_poses: int) -> bool:
+def run_nodes(
+    trajectory_file: Path, arm_file: Path, out: Path, domain: int, n_poses: int, solver: str = "newton"
+) -> bool:
     """Run `arm.launch.py` with its recorder until all poses have become cable states; True if they did.
 
     Raises:
@@ -27,7 +29,7 @@ def run_nodes(trajectory_file: Path, arm_file: Path, out: Path, domain: int, n_p
     """
     command = ["ros2", "launch", "trajectory_generator", "arm.launch.py"]
     files = {"arm": arm_file.resolve(), "trajectory": trajectory_file.resolve(), "record": out / "recording"}
-    command += [f"{name}:={path}" for name, path in files.items()]
+    command += [f"solver:={solver}", *(f"{name}:={path}" for name, path in files.items())]
     log_file = out / "nodes.log"
     with log_file.open("w", encoding="utf-8") as log, launched(command, domain, log.fileno()) as launch:
         return follow(domain, n_poses, checker(launch, log_file))

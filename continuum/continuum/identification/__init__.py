@@ -1,4 +1,15 @@
-"""The thesis's identification: its particle swarm (Table 2) and its objective (Eq. 19), on named free parameters.
+"""Identification of an arm's springs and friction, and how well an identified model predicts (thesis 3.3 and 4.2).
 
-`continuum.discovery` estimates the same parameters by the grey-box model of `continuum.estimation`.
+==================  ============================================================================
+free.py             which parameters may move, as coordinates about a model's values
+swarm.py            the thesis's particle swarm (Table 2), which lowers Eq. 19
+thesis_swarm.py     its five parameters by that swarm
+nrmse.py            Eq. 19
+scores.py           Eq. 19 of every run, simulated open loop (Table 4, Fig. 9)
+estimate.py         one value with its interval
+identified.py       the identified model (Table 3)
+local_slopes.py     slopes of measured signals
+==================  ============================================================================
+
+The fit by maximum likelihood needs the grey-box model and stands above: `continuum.discovery.parameter_fit`.
 """
