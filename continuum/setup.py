@@ -1,35 +1,44 @@
+"""What pyproject.toml cannot say: the version of package.xml, every effect's entry point, the files of a ROS package."""
+
+import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 from setuptools import find_packages, setup
 
-package_name = "continuum"
+PACKAGE = "continuum"
+HERE = Path(__file__).parent
 
 
 def effects() -> list[str]:
     """Every file of the effects' package but its __init__ is an effect: rest_angle.py holds RestAngle."""
-    names = sorted(path.stem for path in Path(__file__).parent.glob("continuum/effects/[!_]*.py"))
+    names = sorted(path.stem for path in HERE.glob("continuum/effects/[!_]*.py"))
     return [f"{name} = continuum.effects.{name}:{name.title().replace('_', '')}" for name in names]
 
 
+def ros_files() -> list[tuple[str, list[str]]]:
+    """Files of an ament package, and the command for the PATH; a wheel has no place for them, pip makes the command."""
+    if "bdist_wheel" in sys.argv:
+        return []
+    return [
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+        ("bin", ["bin/continuum"]),
+    ]
+
+
 setup(
-    name=package_name,
-    version="0.1.0",
+    name=PACKAGE,
+    version=ElementTree.parse(HERE / "package.xml").findtext("version"),
     packages=find_packages(exclude=["test"]),
     package_data={
         "continuum.dynamics": ["models/*.yaml"],
         "continuum.discovery.report": ["templates/*", "track_record.json"],
     },
-    data_files=[
-        ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
-        (f"share/{package_name}", ["package.xml"]),
-        ("bin", ["bin/continuum"]),
-    ],
-    install_requires=["setuptools"],
-    zip_safe=True,
+    data_files=ros_files(),
+    zip_safe=False,
     entry_points={
-        "console_scripts": [
-            "continuum = continuum.cli:main",
-        ],
+        "console_scripts": ["continuum = continuum.cli:main"],
         "continuum.effects": effects(),
     },
 )

@@ -1,5 +1,6 @@
 """The equations traced with symbols, as machine code, and in floats are the same; their derivatives are exact."""
 
+import threading
 from functools import lru_cache
 
 import casadi
@@ -9,7 +10,7 @@ from continuum_laws.differences import differences
 from dynamics_laws import LaggingDrive, TipLoad, TurningBase, Wind, active, random_model
 
 from continuum.dynamics.balance import balance
-from continuum.dynamics.compiled import code_in_parts
+from continuum.dynamics.compiled import code_in_parts, machine_code
 from continuum.dynamics.compiled.machine_code import CompilerError, compile_function
 from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance
 from continuum.dynamics.expressions import positive_part, smooth_sign, suffix_sum, where_positive
@@ -111,12 +112,25 @@ def test_tracing_does_not_look_at_the_values() -> None:
     np.testing.assert_array_equal(other, SymbolicBalance(model).newton(packed).full())
 
 
-def test_no_compiler_is_one_clear_error(monkeypatch: pytest.MonkeyPatch, tmp_path: object) -> None:
+def test_without_a_compiler_equations_are_the_same_and_the_slower_way_is_said_once(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: object
+) -> None:
+    model, symbols = model_and_symbols("one joint")
+    packed, by_c, found = (
+        random_point(model, 1),
+        compile_function(symbols.newton),
+        np.empty((2, symbols.newton.nnz_out())),
+    )
+    monkeypatch.setattr(machine_code, "_warned", threading.Event())
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.delenv("CC", raising=False)
-    with pytest.raises(CompilerError, match="build-essential"):
-        compile_function(model_and_symbols("one joint")[1].newton)
+    with pytest.warns(RuntimeWarning, match="build-essential") as warned:
+        by_llvm, _ = (compile_function(symbols.newton) for _ in range(2))
+    assert len(warned) == 1
+    for function, out in zip((by_c, by_llvm), found, strict=True):
+        function(packed.ctypes.data, out.ctypes.data)
+    np.testing.assert_array_equal(*found)
 
 
 def test_a_compiler_that_fails_is_one_clear_error(monkeypatch: pytest.MonkeyPatch, tmp_path: object) -> None:

@@ -1,7 +1,7 @@
 """CasADi functions as machine code: C by CasADi's generator, compiled by the system's compiler, kept in a cache.
 
 A library is named by the digest of its code. For equations of a known structure an index holds that name, so that a
-program that finds both need not trace them.
+program that finds both need not trace them. Without a C compiler, LLVM makes the code, in every program again.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ import platform
 import shutil
 import subprocess
 import tempfile
+import threading
+import warnings
 from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
@@ -23,21 +25,27 @@ import casadi
 from continuum.checked_file import read_checked, write_checked
 from continuum.compile_cache import user_cache_folder, warn_not_kept
 from continuum.dynamics.compiled.code_in_parts import in_parts
+from continuum.dynamics.compiled.llvm_code import compile_by_llvm
 from continuum.errors import ContinuumError, FileError
+
+_warned = threading.Event()
 
 
 class CompilerError(ContinuumError, RuntimeError):
-    """There is no C compiler, or it did not take the generated code."""
+    """The C compiler did not take the generated code."""
 
 
 def compile_function(function: casadi.Function) -> Any:
     """The function as ``void f(const double *in, double *out)``; it must have one dense input and one dense output.
 
+    The compiler is that of the environment's CC, else cc or gcc, else LLVM.
+
     Raises:
-        CompilerError: no C compiler is found (named by the environment's CC, else cc or gcc), or it fails.
+        CompilerError: the C compiler fails.
         FileError: there is neither a cache folder nor a temporary one.
     """
-    return _flat(_library_of(function)[0])
+    compiler = _compiler()
+    return _by_llvm(function) if compiler is None else _flat(_library_of(function, compiler)[0])
 
 
 def found_or_compiled(structure: str | None, name: str, trace: Callable[[], casadi.Function]) -> Any:
@@ -51,14 +59,15 @@ def found_or_compiled(structure: str | None, name: str, trace: Callable[[], casa
     Raises:
         CompilerError, FileError: as `compile_function`.
     """
-    if structure is None:
+    compiler = _compiler()
+    if structure is None or compiler is None:
         return compile_function(trace())
     key = f"{structure}\n{name}"
-    index = _folder() / f"{_digest(key, _compiler(), version('casadi'))}.index"
+    index = _folder() / f"{_digest(key, compiler, version('casadi'))}.index"
     known = read_checked(index, key)
     if known is not None and read_checked(library := _folder() / known.decode(), platform.machine()) is not None:
         return _flat(ctypes.CDLL(str(library)))
-    loaded, library = _library_of(trace())
+    loaded, library = _library_of(trace(), compiler)
     try:
         write_checked(index, library.name.encode(), key)
     except OSError as error:
@@ -77,9 +86,19 @@ def _flat(library: ctypes.CDLL) -> Any:
     return found
 
 
-def _library_of(function: casadi.Function) -> tuple[ctypes.CDLL, Path]:
+def _by_llvm(function: casadi.Function) -> Any:
+    if not _warned.is_set():
+        _warned.set()
+        warnings.warn(
+            "no C compiler is found (CC, cc, gcc): LLVM compiles the equations in every program again, and simulations "
+            "take up to twice as long; on Debian and Ubuntu: apt install build-essential", RuntimeWarning, stacklevel=2,
+        )  # fmt: skip
+    return compile_by_llvm(function)
+
+
+def _library_of(function: casadi.Function, compiler: str) -> tuple[ctypes.CDLL, Path]:
     """The library of a function, and its file, which is missing where it cannot be kept."""
-    code, compiler = _c_code(function), _compiler()
+    code = _c_code(function)
     library = _folder() / f"{_digest(code, compiler, version('casadi'))}.so"
     return _loaded(code, compiler, library), library
 
@@ -101,11 +120,8 @@ void flat(const double *in, double *out)
 """
 
 
-def _compiler() -> str:
-    for name in (os.environ.get("CC"), "cc", "gcc"):
-        if name and shutil.which(name):
-            return name
-    raise CompilerError("no C compiler is found (CC, cc, gcc); the dynamics need one, on Debian: build-essential")
+def _compiler() -> str | None:
+    return next((name for name in (os.environ.get("CC"), "cc", "gcc") if name and shutil.which(name)), None)
 
 
 def _loaded(code: str, compiler: str, library: Path) -> ctypes.CDLL:
