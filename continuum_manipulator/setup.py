@@ -22,6 +22,7 @@ setup(
             "robot = continuum_manipulator.robot_node:main",
             "dynamics = continuum_manipulator.dynamics_node:main",
             "cable_tangler = continuum_manipulator.cable_tangler_node:main",
+            "cable_estimator = continuum_manipulator.cable_estimator_node:main",
             "forward_kinematics = continuum_manipulator.forward_kinematics_node:main",
             "markers = continuum_manipulator.markers_node:main",
             "viewer = continuum_manipulator.viewer_node:main",

@@ -141,6 +141,12 @@ class Section:
         """Name of the frame D on the section's last disc."""
         return f"{self.name}_tip"
 
+    @property
+    def disc_frames(self) -> tuple[str, ...]:
+        """Names of the frames on the section's discs, from its base to its tip; none of them turns with phi."""
+        between = (f"{self.name}_disc_{k}" for k in range(1, self.n_joints))
+        return (self.base_frame, *between, self.tip_frame)
+
 
 @dataclass(frozen=True)
 class Arm:

@@ -1,4 +1,7 @@
-"""The chain of single joints: the arm itself where joints bend alike; finite differences where they do not."""
+"""The chain of single joints: the arm itself where joints bend alike; finite differences where they do not.
+
+Cables likewise: as long as their lines through the discs.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +13,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from continuum.arm import Arm
+from continuum.kinematics.cable_lines import cable_lines
 from continuum.kinematics.chain import arm_jacobian, arm_pose
 from continuum.kinematics.discs import arm_disc_poses, even_bends
-from continuum.kinematics.joint_chain import joint_chain, tip_pose, tip_twist
+from continuum.kinematics.joint_chain import (
+    joint_chain,
+    length_rates_of_joints,
+    lengths_of_joints,
+    tip_pose,
+    tip_twist,
+)
+from continuum.kinematics.routing import section_length_rates, section_lengths
 
 LAW = settings(max_examples=40, deadline=None)
 
@@ -64,3 +75,36 @@ def test_the_twist_is_the_rate_of_the_pose(n: int, seed: int) -> None:
     found = tip_twist(bends, rates, chain)
     np.testing.assert_allclose(found[:3], slope[:3, 3], atol=1e-7)
     np.testing.assert_allclose(found[3:], [turn[2, 1], turn[0, 2], turn[1, 0]], atol=1e-7)
+
+
+@LAW
+@given(st.integers(1, 6), st.integers(0, 10**6))
+def test_lengths_of_joints_that_bend_alike_are_those_of_the_section(n: int, seed: int) -> None:
+    arm, random = arm_of(n), np.random.default_rng(seed)
+    w, w_rate = random.normal(0, 0.7, (n, 2)), random.normal(0, 1.0, (n, 2))
+    for i, section in enumerate(arm.sections):
+        bends, rates = even_bends(w[i], section), even_bends(w_rate[i], section)
+        np.testing.assert_allclose(lengths_of_joints(bends, arm, i), section_lengths(w[i], arm, i), atol=1e-14)
+        expected = section_length_rates(w[i], w_rate[i], arm, i)
+        np.testing.assert_allclose(length_rates_of_joints(bends, rates, arm, i), expected, atol=1e-13)
+
+
+@LAW
+@given(st.integers(1, 6), st.integers(0, 10**6))
+def test_lengths_of_joints_are_those_of_the_lines_through_the_discs(n: int, seed: int) -> None:
+    bends, _ = drawn(n, seed)
+    lines = cable_lines(bends, arm_of(n))
+    for i in range(n):
+        pieces = [np.linalg.norm(np.diff(line.points, axis=0), axis=1) for line in lines if line.section == i]
+        np.testing.assert_allclose(lengths_of_joints(bends[i], arm_of(n), i), np.sum(pieces, axis=1), atol=1e-13)
+
+
+@LAW
+@given(st.integers(1, 6), st.integers(0, 10**6))
+def test_length_rates_of_joints_are_slopes(n: int, seed: int) -> None:
+    bends, rates = drawn(n, seed)
+    step = 1e-5
+    for i in range(n):
+        ahead, behind = (lengths_of_joints(bends[i] + side * step * rates[i], arm_of(n), i) for side in (1, -1))
+        found = length_rates_of_joints(bends[i], rates[i], arm_of(n), i)
+        np.testing.assert_allclose(found, (ahead - behind) / (2 * step), atol=1e-9)

@@ -15,6 +15,7 @@ from continuum.kinematics.routing import (
     section_length_rates,
     section_lengths,
     tangle,
+    tangle_jacobian,
     tangle_rates,
     untangle,
     untangle_rates,
@@ -42,6 +43,16 @@ def test_total_lengths_are_distances_between_holes(drawn: tuple[Arm, np.ndarray]
 def test_tangle_and_untangle(drawn: tuple[Arm, np.ndarray]) -> None:
     arm, w = drawn
     np.testing.assert_allclose(untangle(tangle(w, arm), arm), w, rtol=0, atol=1e-12)
+
+
+@each_count
+def test_jacobian_is_the_slope_of_the_totals(n_sections: int) -> None:
+    arm = mixed_arm(n_sections)
+    w = random_postures(arm, 10, seed=n_sections)
+    w[0] = 0.0
+    flat = w.reshape(len(w), -1)
+    numeric = differences(lambda q: tangle(q.reshape(*q.shape[:-1], n_sections, 2), arm), flat)
+    assert_same_slopes(tangle_jacobian(w, arm), numeric)
 
 
 @each_count

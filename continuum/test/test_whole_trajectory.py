@@ -8,7 +8,10 @@ import pytest
 from continuum_laws.samples import PROTOTYPE, mixed_arm, random_postures
 
 from continuum.kinematics import cables, chain, configuration, routing, section
+from continuum.kinematics.cable_twist import arm_configuration_cable_jacobian, tip_cable_jacobian
 from continuum.kinematics.cables.hole_points import hole_points
+from continuum.kinematics.discs import even_bends
+from continuum.kinematics.joint_chain import length_rates_of_joints, lengths_of_joints
 
 ARM = mixed_arm(3)
 W = random_postures(ARM, 12, seed=5).reshape(3, 4, 3, 2)
@@ -18,6 +21,7 @@ ONE, ONE_RATE = W[..., 0, :], RATE[..., 0, :]
 PHI, THETA = configuration.jones_from_allen(ONE)
 POINTS = np.random.default_rng(7).normal(size=(3, 4, 3))
 LENGTHS = cables.cable_lengths(ONE, PROTOTYPE)
+BENDS, BEND_RATES = even_bends(ONE, ARM.sections[1]), even_bends(ONE_RATE, ARM.sections[1])
 TOTALS, TOTAL_RATES = routing.tangle(W, ARM), routing.tangle_rates(W, RATE, ARM)
 
 Case = tuple[Callable[..., np.ndarray], tuple[np.ndarray, ...], int]
@@ -50,7 +54,12 @@ MAPS: dict[str, Case] = {  # the function, its arguments, and how many of their 
     "arm_jacobian": (partial(chain.arm_jacobian, arm=ARM), (W,), 2),
     "section_lengths": (partial(routing.section_lengths, arm=ARM, index=1), (ONE,), 1),
     "section_length_rates": (partial(routing.section_length_rates, arm=ARM, index=1), (ONE, ONE_RATE), 1),
+    "lengths_of_joints": (partial(lengths_of_joints, arm=ARM, index=1), (BENDS,), 2),
+    "length_rates_of_joints": (partial(length_rates_of_joints, arm=ARM, index=1), (BENDS, BEND_RATES), 2),
     "tangle": (partial(routing.tangle, arm=ARM), (W,), 2),
+    "tangle_jacobian": (partial(routing.tangle_jacobian, arm=ARM), (W,), 2),
+    "arm_configuration_cable_jacobian": (partial(arm_configuration_cable_jacobian, arm=ARM), (W,), 2),
+    "tip_cable_jacobian": (partial(tip_cable_jacobian, arm=ARM), (W,), 2),
     "tangle_rates": (partial(routing.tangle_rates, arm=ARM), (W, RATE), 2),
     "untangle": (partial(routing.untangle, arm=ARM), (TOTALS,), 1),
     "untangle_rates": (partial(routing.untangle_rates, arm=ARM), (TOTALS, TOTAL_RATES), 1),

@@ -1,6 +1,7 @@
 """Helpers of this package's tests: arms to describe, and a description read back by yourdfpy, an independent reader."""
 
 import io
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -54,11 +55,22 @@ def arms(draw: st.DrawFn) -> Arm:
 
 
 class Description:
-    """The URDF of an arm, moved by the free joints of its sections."""
+    """The URDF of an arm, moved by the free joints of its sections.
 
-    def __init__(self, arm: Arm) -> None:
+    Args:
+        arm: the arm.
+        single_bends: every bending joint is free, as for who publishes an angle of each; else they mimic the first.
+    """
+
+    def __init__(self, arm: Arm, single_bends: bool = False) -> None:
         self.arm = arm
-        self.urdf = yourdfpy.URDF.load(io.BytesIO(to_text(robot_urdf(arm)).encode()), load_meshes=False)
+        robot = robot_urdf(arm)
+        if single_bends:
+            bending = {name for section in arm.sections for name in section.theta_joints}
+            for joint in robot.iter("joint"):
+                if joint.get("name") in bending and (mimic := joint.find("mimic")) is not None:
+                    joint.remove(mimic)
+        self.urdf = yourdfpy.URDF.load(io.BytesIO(to_text(robot).encode()), load_meshes=False)
         self.joints = {joint.name: joint for joint in self.urdf.robot.joints}
         self.links = {link.name: link for link in self.urdf.robot.links}
 
@@ -68,6 +80,14 @@ class Description:
         for i, section in enumerate(self.arm.sections):
             free[section.phi_joint] = phi[i]
             free[section.theta_joints[0]] = theta[i] / section.n_joints
+        self.urdf.update_cfg(free)
+
+    def move_joints(self, phi: NDArray, thetas: Sequence[NDArray]) -> None:
+        """Turn the plane of section i by ``phi[i]``, and bend its joints by ``thetas[i]`` (n_joints,) [rad]."""
+        free = {}
+        for section, turn, angles in zip(self.arm.sections, phi, thetas, strict=True):
+            free[section.phi_joint] = turn
+            free |= dict(zip(section.theta_joints, angles, strict=True))
         self.urdf.update_cfg(free)
 
     def pose(self, frame: str) -> NDArray:

@@ -14,7 +14,13 @@ from continuum.kinematics.routing import (
     untangle,
     untangle_rates,
 )
-from continuum_manipulator.command_checks import check_configuration, check_fit, check_lengths, check_rates
+from continuum_manipulator.command_checks import (
+    TOLERANCE,
+    check_configuration,
+    check_fit,
+    check_lengths,
+    check_rates,
+)
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.stamps import Loss, StampJoiner, nanoseconds, seconds
@@ -39,6 +45,7 @@ class CableTanglerNode(CheckedNode):
     """
 
     NAME = "cable_tangler"
+    PARAMETERS = (TOLERANCE,)
     HAS_ARM = True
 
     def __init__(self) -> None:
@@ -109,7 +116,7 @@ class CableTanglerNode(CheckedNode):
         check_lengths(lengths, self._names)
         w = untangle(lengths, self.arm)
         check_configuration(w, self.arm.sections)
-        check_fit(lengths, tangle(w, self.arm), self._names)
+        check_fit(lengths, tangle(w, self.arm), self._names, self.values[TOLERANCE.name])
         w_rate = None
         if message.velocity:
             velocities = messages.finite("velocity", np.asarray(message.velocity)[order])

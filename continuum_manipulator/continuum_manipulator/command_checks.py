@@ -10,9 +10,13 @@ from continuum.arm import Section
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
 from continuum.kinematics.configuration import bend
+from continuum.parameter_spec import ParameterSpec
 
-FIT = 1e-3
-"""How far commanded lengths may be from those of the nearest posture [m]."""
+TOLERANCE = ParameterSpec(
+    "tolerance", float, "how far commanded lengths may be from those of the nearest posture", "m", 0.0, 1.0,
+    lower_open=True, default=1e-3,
+)  # fmt: skip
+"""Parameter of the nodes that take lengths as commands."""
 
 LIMIT_SLACK = 1e-6
 """Bend beyond the limit that is rounding [rad]."""
@@ -42,16 +46,16 @@ def check_configuration(w: Array, sections: Sequence[Section]) -> None:
             )
 
 
-def check_fit(lengths: Array, of_posture: Array, names: Sequence[str]) -> None:
-    """The commanded lengths (n_cables,) [m] are those of the posture found for them.
+def check_fit(lengths: Array, of_posture: Array, names: Sequence[str], tolerance: float) -> None:
+    """The commanded lengths (n_cables,) [m] are those of the posture found for them, within the ``tolerance`` [m].
 
     Raises:
         InvalidValueError: one differs; no posture has all of these lengths.
     """
     off = np.abs(lengths - of_posture)
-    if not (off <= FIT).all():
+    if not (off <= tolerance).all():
         i = int(np.argmax(np.where(np.isfinite(off), off, np.inf)))
-        allowed = f"{float(of_posture[i]):.6g} within {FIT:g} m, as in the nearest posture to all lengths"
+        allowed = f"{float(of_posture[i]):.6g} within the tolerance, {tolerance:g} m, as in the nearest posture"
         raise InvalidValueError(f"length of {names[i]}", float(lengths[i]), allowed)
 
 

@@ -7,12 +7,16 @@ from typing import NamedTuple
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from scipy.spatial.transform import Rotation
 from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
 
 from continuum.arrays import Array
 from continuum.kinematics.joint_chain import joint_chain, tip_pose, tip_twist
+from continuum.parameter_spec import ParameterSpec
+from continuum_manipulator.disc_transforms import disc_transforms
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
+from continuum_manipulator.nodekit.qos import TRANSFORMS
 from continuum_manipulator.nodekit.stamps import StampJoiner, nanoseconds
 from continuum_manipulator.section_joints import read_bend_rates, read_bends, read_names
 from continuum_manipulator.tip_targets import BASE_FRAME
@@ -26,13 +30,19 @@ class _Joints(NamedTuple):
 
 
 class ForwardKinematicsNode(CheckedNode):
-    """``joint_states`` to ``tip_pose`` and ``tip_twist`` (Eqs. 10 and 11), in ``base_link``.
+    """``joint_states`` to ``tip_pose``, ``tip_twist`` and ``/tf`` (Eqs. 10 and 11), in ``base_link``.
 
     Joints of a section need not bend alike. Sections may come in one message or in one each: they are joined by stamp.
-    Without velocities of all joints there is no twist.
+    Without velocities of all joints there is no twist. ``/tf`` has the base, every disc and the tip of each section.
     """
 
     NAME = "forward_kinematics"
+    PARAMETERS = (
+        ParameterSpec(
+            "publish_tf", bool, "publish the frames on /tf; false where robot_state_publisher does", default=True
+        ),
+        ParameterSpec("frame_prefix", str, "put before the name of every frame on /tf", default=""),
+    )
     HAS_ARM = True
 
     def __init__(self) -> None:
@@ -45,6 +55,7 @@ class ForwardKinematicsNode(CheckedNode):
         }
         self._publish_pose = self.offer(PoseStamped, "tip_pose")
         self._publish_twist = self.offer(TwistStamped, "tip_twist")
+        self._publish_frames = self.offer(TFMessage, "/tf", TRANSFORMS) if self.values["publish_tf"] else None
         self.listen(JointState, "joint_states", self._on_joints)
 
     def _on_joints(self, message: JointState) -> None:
@@ -72,6 +83,8 @@ class ForwardKinematicsNode(CheckedNode):
         place.x, place.y, place.z = map(float, found[:3, 3])
         turn.x, turn.y, turn.z, turn.w = map(float, Rotation.from_matrix(found[:3, :3]).as_quat(canonical=True))
         self._publish_pose(pose)
+        if self._publish_frames is not None:
+            self._publish_frames(disc_transforms(bends, self.arm, message.header.stamp, self.values["frame_prefix"]))
         if len(rates) == len(bends):
             velocity, twist = tip_twist(bends, rates, self._chain), TwistStamped()
             twist.header = pose.header

@@ -6,15 +6,32 @@ import numpy as np
 from builtin_interfaces.msg import Time
 from sensor_msgs.msg import JointState
 
-from continuum.kinematics.cables import configuration_cable_jacobian, configuration_from_cables
-from continuum.kinematics.routing import cables_through, section_length_rates, section_lengths
+from continuum.arrays import Array
+from continuum.kinematics.cables import cable_lengths, configuration_cable_jacobian, configuration_from_cables
+from continuum.kinematics.discs import even_bends
+from continuum.kinematics.joint_chain import length_rates_of_joints, lengths_of_joints
+from continuum.kinematics.routing import cables_through
 from continuum.parameter_spec import ParameterSpec
-from continuum_manipulator.command_checks import check_configuration, check_fit, check_lengths, check_rates
+from continuum_manipulator.command_checks import (
+    TOLERANCE,
+    check_configuration,
+    check_fit,
+    check_lengths,
+    check_rates,
+)
 from continuum_manipulator.config_states import config_states, read_config
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
-from continuum_manipulator.section_joints import Configuration, joint_names, joint_values, read_joints, read_names
+from continuum_manipulator.section_joints import (
+    Configuration,
+    joint_names,
+    joint_values,
+    read_bend_rates,
+    read_bends,
+    read_joints,
+    read_names,
+)
 from continuum_manipulator.section_number import checked_section
 from continuum_msgs.msg import CableStates, ConfigStates
 
@@ -22,12 +39,16 @@ from continuum_msgs.msg import CableStates, ConfigStates
 class SectionNode(CheckedNode):
     """``joint_states`` to ``section_config_states`` and ``section_cable_states``, and back.
 
+    Joints need not bend alike: the configuration is that of their sum, cables run from disc to disc of single joints.
     ``section_cable_commands`` for this section become ``section_joint_states``, and ``section_config_commands`` these
     and ``section_cable_states``. One message in gives one out of each, with the same stamp.
     """
 
     NAME = "section"
-    PARAMETERS = (ParameterSpec("section", int, "which section of the arm this node is, 1 at the base", lower=1),)
+    PARAMETERS = (
+        ParameterSpec("section", int, "which section of the arm this node is, 1 at the base", lower=1),
+        TOLERANCE,
+    )
     HAS_ARM = True
 
     def __init__(self) -> None:
@@ -60,7 +81,11 @@ class SectionNode(CheckedNode):
                 raise MessageFault(messages.MISSING_NAME, "no joint of this arm is in the message")
             self.diagnostics.ignored["joint_states"] += 1
             return
-        self._publish_state(state, message.header.stamp)
+        self._publish_config_state(state, message.header.stamp)
+        bends, rates = read_bends(index, message.position, self._section), None
+        if message.velocity:
+            rates = read_bend_rates(index, message.position, message.velocity, self._section)
+        self._publish_cable_state(bends, rates, message.header.stamp)
 
     def _is_for_another(self, message: CableStates | ConfigStates, topic: str) -> bool:
         """Whether a stamped command is for another section of the arm."""
@@ -75,7 +100,9 @@ class SectionNode(CheckedNode):
             return
         state = read_config(message)
         check_configuration(state.w, [self._section])
-        self._publish_state(state, message.header.stamp)
+        rates = None if state.rate is None else even_bends(state.rate, self._section)
+        self._publish_config_state(state, message.header.stamp)
+        self._publish_cable_state(even_bends(state.w, self._section), rates, message.header.stamp)
         self._publish_joint_states(state, message.header.stamp)
 
     def _on_cables(self, message: CableStates) -> None:
@@ -89,8 +116,8 @@ class SectionNode(CheckedNode):
         check_lengths(lengths, self._section.cable_names)
         w = configuration_from_cables(lengths, self._section)
         check_configuration(w, [self._section])
-        n_own = len(self._section.cable_names)
-        check_fit(lengths, section_lengths(w, self.arm, self._number - 1)[:n_own], self._section.cable_names)
+        of_posture, tolerance = cable_lengths(w, self._section), self.values[TOLERANCE.name]
+        check_fit(lengths, of_posture, self._section.cable_names, tolerance)
         rate = None
         if message.velocity:
             velocities = messages.finite("velocity", np.asarray(message.velocity)[own])
@@ -98,15 +125,18 @@ class SectionNode(CheckedNode):
             check_rates(rate)
         self._publish_joint_states(Configuration(w, rate), message.header.stamp)
 
-    def _publish_state(self, state: Configuration, stamp: Time) -> None:
-        """Publish configuration and cables."""
+    def _publish_config_state(self, state: Configuration, stamp: Time) -> None:
         config = config_states(state, self._section, self._number)
-        cables = CableStates(section=self._number, name=self._cables)
-        config.header.stamp = cables.header.stamp = stamp
-        cables.position = section_lengths(state.w, self.arm, self._number - 1)
-        if state.rate is not None:
-            cables.velocity = section_length_rates(state.w, state.rate, self.arm, self._number - 1)
+        config.header.stamp = stamp
         self._publish_config(config)
+
+    def _publish_cable_state(self, bends: Array, rates: Array | None, stamp: Time) -> None:
+        """Of joints bent by ``bends`` (n_joints, 2) [rad], at ``rates`` [rad/s] where they are known."""
+        cables = CableStates(section=self._number, name=self._cables)
+        cables.header.stamp = stamp
+        cables.position = lengths_of_joints(bends, self.arm, self._number - 1)
+        if rates is not None:
+            cables.velocity = length_rates_of_joints(bends, rates, self.arm, self._number - 1)
         self._publish_cables(cables)
 
     def _publish_joint_states(self, state: Configuration, stamp: Time) -> None:

@@ -7,6 +7,7 @@ import pytest
 from arm_messages import ARM, cables, instant_of, postures
 from builtin_interfaces.msg import Time
 from harness import ARM_FILE, NodeProcess, Probe, running
+from sensor_msgs.msg import JointState
 
 from continuum.kinematics.routing import cables_through, section_lengths, tangle, tangle_rates
 from continuum_msgs.msg import CableStates
@@ -161,3 +162,26 @@ def test_commands_name_the_section_and_its_own_cables(bench):
     for i, message in enumerate(bench.commands):
         assert tuple(message.name) == ARM.sections[i].cable_names
         np.testing.assert_allclose(message.position, section_lengths(W[1, i], ARM, i)[:4], rtol=1e-9)
+
+
+def test_a_wider_tolerance_takes_lengths_of_no_posture(bench, domain):
+    """To both nodes that take commands; by default 10 mm too much are refused, as above."""
+    off = command(2)
+    off.position[0] += 0.01
+    lengths = section_lengths(np.zeros(2), ARM, 0)[:4]
+    lengths[0] += 0.01
+    of_section = cables(2, 1, ARM.sections[0].cable_names, lengths)
+    wide = {"tolerance": 0.02}
+    nodes = (
+        NodeProcess(
+            "continuum_manipulator", "cable_tangler", domain, name="wide", files=(ARM_FILE,), parameters=wide,
+            arguments=("--ros-args", "-r", "section_cable_commands:=wide_commands", "--"),
+        ),
+        NodeProcess("continuum_manipulator", "section", domain, files=(ARM_FILE,), parameters=wide | {"section": 1}),
+    )  # fmt: skip
+    with running(*nodes):
+        commands = bench.probe.hear(CableStates, "wide_commands")
+        joints = bench.probe.hear(JointState, "section_joint_states")
+        say = bench.probe.speaker(CableStates, "cable_commands", listeners=2).publish
+        say_section = bench.probe.speaker(CableStates, "section_cable_commands").publish
+        bench.probe.warm_up(lambda: (say(off), say_section(of_section)), commands, joints)

@@ -7,10 +7,12 @@ from geometry_msgs.msg import PoseStamped, TwistStamped
 from harness import ARM_FILE, NodeProcess, Probe, running
 from scipy.spatial.transform import Rotation
 from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
 
 from continuum.kinematics.chain import arm_jacobian, arm_pose
 from continuum.kinematics.configuration import allen_from_jones
 from continuum.kinematics.discs import arm_disc_poses
+from continuum_manipulator.nodekit.qos import TRANSFORMS
 
 pytestmark = pytest.mark.ros
 
@@ -35,6 +37,18 @@ def velocity(message: TwistStamped) -> np.ndarray:
     return np.array([linear.x, linear.y, linear.z, angular.x, angular.y, angular.z])
 
 
+def uneven_joints(instant: int, seed: int) -> tuple[list[np.ndarray], list[JointState]]:
+    """Bends of every joint, and a message for each section."""
+    random, bends, sent = np.random.default_rng(seed), [], []
+    for section in ARM.sections:
+        phi, thetas = random.uniform(-3, 3), random.uniform(-0.2, 0.2, section.n_joints)
+        bends.append(allen_from_jones(np.float64(phi), thetas))
+        message = JointState(name=[section.phi_joint, *section.theta_joints], position=[phi, *thetas])
+        message.header.stamp = stamp(instant)
+        sent.append(message)
+    return bends, sent
+
+
 def test_the_tip_is_where_and_moves_as_the_joints_say(probe):
     poses, twists = probe.hear(PoseStamped, "tip_pose"), probe.hear(TwistStamped, "tip_twist")
     say = probe.speaker(JointState, "joint_states").publish
@@ -52,14 +66,8 @@ def test_the_tip_is_where_and_moves_as_the_joints_say(probe):
 
 def test_joints_need_not_bend_alike_nor_come_in_one_message(probe):
     poses, twists = probe.hear(PoseStamped, "tip_pose"), probe.hear(TwistStamped, "tip_twist")
-    say, random = probe.speaker(JointState, "joint_states").publish, np.random.default_rng(4)
-    bends, sent = [], []
-    for section in ARM.sections:
-        phi, thetas = random.uniform(-3, 3), random.uniform(-0.2, 0.2, section.n_joints)
-        bends.append(allen_from_jones(np.float64(phi), thetas))
-        message = JointState(name=[section.phi_joint, *section.theta_joints], position=[phi, *thetas])
-        message.header.stamp = stamp(100)
-        sent.append(message)
+    say = probe.speaker(JointState, "joint_states").publish
+    bends, sent = uneven_joints(100, seed=4)
     w, _ = postures(1)
     probe.warm_up(lambda: say(joint_state(99, w[0])), poses)
     for message in sent:
@@ -68,6 +76,68 @@ def test_joints_need_not_bend_alike_nor_come_in_one_message(probe):
     np.testing.assert_allclose(matrix(poses[0]), arm_disc_poses(bends, ARM)[-1][-1], atol=1e-12)
     probe.listen_until_quiet()
     assert not twists  # no velocities were sent
+
+
+def frames_of(message: TFMessage) -> dict[str, np.ndarray]:
+    found = {}
+    for one in message.transforms:
+        place, turn = one.transform.translation, one.transform.rotation
+        found[one.child_frame_id] = np.eye(4)
+        found[one.child_frame_id][:3, :3] = Rotation.from_quat([turn.x, turn.y, turn.z, turn.w]).as_matrix()
+        found[one.child_frame_id][:3, 3] = place.x, place.y, place.z
+    return found
+
+
+def expected_frames(bends: list[np.ndarray], prefix: str = "") -> dict[str, np.ndarray]:
+    names = [f"{prefix}{frame}" for section in ARM.sections for frame in section.disc_frames]
+    return dict(zip(names, np.concatenate(arm_disc_poses(bends, ARM)), strict=True))
+
+
+def check_frames(message: TFMessage, instant: int, bends: list[np.ndarray], prefix: str = "") -> None:
+    found, expected = frames_of(message), expected_frames(bends, prefix)
+    assert found.keys() == expected.keys()
+    assert len(message.transforms) == len(found)
+    assert {(one.header.frame_id, instant_of(one)) for one in message.transforms} == {(f"{prefix}base_link", instant)}
+    for name, pose in expected.items():
+        np.testing.assert_allclose(found[name], pose, atol=1e-12)
+
+
+def test_frames_of_discs_are_on_tf(probe):
+    frames = probe.hear(TFMessage, "/tf", TRANSFORMS)
+    say = probe.speaker(JointState, "joint_states").publish
+    w, _ = postures(1)
+    probe.warm_up(lambda: say(joint_state(199, w[0])), frames)
+    sent = {instant: uneven_joints(instant, seed=instant) for instant in range(200, 210)}
+    for _, messages in sent.values():
+        for message in messages:
+            say(message)
+    probe.wait_until(lambda: len(frames) == len(sent), lambda: f"{len(sent)} messages, not {len(frames)}")
+    for (instant, (bends, _)), message in zip(sent.items(), frames, strict=True):
+        check_frames(message, instant, bends)
+
+
+def test_frames_may_have_a_prefix_or_stay_out(probe, domain):
+    """As with a second arm, or where robot_state_publisher runs."""
+    nodes = [
+        NodeProcess(
+            "continuum_manipulator", "forward_kinematics", domain, name=name, files=(ARM_FILE,), parameters=parameters,
+            arguments=("--ros-args", "-r", f"/tf:=/{name}/tf", "-r", f"tip_pose:={name}/tip_pose",
+                       "-r", "tip_twist:=elsewhere", "--"),
+        )
+        for name, parameters in {"second": {"frame_prefix": "second/"}, "quiet": {"publish_tf": "false"}}.items()
+    ]  # fmt: skip
+    with running(*nodes):
+        frames = probe.hear(TFMessage, "/second/tf", TRANSFORMS)
+        poses = probe.hear(PoseStamped, "quiet/tip_pose")
+        say = probe.speaker(JointState, "joint_states", listeners=3).publish
+        w, _ = postures(1)
+        probe.warm_up(lambda: say(joint_state(219, w[0])), frames, poses)
+        bends, messages = uneven_joints(220, seed=1)
+        for message in messages:
+            say(message)
+        probe.wait_until(lambda: frames and poses, "frames, and a pose of the other node")
+        check_frames(frames[0], 220, bends, "second/")
+        assert "/quiet/tf" not in dict(probe.node.get_topic_names_and_types())
 
 
 def test_bad_joints_are_dropped_and_counted_and_the_node_lives(probe):

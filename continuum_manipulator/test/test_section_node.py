@@ -8,7 +8,9 @@ from arm_messages import ARM, NAMES, cables, instant_of, joint_state, postures, 
 from harness import ARM_FILE, NodeProcess, Probe, running
 from sensor_msgs.msg import JointState
 
-from continuum.kinematics.configuration import arc_length, curvature, jones_from_allen, jones_rates
+from continuum.kinematics.cable_lines import cable_lines
+from continuum.kinematics.configuration import allen_from_jones, arc_length, curvature, jones_from_allen, jones_rates
+from continuum.kinematics.discs import even_bends
 from continuum.kinematics.routing import cables_through, section_length_rates, section_lengths
 from continuum_manipulator.section_joints import joint_names, read_joints
 from continuum_msgs.msg import CableStates, ConfigStates
@@ -99,6 +101,27 @@ def test_unknown_velocity_stays_unknown(bench):
     (answer,) = bench.answers([joint_state(1, w[0])])
     assert not answer.velocity
     assert all(math.isnan(getattr(bench.configs[0], f"{name}_rate")) for name in ("u", "v", "s", "phi", "theta"))
+
+
+def test_cables_are_those_of_the_single_joints(bench):
+    """Lengths of the lines through the discs, and their slope; the configuration is that of the joints' sum."""
+    random, step = np.random.default_rng(5), 1e-4
+    phi, phi_rate = random.uniform(-3, 3), 0.4
+    thetas, theta_rates = random.uniform(-0.3, 0.3, SECTION.n_joints), random.uniform(-1, 1, SECTION.n_joints)
+
+    def lengths_at(time: float) -> np.ndarray:
+        bends = [even_bends(np.zeros(2), section) for section in ARM.sections]
+        bends[NUMBER - 1] = allen_from_jones(np.float64(phi + time * phi_rate), thetas + time * theta_rates)
+        lines = [line.points for line in cable_lines(bends, ARM) if line.section == NUMBER - 1]
+        return np.array([np.linalg.norm(np.diff(points, axis=0), axis=1).sum() for points in lines])
+
+    message = JointState(name=[SECTION.phi_joint, *SECTION.theta_joints], position=[phi, *thetas])
+    message.velocity, message.header.stamp = [phi_rate, *theta_rates], stamp(1)
+    (answer,) = bench.answers([message])
+    np.testing.assert_allclose(answer.position, lengths_at(0.0), rtol=1e-12)
+    np.testing.assert_allclose(answer.velocity, (lengths_at(step) - lengths_at(-step)) / (2 * step), atol=1e-8)
+    np.testing.assert_allclose([bench.configs[0].u, bench.configs[0].v], allen_from_jones(phi, thetas.sum()))
+    assert np.abs(answer.position - section_lengths(allen_from_jones(phi, thetas.sum()), ARM, NUMBER - 1)).max() > 1e-5
 
 
 def test_bad_joint_states_are_dropped_counted_told_in_two_lines_and_survived(bench):

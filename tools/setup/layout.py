@@ -5,6 +5,9 @@ from pathlib import Path
 SETUP = Path(__file__).resolve().parent
 ROOT = SETUP.parent.parent
 
+MISSING = SETUP / "missing"
+"""Packages of ROS 2 that no wheel has. Colcon does not enter the folder unless it is given a package of it."""
+
 REQUIREMENTS = SETUP / "requirements.in"
 LOCK = SETUP / "requirements.lock"
 
@@ -30,5 +33,12 @@ def tool_pins() -> list[Path]:
 
 
 def package_folders() -> list[Path]:
-    """Return the ROS packages of the checkout, by name."""
-    return sorted(path.parent for path in ROOT.glob("*/package.xml"))
+    """Return the ROS packages to build: those of the checkout, and those of ROS 2 that the lock has no wheel of."""
+    locked = LOCK.read_text(encoding="utf-8")
+    missing = [path for path in _packages_in(MISSING) if f"\nros-jazzy-{path.name.replace('_', '-')}==" not in locked]
+    return [*_packages_in(ROOT), *missing]
+
+
+def _packages_in(folder: Path) -> list[Path]:
+    """Return the packages right under a folder, by name."""
+    return sorted(path.parent for path in folder.glob("*/package.xml"))

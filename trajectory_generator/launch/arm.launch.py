@@ -83,7 +83,7 @@ def generate_launch_description() -> LaunchDescription:
                 "tip",
                 default_value="false",
                 choices=list(BOOLEANS),
-                description="pose and twist of the tip, of the joints",
+                description="pose and twist of the tip and, without RViz, the frames of all discs, of the joints",
             ),
             DeclareLaunchArgument(
                 "rviz", default_value="false", choices=list(BOOLEANS), description="RViz with the arm"
@@ -134,7 +134,8 @@ def nodes(context: LaunchContext) -> list[Node | IncludeLaunchDescription]:
     if is_true(given["markers"]):
         started += [node("markers", "markers", arm_file)]
     if is_true(given["tip"]):
-        started += [node("forward_kinematics", "forward_kinematics", arm_file)]
+        frames = {"publish_tf": not is_true(given["rviz"])}  # with RViz, robot_state_publisher has the same frames
+        started += [node("forward_kinematics", "forward_kinematics", arm_file, frames)]
         needed += ["forward_kinematics"]
     if given["record"]:
         folder = ParameterValue(str(Path(given["record"]).expanduser().absolute()), value_type=str)

@@ -95,24 +95,39 @@ def check_values(arm, asked, cables, joints, instants) -> None:
         np.testing.assert_allclose([moved[i] for i in range(arm.n_sections)], w, atol=1e-6)
 
 
-def test_rviz_shows_the_arm_of_the_file(tmp_path):
-    """With stand-ins for the two packages that no wheel has; nothing is started."""
+@pytest.fixture
+def desktop(tmp_path, monkeypatch):
+    """Stand-ins that do nothing for the two packages that no wheel has."""
     for package in ("robot_state_publisher", "rviz2"):
         marker = tmp_path / "share" / "ament_index" / "resource_index" / "packages" / package
         program = tmp_path / "lib" / package / package
         for path in (marker, program):
             path.parent.mkdir(parents=True, exist_ok=True)
             path.touch()
+        program.write_text("#!/bin/sh\nexec sleep 1000\n")
         program.chmod(0o755)
-    prefixes = os.pathsep.join([str(tmp_path), os.environ["AMENT_PREFIX_PATH"]])
+    monkeypatch.setenv("AMENT_PREFIX_PATH", os.pathsep.join([str(tmp_path), os.environ["AMENT_PREFIX_PATH"]]))
+
+
+def test_rviz_shows_the_arm_of_the_file(desktop, tmp_path):
+    """Nothing is started."""
     done = subprocess.run(
         ["ros2", "launch", "--print", LAUNCH, f"arm:={write_arm(tmp_path, 4)}", "rviz:=true"],
-        env=os.environ | {"AMENT_PREFIX_PATH": prefixes}, capture_output=True, text=True,
+        capture_output=True, text=True,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     names = [line.partition(":")[0] for line in done.stdout.splitlines()]
     sections = [f"section_{number}" for number in range(1, 5)]
     assert names == [*sections, "robot", "cable_tangler", "markers", "robot_state_publisher", "rviz2"]
+
+
+@pytest.mark.parametrize("rviz", ["true", "false"])
+def test_one_node_alone_publishes_the_frames(rviz, desktop, domain, tmp_path):
+    """With RViz it is robot_state_publisher."""
+    with launched(domain, tmp_path, f"arm:={write_arm(tmp_path, 1)}", "tip:=true", f"rviz:={rviz}") as launch:
+        launch.wait_for("takes joint_states; gives tip_pose, tip_twist")
+        (line,) = (line for line in launch.said.splitlines() if "gives tip_pose, tip_twist" in line)
+        assert line.endswith(", /tf") is (rviz == "false")
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])

@@ -16,6 +16,7 @@ what you can do next:
   continuum import-dot 1.csv 2.csv 3.csv 4.csv 5.csv --out run_1.csv ..   joint angles of exported sensor data
   continuum diagnose run_1.csv run_2.csv       what the simulation gets wrong about recordings, and why
   continuum identify run_1.csv run_2.csv --validate 2   springs and friction of an arm, and how well they predict
+  continuum curvature run_1.csv --picture X.png   how the arm is bent at rest: constant curvature or the dynamic model?
   continuum report RECORDING --arm ARM.yaml    tracking error, cable rates and losses of a recorded run
 
   ros2 launch trajectory_generator arm.launch.py                  the nodes of an arm
@@ -71,7 +72,7 @@ def _run(arguments: list[str]) -> int:
     """Parse and run; what takes time to import is imported here, where an interrupt is caught."""
     import argparse
 
-    from continuum.cli import diagnose, identify, import_dot, info, model, report, simulate, solve, view
+    from continuum.cli import curvature, diagnose, identify, import_dot, info, model, report, simulate, solve, view
     from continuum.cli.negative_numbers import written_out
     from continuum.errors import ContinuumError
 
@@ -82,7 +83,7 @@ def _run(arguments: list[str]) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command", required=True)
-    for command in (info, solve, model, simulate, import_dot, identify, diagnose, report, view):
+    for command in (info, solve, model, simulate, import_dot, identify, curvature, diagnose, report, view):
         command.add_to(commands)
     options, unknown = parser.parse_known_args(written_out(arguments))
     if unknown:  # the command's own usage is the one that helps

@@ -10,8 +10,11 @@ Eq. 4, 5              section/eq04_pose.py, section/eq05_configuration_from_poin
 Eqs. 20, 21, 22       section/eq21_jacobian.py, section/eq22_rates_from_point.py
 Eqs. 8, 9, 25, 26     cables/eq08_lengths.py, cables/eq09_..., cables/eq26_rates.py
 Eqs. 10, 11           chain/eq10_pose.py, chain/eq11_jacobian.py
+Eq. 11, J_xq          cable_twist.py (rates of the cables to the twist of the tip)
 chapter 2.2.3         routing.py (tangle, untangle), fabrikc.py (inverse kinematics)
 ====================  ==================================================================
 
-All functions take arrays with any leading axes, so a whole trajectory is one call.
+cable_estimate.py estimates configurations from measured lengths; joint_chain.py and discs.py take single joints.
+
+The maps take arrays with any leading axes, so a whole trajectory is one call.
 """

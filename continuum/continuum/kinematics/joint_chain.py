@@ -1,6 +1,6 @@
-"""Forward kinematics of an arm whose joints bend by different angles: every joint a section of its own.
+"""Forward kinematics and cable lengths of an arm whose joints bend by different angles: every joint is a section.
 
-Eqs. 4, 10, 20, 21 and 11 hold for sections of one joint too, and the arm is the chain of these.
+Eqs. 4, 8, 10, 20, 21, 11 and 26 hold for sections of one joint too, and the arm is the chain of these.
 """
 
 from __future__ import annotations
@@ -12,7 +12,10 @@ import numpy as np
 
 from continuum.arm import Arm
 from continuum.arrays import Array
+from continuum.kinematics.cables.eq08_lengths import chords
+from continuum.kinematics.cables.eq26_rates import chord_slopes
 from continuum.kinematics.chain import arm_jacobian, arm_pose
+from continuum.kinematics.routing import cables_through
 
 
 def joint_chain(arm: Arm) -> Arm:
@@ -47,3 +50,22 @@ def tip_twist(bends: Sequence[Array], rates: Sequence[Array], chain: Arm) -> Arr
     """
     w = np.concatenate(bends)
     return np.asarray(arm_jacobian(w, chain) @ np.concatenate(rates).reshape(-1))
+
+
+def lengths_of_joints(bends: Array, arm: Arm, index: int) -> Array:
+    """Lengths (..., n_cables through it) [m] within section ``index``: at every joint the chord of Eq. 8, summed.
+
+    Args:
+        bends: of the section's joints (..., n_joints, 2) [rad].
+        arm: the arm.
+        index: of the section, 0 at the base.
+    """
+    routing = cables_through(arm, index)
+    return np.asarray(chords(bends, arm.sections[index].b, 1, routing.a, routing.azimuths).sum(axis=-2))
+
+
+def length_rates_of_joints(bends: Array, rates: Array, arm: Arm, index: int) -> Array:
+    """Rates (..., n_cables through it) [m/s] of `lengths_of_joints`, at ``rates`` (..., n_joints, 2) [rad/s]."""
+    routing = cables_through(arm, index)
+    slopes = chord_slopes(bends, arm.sections[index].b, 1, routing.a, routing.azimuths)
+    return np.asarray((slopes @ rates[..., None])[..., 0].sum(axis=-2))

@@ -7,6 +7,7 @@ arm: seen from a proximal section their azimuth is turned by the twists between.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from continuum.kinematics.cables import (
     configuration_cable_jacobian,
     configuration_from_cables,
 )
+from continuum.kinematics.cables.eq08_lengths import chords
+from continuum.kinematics.cables.eq26_rates import chord_slopes
 
 
 @dataclass(frozen=True)
@@ -61,16 +64,54 @@ def section_length_rates(w: Array, w_rate: Array, arm: Arm, index: int) -> Array
     return _apply(cable_jacobian(w, arm.sections[index], routing.a, routing.azimuths), w_rate)
 
 
+@dataclass(frozen=True)
+class ArmRouting:
+    """All cables in all sections, (n_sections, n_cables); a cable that ends before a section is zero there.
+
+    Attributes:
+        b: distance disc to joint [m].
+        n_joints: number of joints (n_sections, 1).
+        a: radii of the holes [m].
+        azimuths: in the section's frame [rad].
+    """
+
+    b: Array
+    n_joints: Array
+    a: Array
+    azimuths: Array
+
+
+@lru_cache
+def arm_routing(arm: Arm) -> ArmRouting:
+    """The routing of a whole arm; kept, since a stream of messages asks for it again and again."""
+    b, a, azimuths = np.zeros((3, arm.n_sections, len(arm.cable_names)))
+    for i, section in enumerate(arm.sections):
+        routing = cables_through(arm, i)
+        n = len(routing.names)
+        b[i, -n:], a[i, -n:], azimuths[i, -n:] = section.b, routing.a, routing.azimuths
+    return ArmRouting(b, np.array([[float(section.n_joints)] for section in arm.sections]), a, azimuths)
+
+
 def tangle(w: Array, arm: Arm) -> Array:
     """Total lengths (..., n_cables of the arm) [m], base to anchor, at ``w`` (..., n_sections, 2) [rad]."""
-    parts = [section_lengths(w[..., i, :], arm, i) for i in range(arm.n_sections)]
-    return _sum_over_sections(parts, arm)
+    routing = arm_routing(arm)
+    totals: Array = chords(w, routing.b, routing.n_joints, routing.a, routing.azimuths).sum(axis=-2)
+    return totals
+
+
+def tangle_jacobian(w: Array, arm: Arm) -> Array:
+    """Slopes of the total lengths, (..., n_cables of the arm, 2 n_sections) [m/rad], at ``w`` (..., n_sections, 2).
+
+    Columns: u, v of section 1, of section 2, ... A cable that ends before a section does not depend on it.
+    """
+    routing = arm_routing(arm)
+    blocks = np.moveaxis(chord_slopes(w, routing.b, routing.n_joints, routing.a, routing.azimuths), -3, -2)
+    return blocks.reshape(*blocks.shape[:-2], -1)
 
 
 def tangle_rates(w: Array, w_rate: Array, arm: Arm) -> Array:
     """Rates of the total lengths (..., n_cables of the arm) [m/s], at ``w`` [rad] moving at ``w_rate`` [rad/s]."""
-    parts = [section_length_rates(w[..., i, :], w_rate[..., i, :], arm, i) for i in range(arm.n_sections)]
-    return _sum_over_sections(parts, arm)
+    return _apply(tangle_jacobian(w, arm), w_rate.reshape(*w_rate.shape[:-2], -1))
 
 
 def untangle(totals: Array, arm: Arm) -> Array:
@@ -79,13 +120,14 @@ def untangle(totals: Array, arm: Arm) -> Array:
     The first section's cables belong to it alone and give its configuration; that gives what the others spend in it;
     taken off, the second section's cables are its own; and so on to the tip.
     """
+    routing = arm_routing(arm)
     left = np.array(totals, dtype=float)
-    configurations = []
+    configurations, first = [], 0
     for i, section in enumerate(arm.sections):
-        own = left[..., : len(section.cable_azimuths)]
-        configurations.append(configuration_from_cables(own, section))
-        spent = section_lengths(configurations[-1], arm, i)
-        left = (left - spent)[..., len(section.cable_azimuths) :]
+        after = first + len(section.cable_azimuths)
+        configurations.append(configuration_from_cables(left[..., first:after], section))
+        left -= chords(configurations[-1], routing.b[i], routing.n_joints[i], routing.a[i], routing.azimuths[i])
+        first = after
     return np.stack(configurations, axis=-2)
 
 
@@ -100,16 +142,6 @@ def untangle_rates(totals: Array, total_rates: Array, arm: Arm) -> Array:
         left = (left - section_lengths(w, arm, i))[..., n_own:]
         left_rates = (left_rates - section_length_rates(w, rates[-1], arm, i))[..., n_own:]
     return np.stack(rates, axis=-2)
-
-
-def _sum_over_sections(parts: list[Array], arm: Arm) -> Array:
-    """Sum what the cables spend in every section; a section's part misses the cables that end before it."""
-    totals = parts[0].copy()
-    first = 0
-    for section, part in zip(arm.sections, parts[1:], strict=False):
-        first += len(section.cable_azimuths)
-        totals[..., first:] += part
-    return totals
 
 
 def _apply(jacobian: Array, rate: Array) -> Array:

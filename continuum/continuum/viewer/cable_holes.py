@@ -7,15 +7,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from continuum.arm import Arm, Section
+from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.cable_colours import cable_colour
 from continuum.kinematics.routing import cables_through
-
-
-def disc_links(section: Section) -> list[str]:
-    """Links on which the section's cables are held, from its base to its tip: frames that do not turn with phi."""
-    return [section.base_frame, *(f"{section.name}_disc_{k}" for k in range(1, section.n_joints)), section.tip_frame]
 
 
 class CableHoles:
@@ -43,7 +38,7 @@ class CableHoles:
         cables: list[str] = []
         colour_of = {name: cable_colour(j) for section in arm.sections for j, name in enumerate(section.cable_names)}
         for i, section in enumerate(arm.sections):
-            discs = [number[link] for link in disc_links(section)]
+            discs = [number[link] for link in section.disc_frames]
             routing = cables_through(arm, i)
             for name, a, azimuth in zip(routing.names, routing.a, routing.azimuths, strict=True):
                 if (name not in section.cable_names) is passing:

@@ -29,3 +29,11 @@ REPORT = QoSProfile(
     depth=10,
 )
 """ROS's usual setting, for diagnostics and markers: only the latest matter."""
+
+TRANSFORMS = QoSProfile(
+    reliability=QoSReliabilityPolicy.RELIABLE,
+    durability=QoSDurabilityPolicy.VOLATILE,
+    history=QoSHistoryPolicy.KEEP_LAST,
+    depth=100,
+)
+"""For ``/tf``, as tf2's broadcaster publishes."""

@@ -18,7 +18,9 @@ def setup_arguments(package: Path) -> dict[str, ast.expr]:
 
 
 def test_all_packages_are_seen() -> None:
-    assert len(package_folders()) == len(list(ROOT.glob("*/package.xml"))) >= 6
+    at_the_top = {path.parent for path in ROOT.glob("*/package.xml")}
+    assert at_the_top <= set(package_folders())
+    assert len(at_the_top) >= 6
 
 
 @pytest.mark.parametrize("package", PYTHON_PACKAGES, ids=lambda path: path.name)

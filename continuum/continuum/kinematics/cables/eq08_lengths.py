@@ -23,9 +23,16 @@ def cable_lengths(w: Array, section: Section, a: Array | None = None, azimuths: 
         a: radius of each cable's holes, (n_cables,) [m]; the section's own without it.
         azimuths: azimuth of each cable in the section's frame, (n_cables,) [rad]; the section's own without it.
     """
-    a, azimuths = cable_holes(section, a, azimuths)
-    x = bend(w)[..., None] / (2 * section.n_joints)
-    return section.length * np.cos(x) - a * sinc(x) * bend_towards(w, azimuths)
+    return chords(w, section.b, section.n_joints, *cable_holes(section, a, azimuths))
+
+
+def chords(w: Array, b: Array | float, n_joints: Array | float, a: Array, azimuths: Array) -> Array:
+    """Sums (..., n_cables) [m] of a section's ``n_joints`` chords at ``w`` (..., 2) [rad].
+
+    ``b``, ``a`` [m] and ``azimuths`` [rad] are (..., n_cables) and ``n_joints`` (..., 1), or one number for all.
+    """
+    x = bend(w)[..., None] / (2 * n_joints)
+    return 2 * n_joints * b * np.cos(x) - a * sinc(x) * bend_towards(w, azimuths)
 
 
 def bend_towards(w: Array, azimuths: Array) -> Array:

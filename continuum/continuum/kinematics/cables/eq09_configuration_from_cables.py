@@ -7,6 +7,8 @@ and C = 2 n_j b cos x. Three cables or more give (X, Y, C) by linear least squar
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from continuum.arm import Section
@@ -29,8 +31,12 @@ def configuration_cable_jacobian(lengths: Array, section: Section) -> Array:
     return section.n_joints * configuration_from_point_jacobian(lengths @ matrix.T) @ matrix
 
 
+@lru_cache
 def _point_of_lengths(section: Section) -> Array:
-    """Matrix (3, n_cables) that gives (X, Y, C / b), the direction of one module's chord, from the cables' lengths."""
+    """Matrix (3, n_cables) that gives (X, Y, C / b), the direction of one module's chord, from the cables' lengths.
+
+    It is kept, since a stream of messages asks for it again and again.
+    """
     azimuths = np.asarray(section.cable_azimuths)
     measured = np.stack(
         [-section.a * np.cos(azimuths), -section.a * np.sin(azimuths), np.full_like(azimuths, section.b)], axis=-1

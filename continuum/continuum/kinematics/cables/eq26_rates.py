@@ -13,10 +13,14 @@ from continuum.kinematics.smooth_functions import sinc, sinc_slope
 
 def cable_jacobian(w: Array, section: Section, a: Array | None = None, azimuths: Array | None = None) -> Array:
     """Slopes d length / d(u, v), (..., n_cables, 2) [m/rad], at ``w`` (..., 2) [rad]; arguments as for Eq. 8."""
-    a, azimuths = cable_holes(section, a, azimuths)
-    n = section.n_joints
+    return chord_slopes(w, section.b, section.n_joints, *cable_holes(section, a, azimuths))
+
+
+def chord_slopes(w: Array, b: Array | float, n_joints: Array | float, a: Array, azimuths: Array) -> Array:
+    """Slopes (..., n_cables, 2) [m/rad] of :func:`~continuum.kinematics.cables.eq08_lengths.chords`; same arguments."""
+    n = n_joints
     x = bend(w)[..., None] / (2 * n)
     towards = np.stack([-np.sin(azimuths), np.cos(azimuths)], axis=-1)
-    along_bend = -section.b * sinc(x) / (2 * n) - a * sinc_slope(x) / (4 * n * n) * bend_towards(w, azimuths)
+    along_bend = -b * sinc(x) / (2 * n) - a * sinc_slope(x) / (4 * n * n) * bend_towards(w, azimuths)
     jacobian: Array = along_bend[..., None] * w[..., None, :] - (a * sinc(x))[..., None] * towards
     return jacobian

@@ -1,0 +1,187 @@
+"""Configurations of all sections from measured total lengths of the arm's cables: Eq. 9 for noisy lengths of many.
+
+Measured lengths have independent normal errors of one standard deviation, so the most likely configurations are those
+of least squares over all cables. Gauss-Newton starts from the answer of `untangle`; a step that does not lower the sum
+of squares is damped (Levenberg-Marquardt). Cables that pass a section count as much as those that actuate it, unlike in
+`untangle`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import chdtrc
+
+from continuum.arm import Arm
+from continuum.arrays import Array
+from continuum.errors import InvalidValueError
+from continuum.kinematics.routing import tangle, tangle_jacobian, untangle
+
+FEWEST_CABLES = 3
+"""Measured cables that a section needs: two fix its configuration, a third tells whether they agree."""
+
+TOLERANCE = 5.0
+"""Largest residual that counts as noise unless another is given, in standard deviations of a length.
+
+A normal error exceeds it once in 1.7 million, and a residual varies less than the error of its length, which the fit
+follows in part.
+"""
+
+IMPROBABLE = 1e-6
+"""Probability of a larger chi-square below which lengths are inconsistent: one false alarm in two hours at 120 Hz."""
+
+_STEP = 1e-4  # the last step changes no length by more, in standard deviations or, where larger, largest residuals
+_MOST_ITERATIONS = 50  # noise takes 5 at most; lengths that no posture has may take more than these
+
+
+class EstimateStatus(IntEnum):
+    """What became of an estimate."""
+
+    CONVERGED = 0
+    """These are the most likely configurations, and the lengths agree with them."""
+    INCONSISTENT = 1
+    """No residual is beyond the tolerance, but chi-square is larger than noise of this size explains."""
+    BEYOND_TOLERANCE = 2
+    """A residual is beyond the tolerance: no posture was found that has these lengths."""
+    NO_CONVERGENCE = 3
+    """No residual is beyond the tolerance, but a minimum was not reached."""
+    UNDETERMINED = 4
+    """A section has fewer than three measured cables, or lengths that do not fix it: there are no configurations."""
+
+
+@dataclass(frozen=True)
+class CableEstimate:
+    """Configurations of the sections, their covariance, and what of the lengths they leave unexplained.
+
+    Attributes:
+        status: what became of it.
+        w: configurations (n_sections, 2) [rad]; NaN where undetermined. They may be beyond bend limits.
+        covariance: of u, v of section 1, of section 2, ..., (2 n_sections, 2 n_sections) [rad^2].
+        residuals: measured minus estimated total length of each cable (n_cables,) [m]; NaN where not measured.
+        chi_square: sum of (residual / sd)^2.
+        degrees_of_freedom: measured cables less two for each section.
+        iterations: steps of the descent.
+    """
+
+    status: EstimateStatus
+    w: Array
+    covariance: Array
+    residuals: Array
+    chi_square: float
+    degrees_of_freedom: int
+    iterations: int
+
+    def section_covariance(self, index: int) -> Array:
+        """Covariance (2, 2) [rad^2] of u and v of section ``index`` (0 at the base)."""
+        of_section = slice(2 * index, 2 * index + 2)
+        return self.covariance[of_section, of_section]
+
+
+def estimate_configuration(totals: ArrayLike, arm: Arm, sd: float, tolerance: float | None = None) -> CableEstimate:
+    """Maximum likelihood estimate of all configurations from measured total lengths.
+
+    Args:
+        totals: measured lengths (n_cables,) [m] from the base to each cable's anchor, as `tangle` gives them; NaN where
+            a cable was not measured.
+        arm: the arm.
+        sd: standard deviation of a measured length [m].
+        tolerance: largest residual that counts as noise [m]; `TOLERANCE` times ``sd`` without it.
+
+    Raises:
+        InvalidValueError: another number of lengths, an infinite one, or a standard deviation that is none.
+    """
+    totals = np.asarray(totals, dtype=float)
+    if totals.shape != (len(arm.cable_names),) or np.isinf(totals).any():
+        raise InvalidValueError("totals", totals.tolist(), f"{len(arm.cable_names)} lengths, NaN where not measured")
+    if not 0.0 < sd < np.inf:
+        raise InvalidValueError("sd", sd, "more than 0 m, finite")
+    known = ~np.isnan(totals)
+    measured = arm_of_cables(arm, tuple(known.tolist()))
+    if measured is None:
+        return _undetermined(arm, totals)
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):
+            fit = _least_squares(totals[known], measured, sd)
+            covariance = sd**2 * np.linalg.inv(fit.jacobian.T @ fit.jacobian)
+            chi_square = float(np.sum((fit.residuals / sd) ** 2))
+    except np.linalg.LinAlgError:
+        return _undetermined(arm, totals)
+    residuals = np.full(totals.shape, np.nan)
+    residuals[known] = fit.residuals
+    freedom = len(fit.residuals) - fit.w.size
+    if not np.abs(fit.residuals).max() <= (TOLERANCE * sd if tolerance is None else tolerance):
+        status = EstimateStatus.BEYOND_TOLERANCE
+    elif not fit.converged:
+        status = EstimateStatus.NO_CONVERGENCE
+    elif chdtrc(freedom, chi_square) < IMPROBABLE:
+        status = EstimateStatus.INCONSISTENT
+    else:
+        status = EstimateStatus.CONVERGED
+    return CableEstimate(status, fit.w, covariance, residuals, chi_square, freedom, fit.iterations)
+
+
+@lru_cache
+def arm_of_cables(arm: Arm, known: tuple[bool, ...]) -> Arm | None:
+    """The arm with those of its cables alone that are ``known``; None where a section keeps fewer than three."""
+    if all(known):
+        return arm
+    sections, first = [], 0
+    for section in arm.sections:
+        actuating = known[first : first + len(section.cable_azimuths)]
+        first += len(actuating)
+        azimuths = tuple(azimuth for azimuth, one in zip(section.cable_azimuths, actuating, strict=True) if one)
+        if len(azimuths) < FEWEST_CABLES:
+            return None
+        sections.append(replace(section, cable_azimuths=azimuths))
+    return Arm(tuple(sections))
+
+
+class _Fit(NamedTuple):
+    """Configurations (n_sections, 2) [rad], with residuals (n_cables,) [m] and their jacobian there."""
+
+    w: Array
+    residuals: Array
+    jacobian: Array
+    iterations: int
+    converged: bool
+
+
+def _least_squares(totals: Array, arm: Arm, sd: float) -> _Fit:
+    """The minimum of the sum of squares.
+
+    Raises:
+        LinAlgError: the lengths do not fix all configurations.
+    """
+    w, damping = untangle(totals, arm), 0.0
+    residuals, jacobian = totals - tangle(w, arm), tangle_jacobian(w, arm)
+    for iteration in range(1, _MOST_ITERATIONS + 1):
+        normal = jacobian.T @ jacobian
+        step = np.linalg.solve(normal + damping * np.diag(normal.diagonal()), jacobian.T @ residuals)
+        new_w = w + step.reshape(w.shape)
+        new_residuals = totals - tangle(new_w, arm)
+        undamped_change = (1.0 + damping) * np.abs(jacobian @ step).max()
+        if undamped_change <= _STEP * max(sd, np.abs(residuals).max()):
+            return _Fit(new_w, new_residuals, jacobian, iteration, converged=True)
+        if new_residuals @ new_residuals < residuals @ residuals:
+            w, residuals, jacobian, damping = new_w, new_residuals, tangle_jacobian(new_w, arm), 0.1 * damping
+        else:
+            damping = max(10.0 * damping, 1e-3)
+    return _Fit(w, residuals, jacobian, _MOST_ITERATIONS, converged=False)
+
+
+def _undetermined(arm: Arm, totals: Array) -> CableEstimate:
+    size = 2 * arm.n_sections
+    return CableEstimate(
+        status=EstimateStatus.UNDETERMINED,
+        w=np.full((arm.n_sections, 2), np.nan),
+        covariance=np.full((size, size), np.nan),
+        residuals=np.full(totals.shape, np.nan),
+        chi_square=np.nan,
+        degrees_of_freedom=int(np.count_nonzero(~np.isnan(totals))) - size,
+        iterations=0,
+    )

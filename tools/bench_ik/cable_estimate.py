@@ -1,0 +1,129 @@
+"""Configurations estimated from cable lengths with an encoder's noise: how far off, how often refused, and how fast.
+
+    python3 -m tools.bench_ik.cable_estimate
+
+Overwrites two tables of docs/cable-estimate.md. Arms of 1 to 6 sections of the prototype stand in random postures, bent
+up to 0.8 of their limits, so that the noise moves none of them beyond.
+"""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from continuum.arm import Arm
+from continuum.arrays import Array
+from continuum.kinematics.cable_estimate import CableEstimate, EstimateStatus, estimate_configuration
+from continuum.kinematics.configuration import allen_from_jones, bend
+from continuum.kinematics.routing import tangle
+from tools.bench_ik.sample import prototype_arm
+from tools.markdown import replace_between, table
+
+PAGE = Path("docs/cable-estimate.md")
+BEGIN, END = "<!-- {} made by `python3 -m tools.bench_ik.cable_estimate` -->", "<!-- end of {} -->"
+POSTURES, SECTIONS, CABLES = 500, range(1, 7), (3, 4, 6)
+NOISE = (0.0, 0.5e-3, 1e-3, 2e-3, 3e-3)  # standard deviations [m]
+LEAST_SD = 1e-6  # what the node `cable_estimator` permits [m]
+PART_OF_LIMIT = 0.8
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Estimates of one arm's postures (n, n_sections, 2) [rad], and what each took [s]."""
+
+    arm: Arm
+    postures: Array
+    estimates: list[CableEstimate]
+    times: list[float]
+
+    @property
+    def refused(self) -> int:
+        """Estimates that the node `cable_estimator` does not publish: lengths that do not fit, a limit crossed."""
+        limits = [section.bend_limit for section in self.arm.sections]
+        published = (EstimateStatus.CONVERGED, EstimateStatus.INCONSISTENT)
+        return sum(one.status not in published or bool(np.any(bend(one.w) > limits)) for one in self.estimates)
+
+    @property
+    def error(self) -> float:
+        """Root mean square error of a coordinate [rad]."""
+        return float(np.sqrt(np.mean([(one.w - w) ** 2 for one, w in zip(self.estimates, self.postures, strict=True)])))
+
+    @property
+    def expected(self) -> float:
+        """The same, as the covariances say [rad]."""
+        return float(np.sqrt(np.mean([one.covariance.diagonal() for one in self.estimates])))
+
+    @property
+    def reduced_chi_square(self) -> float:
+        """Mean chi-square over its degrees of freedom."""
+        return float(np.mean([one.chi_square for one in self.estimates])) / self.estimates[0].degrees_of_freedom
+
+
+def main() -> None:
+    trials = {(noise, cables): [trial(n, cables, noise) for n in SECTIONS] for cables in CABLES for noise in NOISE}
+    parts = {"sweep": sweep_table(trials.items()), "times": time_table(trials)}
+    for name, text in parts.items():
+        print(text, end="\n\n")
+        replace_between(PAGE, BEGIN.format(name), END.format(name), text)
+
+
+def trial(n_sections: int, n_cables: int, noise: float) -> Trial:
+    random = np.random.default_rng([n_sections, n_cables])
+    azimuths = tuple(2 * np.pi * j / n_cables for j in range(n_cables))
+    arm = Arm(tuple(replace(section, cable_azimuths=azimuths) for section in prototype_arm(n_sections).sections))
+    limits = PART_OF_LIMIT * np.array([section.bend_limit for section in arm.sections])
+    shape = (POSTURES, n_sections)
+    postures = allen_from_jones(random.uniform(-np.pi, np.pi, shape), random.uniform(0.0, limits, shape))
+    lengths = tangle(postures, arm)
+    lengths = lengths + noise * random.normal(size=lengths.shape)
+    estimates, times = [], []
+    for one in lengths:
+        began = time.thread_time()
+        estimates.append(estimate_configuration(one, arm, max(noise, LEAST_SD)))
+        times.append(time.thread_time() - began)
+    return Trial(arm, postures, estimates, times)
+
+
+def sweep_table(trials: Iterable[tuple[tuple[float, int], list[Trial]]]) -> str:
+    head = (
+        "cables of a section", "noise [mm]", "estimates", "refused", "expected [°], 1 section", "6 sections",
+        "largest ratio of error to expected", "mean chi-square over degrees of freedom", "largest residual over noise",
+        "most steps",
+    )  # fmt: skip
+    rows = [(str(cables), f"{1e3 * noise:g}", *_figures(noise, some)) for (noise, cables), some in trials]
+    return table(head, rows)
+
+
+def _figures(noise: float, trials: list[Trial]) -> tuple[str, ...]:
+    estimates = [one for some in trials for one in some.estimates]
+    steps = str(max(one.iterations for one in estimates))
+    counts = str(len(estimates)), str(sum(one.refused for one in trials))
+    if noise == 0.0:
+        return *counts, "", "", f"errors up to {max(one.error for one in trials):.0e} rad", "", "", steps
+    chi_squares = [one.reduced_chi_square for one in trials]
+    return (
+        *counts,
+        *(f"{np.degrees(one.expected):.2f}" for one in (trials[0], trials[-1])),
+        f"{max(one.error / one.expected for one in trials):.2f}",
+        f"{min(chi_squares):.2f} to {max(chi_squares):.2f}",
+        f"{max(np.abs(one.residuals).max() for one in estimates) / noise:.1f}",
+        steps,
+    )
+
+
+def time_table(trials: dict[tuple[float, int], list[Trial]]) -> str:
+    """At the largest noise, which takes the most steps."""
+    rows = []
+    for i, n in enumerate(SECTIONS):
+        times = [statistics.median(trials[NOISE[-1], cables][i].times) for cables in CABLES]
+        rows.append((str(n), *(f"{1e6 * one:.0f}" for one in times)))
+    return table(("sections", *(f"{cables} cables [us]" for cables in CABLES)), rows)
+
+
+if __name__ == "__main__":
+    main()
