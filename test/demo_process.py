@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 class DemoProcess:
-    """A demo that runs, with its results in ``folder``. As a context it is ended with all its nodes.
+    """A demo of the nodes that runs, with its results in ``folder``. As a context it is ended with all its nodes.
 
     Args:
         folder: for results.
@@ -26,7 +26,7 @@ class DemoProcess:
         self.folder = folder
         self._mark = Mark()
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "tools.demo", *words],
+            [sys.executable, "-m", "tools.demo", "--helix-only", *words],
             cwd=ROOT,
             env=os.environ | self._mark.environment | {"ROS_DOMAIN_ID": str(domain), "COLUMNS": "80"},
             stdout=subprocess.PIPE,

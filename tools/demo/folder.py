@@ -12,7 +12,10 @@ from pathlib import Path
 
 from tools.demo.errors import DemoError
 
-RESULTS = ("recording", "nodes.log", "viewer.log", "cable_states.csv", "cables.png")
+RESULTS = (
+    *("recording", "nodes.log", "viewer.log", "cable_states.csv", "cables.png"),
+    *("hidden_effect", "hidden_effect.html", "hidden_effect.png", "hidden_effect.yaml", "hidden_effect.log"),
+)
 
 PREVIOUS = "previous"
 """Folder in that of the results, for those of an earlier demo while there are no others."""
