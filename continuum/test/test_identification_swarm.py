@@ -1,5 +1,7 @@
 """The thesis's objective (Eq. 19) and its particle swarm (Table 2)."""
 
+from dataclasses import asdict
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -116,3 +118,11 @@ def test_the_swarm_identifies_and_counts_its_simulations() -> None:
     nominal = np.array([simulator.model.values()[name][0] for name in TRUTH])
     assert np.all(nominal + space.amounts(found.coordinates) <= 3 * nominal)
     assert found.objective == pytest.approx(np.mean([rate_error(simulator, run, at) for run in runs]))
+
+
+def test_the_settings_are_those_of_table_2() -> None:
+    table = {
+        "particles": 20, "iterations": 40, "objective_tolerance": 0.001, "spread_tolerance": 0.0001,
+        "cognitive": 3.0, "social": 2.0, "momentum": 0.1, "constriction": 0.1146,
+    }  # fmt: skip
+    assert asdict(SwarmSettings()) == table
