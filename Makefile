@@ -5,7 +5,7 @@ IN_WORKSPACE := source install/setup.bash &&
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-discovery \
+.PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-curvature bench-discovery \
   bench-inertial bench-link bench-viewer fuzz prototype exams figures equations api check check-old format lock clean seeded-faults
 
 help: ## list the targets
@@ -49,8 +49,11 @@ bench-dynamics: setup ## measure the integrators (6 minutes); overwrites docs/nu
 bench-ik: setup ## measure the inverse kinematics (10 minutes); overwrites docs/ik-benchmark.md unless ARGS say otherwise
 	@$(IN_WORKSPACE) python3 -m tools.bench_ik $(ARGS)
 
-bench-identification: setup ## compare the estimate with the thesis's swarm (3 minutes); overwrites docs/identification.md
+bench-identification: setup ## compare the fit with the thesis's swarm (3 minutes); overwrites docs/identification.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_identification $(ARGS)
+
+bench-curvature: setup ## holds of known truth: how often intervals hold it, and which model is said to be nearer (2 minutes)
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_curvature $(ARGS)
 
 bench-discovery: setup ## hide effects and see what is found; ARGS="--half held-out --minutes 60"; overwrites docs/discovery-benchmark.md
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.bench_discovery $(ARGS)

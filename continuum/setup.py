@@ -1,4 +1,4 @@
-"""What pyproject.toml cannot say: the version of package.xml, every effect's entry point, the files of a ROS package."""
+"""What pyproject.toml cannot say: the version of package.xml, the effects' entry points, files of a ROS package."""
 
 import sys
 from pathlib import Path
@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 
 from setuptools import find_packages, setup
 
-PACKAGE = "continuum"
+package_name = "continuum"
 HERE = Path(__file__).parent
 
 
@@ -21,19 +21,20 @@ def ros_files() -> list[tuple[str, list[str]]]:
     if "bdist_wheel" in sys.argv:
         return []
     return [
-        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
-        (f"share/{PACKAGE}", ["package.xml"]),
+        ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
+        (f"share/{package_name}", ["package.xml"]),
         ("bin", ["bin/continuum"]),
     ]
 
 
 setup(
-    name=PACKAGE,
+    name=package_name,
     version=ElementTree.parse(HERE / "package.xml").findtext("version"),
     packages=find_packages(exclude=["test"]),
     package_data={
         "continuum.dynamics": ["models/*.yaml"],
         "continuum.discovery.report": ["templates/*", "track_record.json"],
+        "continuum.urdf": ["*.xacro"],
     },
     data_files=ros_files(),
     zip_safe=False,

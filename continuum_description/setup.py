@@ -1,4 +1,5 @@
 from glob import glob
+from xml.etree import ElementTree
 
 from setuptools import find_packages, setup
 
@@ -6,7 +7,7 @@ package_name = "continuum_description"
 
 setup(
     name=package_name,
-    version="0.1.0",
+    version=ElementTree.parse("package.xml").findtext("version"),
     packages=find_packages(exclude=["test"]),
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
@@ -23,6 +24,5 @@ setup(
             "create_continuum_robot = continuum_description.create_continuum_robot:main",
             "create_continuum_segment = continuum_description.create_continuum_segment:main",
         ],
-        "continuum.descriptions": ["urdf = continuum_description.robot:urdf_text"],
     },
 )

@@ -29,6 +29,7 @@ PLAIN_PYTHON = {  # what a module is called in package.xml (rosdep's keys)
     "scipy": "python3-scipy",
     "serial": "python3-serial",
     "trimesh": "python3-trimesh-pip",
+    "xacro": "xacro",
     "yaml": "python3-yaml",
     "yourdfpy": "python3-yourdfpy-pip",
 }

@@ -22,6 +22,7 @@ ELSEWHERE = {
     "tools/bench_link/processes.py": "a setting of the kernel",
     "tools/bench_viewer/__main__.py": "in a temporary folder",
     "tools/check_old/__main__.py": "a log of processes",
+    "tools/demo/hidden_process.py": "a log of processes",
     "tools/demo/nodes.py": "a log of processes",
     "tools/demo/viewer.py": "a log of processes",
     "tools/exams/urdf_payload.py": "in a temporary folder",

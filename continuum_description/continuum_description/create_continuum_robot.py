@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from continuum.arm import load_arm
+from continuum.urdf.robot import robot_urdf, robot_xacro, to_text
 from continuum_description.command_line import run_tool, tool_parser
-from continuum_description.robot import robot_urdf, robot_xacro, to_text
 
 _EPILOG = """\
 The parameter file is the one that the nodes read, e.g. config/three_sections.yaml of this package. Lengths are in m,

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 from continuum.arm import SECTION_PARAMETERS, Arm, Section
 from continuum.parameter_spec import ParameterSpec
+from continuum.urdf.robot import BASE_LINK, robot_urdf, robot_xacro, to_text
 from continuum_description.command_line import run_tool, tool_parser
-from continuum_description.robot import BASE_LINK, robot_urdf, robot_xacro, to_text
 
 _EPILOG = """\
 The xacro holds the section alone, to be included where its parent link is made. The URDF makes the parent too.

@@ -10,10 +10,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from continuum.arm import Arm, Section, load_arm
-from continuum_description.robot import robot_urdf, to_text
-from continuum_description.share import share_directory
+from continuum.urdf.robot import robot_urdf, to_text
 
-SHIPPED_ARMS = tuple(sorted((share_directory() / "config").glob("*.yaml")))
+SHIPPED_ARMS = tuple(sorted((Path(__file__).resolve().parents[1] / "config").glob("*.yaml")))
 
 
 def shipped_arms() -> list[Arm]:

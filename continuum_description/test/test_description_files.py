@@ -16,10 +16,9 @@ from continuum.dynamics.model_file import load_model
 from continuum.dynamics.planar.cables import cable_lengths as planar_lengths
 from continuum.kinematics.cables import cable_lengths
 from continuum.kinematics.configuration import allen_from_jones
-from continuum_description.robot import BASE_LINK
-from continuum_description.share import share_directory
+from continuum.urdf.robot import BASE_LINK
 
-SHARE = share_directory()
+SHARE = Path(__file__).resolve().parents[1]
 
 
 def test_prototype_writes_table_1_out() -> None:

@@ -9,7 +9,7 @@ from description_model import Description, arms
 from hypothesis import given, settings
 
 from continuum.arm import Arm, Section
-from continuum_description.robot import robot_urdf
+from continuum.urdf.robot import robot_urdf
 
 pytestmark = pytest.mark.slow
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from continuum.arm import SECTION_PARAMETERS, Arm, Section, load_arm
 from continuum.errors import InvalidValueError
+from continuum.urdf.robot import robot_urdf, to_text
 from continuum_description import create_continuum_robot, create_continuum_segment
-from continuum_description.robot import robot_urdf, to_text
 
 MODULE = ["--name", "section_1", "--n-joints", "3", "--b", "0.01925", "--a", "0.032"]
 THREE_JOINTS = Section("section_1", n_joints=3, b=0.01925, a=0.032, bend_limit=1.5)

@@ -11,9 +11,8 @@ import pytest
 from description_model import SHIPPED_ARMS, shipped_name
 
 from continuum.arm import load_arm
+from continuum.urdf.robot import robot_urdf, to_text
 from continuum_description import create_continuum_robot
-from continuum_description.robot import robot_urdf, to_text
-from continuum_description.share import share_directory
 
 pytestmark = pytest.mark.slow
 
@@ -39,7 +38,7 @@ def moved_share(tmp_path: Path) -> Path:
     prefix = tmp_path / "a place" / "install"
     share = prefix / "share" / "continuum_description"
     for folder in ("urdf", "config"):
-        shutil.copytree(share_directory() / folder, share / folder)
+        shutil.copytree(Path(__file__).resolve().parents[1] / folder, share / folder)
     marker = prefix / "share" / "ament_index" / "resource_index" / "packages" / "continuum_description"
     marker.parent.mkdir(parents=True)
     marker.touch()

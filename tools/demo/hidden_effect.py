@@ -26,6 +26,7 @@ from continuum.discovery.result import Diagnosis
 from continuum.discovery.words import verdict_in_words
 from continuum.dynamics.model_file import load_model, save_model
 from continuum.recordings.recording_csv import read_recording_csv
+from continuum.whole_file import write_figure
 from tools.one_line import in_one_line
 
 MODEL = "lamecc_prototype.yaml"
@@ -50,7 +51,7 @@ def find_hidden_effect(seed: int, out: Path) -> None:
     result = diagnose(recordings, load_model(MODEL), with_power=False)
     page, picture, model = (out / f"{EFFECT}{suffix}" for suffix in (".html", ".png", ".yaml"))
     write_report(result, page, f"Made by make demo, seed {seed}.")
-    result.plot().savefig(picture, dpi=110)
+    write_figure(picture, result.plot(), dpi=110)
     save_model(result.extended_model, model)
     for line in answer(case, result):
         print(line)

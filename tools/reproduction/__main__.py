@@ -9,12 +9,12 @@ import argparse
 import sys
 from pathlib import Path
 
-import numpy as np
-
+from continuum.curvature.figure import write_curvature_figure
+from continuum.curvature.sentences import nearer_in_words
 from continuum.whole_file import write_whole
 from tools.one_line import in_one_line
-from tools.reproduction.bend import bend_by_one_cable
-from tools.reproduction.figures import draw_bend, draw_release
+from tools.reproduction.curvature import compare_curvature
+from tools.reproduction.figures import draw_release
 from tools.reproduction.page import page
 from tools.reproduction.release import over_all, prototype, reproduce_release
 from tools.small_png import shrink
@@ -34,21 +34,23 @@ def main() -> None:
         help="folder of the page and its pictures, which are overwritten; default %(default)s",
     )
     folder: Path = parser.parse_args().out
-    release, bend = reproduce_release(prototype()), bend_by_one_cable()
+    release = reproduce_release(prototype())
+    curvature = compare_curvature(release)
     otherwise = {change: reproduce_release(prototype(**dict([change]))) for change in NOT_PRINTED}
-    as_released = bend_by_one_cable(float(np.abs(release.published.theta[0]).sum()))
     pictures = folder / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
     of_release, of_bend = (pictures / f"reproduction_{name}.png" for name in ("release", "bend"))
     draw_release(release, of_release)
-    draw_bend(bend, of_bend)
+    write_curvature_figure(curvature.measured.each[0], of_bend, "Repetition 7, first measured row")
     for picture in (of_release, of_bend):
         shrink(picture)
-    write_whole(folder / "reproduction.md", page(release, otherwise, bend, as_released))
+    write_whole(folder / "reproduction.md", page(release, otherwise, curvature))
     for name, run in (("from rest", release.from_rest), ("initial rates free", release.thrown)):
         each = release.distance(run)
         print(f"{name}: {over_all(each):.3f} deg rms over all joints, {each.max():.3f} deg the worst joint")
-    print(f"90 degrees by {bend.tension:.1f} N: {np.degrees(bend.pulled).round(1)} deg; written: {folder}")
+    for name, found in (("simulated", curvature.simulated), ("measured", curvature.measured)):
+        print(f"{name} first row: {nearer_in_words(found.each[0])}")
+    print(f"written: {folder}")
 
 
 if __name__ == "__main__":

@@ -7,18 +7,21 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from continuum.arrays import Array
-from tools.reproduction.bend import CAPSTAN_FRICTION, Bend, joint_positions
-from tools.reproduction.release import TABLE_4_POSITION, TABLE_4_VELOCITY, Release, over_all
+from continuum.curvature.comparison import Comparison, Distance
+from continuum.curvature.median_error import SLOW
+from continuum.curvature.sentences import nearer_in_words
+from tools.markdown import paragraph
+from tools.reproduction.curvature import TOTAL_BEND, Curvature
+from tools.reproduction.release import TABLE_4_POSITION, TABLE_4_VELOCITY, Release, over_all, prototype
 
 
-def page(release: Release, otherwise: Mapping[tuple[str, float], Release], bend: Bend, as_released: Bend) -> str:
+def page(release: Release, otherwise: Mapping[tuple[str, float], Release], curvature: Curvature) -> str:
     """The whole page.
 
     Args:
         release: of repetition 7.
         otherwise: the same with another value, by the parameter and the value.
-        bend: of the thesis's chapter 4.3.
-        as_released: the same to the total bend from which repetition 7 was released.
+        curvature: of the thesis's chapter 4.3.
     """
     rest, thrown = release.distance(release.from_rest), release.distance(release.thrown)
     n = rest.size
@@ -31,12 +34,10 @@ def page(release: Release, otherwise: Mapping[tuple[str, float], Release], bend:
         f"| {name} | {release.velocity_nrmse(theta):.3f} | {release.position_nrmse(theta):.3f} |"
         for name, theta in signals.items()
     )
-    released = np.degrees(np.abs(release.published.theta[0]))
-    inside = np.abs(release.published.theta[0])
-    outside = np.flatnonzero((inside < as_released.zone.lower) | (inside > as_released.zone.upper)) + 1
-    p = bend.model.parameters
-    b = float(p.half_spacing[0])
-    even_tip, pulled_tip = (1e3 * joint_positions(theta, b)[-1] for theta in (bend.even, bend.pulled))
+    p = prototype().parameters
+    pulled, returning = curvature.pulled, curvature.returning
+    zone, even = pulled.zone, np.full(n, TOTAL_BEND / n)
+    moved = np.degrees(np.abs(np.diff(release.measured.theta[:2], axis=0))[0])
     joints = _cells(f"joint {i}" for i in range(1, n + 1))
     rates = ", ".join(f"{x:.0f}" for x in np.degrees(release.thrown.theta_rate[0]))
     his = release.velocity_nrmse(release.published.theta)
@@ -81,41 +82,68 @@ The thesis's {TABLE_4_VELOCITY:.2f} of velocity was computed from the gyros' rat
 angles his own simulation gives {his:.2f}. How it normalised positions the thesis does not say: by Eq. 19's rule his own
 simulation does not give what his table prints, so that column shows only that ours and his are alike.
 
-## Chapter 4.3: 90 degrees of total bend by one cable
+## Chapter 4.3: one total bend by one cable
 
-The arm hangs, mu_c = {CAPSTAN_FRICTION:g}, and cable 1 is pulled slowly until the joints' angles add up to 90 degrees:
-{bend.tension:.1f} N. The thesis shows this as Fig. 10 and prints no numbers.
+The arm hangs, mu_c = {p.capstan_friction[0]:g}. Constant curvature bends every joint alike; the dynamic model
+rests at its equilibrium with the same total bend, one cable having been pulled until then. Both are compared by the
+functions of `continuum curvature` ([curvature.md](curvature.md)). At the 90 degrees of Fig. 10, for which the thesis
+prints no numbers:
 
 | joint angle [deg] | {joints} |
 |---|{"---|" * n}
-| constant curvature | {_cells(_degrees(bend.even))} |
-| dynamic model, pulled slowly | {_cells(_degrees(bend.pulled))} |
-| equilibrium with the cable's losses ({bend.resting.load.tension[0]:.1f} N) | {_cells(_degrees(bend.resting.theta))} |
-| smallest angle that dry friction holds | {_cells(_degrees(bend.zone.lower))} |
-| largest | {_cells(_degrees(bend.zone.upper))} |
+| constant curvature | {_cells(_degrees(even))} |
+| dynamic model ({pulled.load.tension.max():.1f} N) | {_cells(_degrees(pulled.theta))} |
+| smallest angle that dry friction holds | {_cells(_degrees(zone.lower))} |
+| largest | {_cells(_degrees(zone.upper))} |
+| dynamic model after a larger bend ({returning.load.tension.max():.1f} N) | {_cells(_degrees(returning.theta))} |
 
-The last two rows are each joint's extremes over all postures in which no joint is pulled by more than its break-away
-torque of {bend.zone.break_away[0]:.3f} N m; they are not reached together. The cable's losses are those of the pull in
-all of them: under the same tension an arm that came back from a larger bend rests at
-{np.degrees(bend.returning.theta.sum()):.0f} degrees in total, and what the discs hold lets it stay between.
+Smallest and largest angle are each joint's extremes over all postures in which no joint is pulled by more than its
+break-away torque of {zone.break_away[0]:.3f} N m; they are not reached together. The cable's losses are those of the
+pull. The last row is for an arm that came back from a larger bend, its cable being let out: it takes less tension, and
+bends more at the tip.
 
 The dynamic model bends less near the base, which carries the weight of all links beyond it, than near the tip, in spite
-of what the cable loses on the way. Its tip is {np.linalg.norm(even_tip - pulled_tip):.0f} mm from that of constant
-curvature.
+of what the cable loses on the way.
 
-![Joint angles and backbone at 90 degrees](pictures/reproduction_bend.png)
+Fig. 10's measured angles were not published, but repetition 7 was released from such a posture, to the other side. Its
+first rows are taken here as if the arm rested in them, the angle of a joint being measured with a standard deviation of
+{np.degrees(SLOW):g} degrees.
 
-Fig. 10's measured angles were not published, but repetition 7 was released from such a posture: the first row of the
-author's simulation, {released.sum():.1f} degrees in total, to the other side. The same pull to that bend:
+{_row("the author's simulation", curvature.simulated.each[0], joints)}
 
-| joint angle [deg] | {joints} | distance, rms |
-|---|{"---|" * (n + 1)}
-| repetition 7, where it is let go | {_cells(f"{x:.1f}" for x in released)} | |
-| constant curvature | {_cells(_degrees(as_released.even))} | {_apart(as_released.even, inside):.1f} |
-| dynamic model, pulled slowly | {_cells(_degrees(as_released.pulled))} | {_apart(as_released.pulled, inside):.1f} |
+{_row("the measurement", curvature.measured.each[0], joints)}
 
-The dynamic model is the closer one, as the thesis says. {_outside(outside)}
+![Both models beside the first measured row](pictures/reproduction_bend.png)
+
+The thesis states that the dynamic model is the closer one. For the first row of his simulation it is, for the first
+measured row constant curvature is. The arm may move already in the measured row: joint {np.argmax(moved) + 1} turns by
+{moved.max():.1f} degrees until the next.
 """
+
+
+def _row(what: str, one: Comparison, joints: str) -> str:
+    """Table and sentence of one first row."""
+    rows = (
+        ("in the row", one.theta, "", ""),
+        ("constant curvature", one.constant, *_distances(one.angles_to_constant, one.tip_to_constant)),
+        ("dynamic model", one.held.theta, *_distances(one.angles_to_dynamic, one.tip_to_dynamic)),
+    )
+    lines = "\n".join(f"| {name} | {_cells(_degrees(theta))} | {rms} | {tip} |" for name, theta, rms, tip in rows)
+    return f"""First row of {what}, {np.degrees(one.theta.sum()):.1f} degrees in total:
+
+| joint angle [deg] | {joints} | distance, rms [deg] | of the tip [mm] |
+|---|{"---|" * (one.theta.size + 2)}
+{lines}
+
+{paragraph(nearer_in_words(one))}"""
+
+
+def _distances(angles: Distance, tip: Distance) -> tuple[str, str]:
+    """With their intervals of 95 %."""
+    return (
+        f"{np.degrees(angles.value):.2f} ({np.degrees(angles.low):.2f} to {np.degrees(angles.high):.2f})",
+        f"{1e3 * tip.value:.0f} ({1e3 * tip.low:.0f} to {1e3 * tip.high:.0f})",
+    )
 
 
 def _others(release: Release, otherwise: Mapping[tuple[str, float], Release]) -> str:
@@ -135,14 +163,3 @@ def _cells(items: Iterable[str]) -> str:
 
 def _degrees(theta: Array) -> list[str]:
     return [f"{x:.1f}" for x in np.degrees(theta)]
-
-
-def _apart(one: Array, other: Array) -> float:
-    return float(np.degrees(np.sqrt(np.mean((one - other) ** 2))))
-
-
-def _outside(joints: Array) -> str:
-    if joints.size == 0:
-        return "What is left, dry friction alone could hold in the model."
-    names = " and ".join(str(joint) for joint in joints)
-    return f"What is left is more than dry friction could hold in the model at joint {names}."

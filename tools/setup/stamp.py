@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tools.setup.layout import BUILD, INSTALL, LOCK, PYTHON, ROOT, SETUP, STAMP, package_folders
 
-READ_BY_BUILD = ("package.xml", "setup.cfg", "setup.py")
+READ_BY_BUILD = ("MANIFEST.in", "package.xml", "pyproject.toml", "setup.cfg", "setup.py")
 
 
 @dataclass

@@ -16,7 +16,7 @@ from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
 from continuum.estimation.friction_modes import friction_modes
 from continuum.estimation.run import Run
-from continuum.estimation.sensor_noise import NoiseModel, white_noise
+from continuum.estimation.sensor_noise import SLOW, NoiseModel, white_noise
 from continuum.estimation.structure import Structure
 from continuum.recordings.recording import Recording
 
@@ -26,7 +26,6 @@ what makes a model useless."""
 _FIRST_LEVELS = (5, 5, 4)  # of the first iterations: large, so that a wrong model does not bend the trajectories
 _VARYING = 4  # different rows of inputs, fewer of which are a hold and a release
 _MOST_ITERATIONS, _SETTLED = 4, 2.0  # steps, and change of log-evidence after which there is none more
-_SLOW = np.deg2rad(0.2)  # rad, slow error of an angle from inertial sensors
 
 
 def problem_of(structure: Structure, recordings: Sequence[Recording]) -> Problem:
@@ -35,7 +34,7 @@ def problem_of(structure: Structure, recordings: Sequence[Recording]) -> Problem
     runs = tuple(run_of(recording, structure.given, with_rates) for recording in recordings)
     common = coordinates(structure, runs)
     n = structure.n
-    noise = NoiseModel(white_noise(runs), np.full(n, _SLOW), np.full(n, common.torque))
+    noise = NoiseModel(white_noise(runs), np.full(n, SLOW), np.full(n, common.torque))
     return Problem(structure, common, runs, noise, np.asarray(LEVELS, dtype=float))
 
 

@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 from continuum.arrays import Array
 from continuum.estimation.run import Run
 
+SLOW = np.deg2rad(0.2)
+"""Slow error of an angle from inertial sensors, standard deviation [rad]."""
+
 _QUIET = 0.06  # rad/s: what moves less rests, and its third differences are noise
 _ENOUGH = 50  # rows at rest that tell the noise
 _ENOUGH_PAIRS = 200  # rows that tell how neighbours' noise is correlated

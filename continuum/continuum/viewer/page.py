@@ -47,7 +47,6 @@ class Page:
 
     Raises:
         InvalidValueError: nobody can listen on that address.
-        NoDescriptionError: no installed package writes the arm's description.
     """
 
     def __init__(

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import glob
+from importlib.resources import as_file, files
 from xml.etree import ElementTree
 
 import xacro
 
 from continuum.arm import Arm
-from continuum_description.segment import segment_call
-from continuum_description.share import share_directory
+from continuum.urdf.segment import segment_call
 
 BASE_LINK = "base_link"
 """Root link of the arm: its base plate, z along the straight arm (REP-105)."""
 
-_MACROS = "urdf/segment.urdf.xacro"
-_PORTABLE_MACROS = f"$(find continuum_description)/{_MACROS}"
+_MACROS = "segment.urdf.xacro"
+_PORTABLE_MACROS = f"$(find continuum_description)/urdf/{_MACROS}"
 
 
 def robot_xacro(
@@ -53,9 +53,9 @@ def robot_urdf(arm: Arm, base_link: str = BASE_LINK) -> ElementTree.Element:
     Raises:
         InvalidValueError: a section or the base link has a name that links cannot have.
     """
-    macros = glob.escape(str(share_directory() / _MACROS))
-    document = xacro.parse(to_text(robot_xacro(arm, base_link, macros=macros)))
-    xacro.process_doc(document)
+    with as_file(files(__package__) / _MACROS) as macros:
+        document = xacro.parse(to_text(robot_xacro(arm, base_link, macros=glob.escape(str(macros)))))
+        xacro.process_doc(document)
     robot = ElementTree.fromstring(document.toxml())
     for element in robot.iter():
         element.text = None
@@ -63,7 +63,7 @@ def robot_urdf(arm: Arm, base_link: str = BASE_LINK) -> ElementTree.Element:
 
 
 def urdf_text(arm: Arm) -> str:
-    """The arm as the text of a URDF: what the entry point ``continuum.descriptions`` offers.
+    """The arm as the text of a URDF.
 
     Raises:
         InvalidValueError: a section has a name that links cannot have.

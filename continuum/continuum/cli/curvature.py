@@ -1,0 +1,177 @@
+"""`continuum curvature`: measured joint angles beside constant curvature and the dynamic model, while the arm rests."""
+
+from __future__ import annotations
+
+import argparse
+import importlib.metadata
+import math
+import sys
+import textwrap
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from continuum.cli.diagnose import read_recording
+from continuum.cli.tables import print_table
+from continuum.errors import InvalidValueError
+from continuum.output_files import check_apart, check_picture, check_writable
+from continuum.printable import printable
+
+if TYPE_CHECKING:
+    from continuum.curvature.answer import Answer
+    from continuum.curvature.comparison import Comparison, Distance
+
+_WIDTH = 80
+
+
+def add_to(commands: Any) -> None:
+    """Add this subcommand to the parser's."""
+    parser = commands.add_parser(
+        "curvature", help="how an arm is bent at rest, and which model is nearer to it", description=__doc__,
+        epilog="Thesis chapter 4.3, Fig. 10. Exit codes: 0 done, 2 wrong usage, file or value.",
+    )  # fmt: skip
+    parser.add_argument(
+        "data", metavar="RUN", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
+    )
+    parser.add_argument(
+        "--model", metavar="MODEL.yaml", default="lamecc_prototype.yaml",
+        help="model file of an arm with cables, or one of the library's; default %(default)s",
+    )  # fmt: skip
+    parser.add_argument(
+        "--hold", metavar="N", type=int, help="hold whose joint angles are printed and drawn; default the most bent"
+    )
+    parser.add_argument(
+        "--sensor-error", metavar="DEG", type=float,
+        help="standard deviation of the angles' error that is alike in all rows of a hold; default 0.2 at first, "
+        "growing with time as much as the angles wander in the holds",
+    )  # fmt: skip
+    parser.add_argument("--csv", "--out", metavar="OUT.csv", help="write the joint angles of all holds")
+    parser.add_argument("--json", metavar="OUT.json", help="write everything for machines")
+    parser.add_argument("--picture", metavar="OUT.png", help="draw joint angles and backbones of one hold")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Find the holds, compare, print, and write what was asked for."""
+    from continuum.dynamics.model_file import load_model
+
+    slow = options.sensor_error
+    if slow is not None and not 0 <= slow < math.inf:
+        raise InvalidValueError("--sensor-error", slow, "an angle >= 0 [degrees]")
+    for path in (options.csv, options.json):
+        check_writable(path)
+    check_picture(options.picture)
+    outputs = (options.csv, options.json, options.picture)
+    check_apart(outputs, (*options.data, options.model))
+    model = load_model(options.model)
+    model.require_cables("continuum curvature")
+    recordings = [read_recording(path) for path in options.data]
+    for recording in recordings:
+        for note in recording.notes:
+            print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
+    # Here, so that files that are refused need not wait for numba.
+    from continuum.curvature.answer import answer, holds_of
+    from continuum.curvature.table import write_csv, write_json
+
+    found = answer(model, holds_of(model, recordings), None if slow is None else math.radians(slow))
+    chosen = found.most_bent if options.hold is None else options.hold - 1
+    if not 0 <= chosen < len(found.holds):
+        raise InvalidValueError("--hold", options.hold, f"1 to {len(found.holds)}, the holds that were found")
+    if options.csv is not None:
+        write_csv(found, options.csv)
+    if options.json is not None:
+        write_json(found, options.json, _made(options))
+    if options.picture is not None:
+        from continuum.curvature.figure import write_curvature_figure
+
+        one = found.holds[chosen]
+        title = f"{one.recording.name}, {one.times[0]:.2f} to {one.times[-1]:.2f} s"
+        write_curvature_figure(found.each[chosen], options.picture, title)
+    show(found, chosen)
+    written = [printable(path) for path in outputs if path is not None]
+    print(
+        f"\nwritten: {', '.join(written)}" if written else "\nnothing written; --csv, --json and --picture name files"
+    )
+    return 0
+
+
+def show(found: Answer, chosen: int) -> None:
+    """Print all holds, the joint angles of one, and which model is nearer."""
+    from continuum.curvature.sentences import nearer_in_words, overall_in_words, tension_in_words
+
+    several = len({hold.recording.name for hold in found.holds}) > 1
+    headings = (
+        *("run",) * several,
+        "hold",
+        "from\n[s]",
+        "to\n[s]",
+        "bend\n[deg]",
+        "constant\ncurvature",
+        "dynamic\nmodel",
+        "nearer",
+    )
+    title = "Distance of each model, 95 %: above joint angles, rms [deg], below tip [mm]"
+    print_table(headings, _rows(found, several), title)
+    hold, one = found.holds[chosen], found.each[chosen]
+    print()
+    headings = (
+        "",
+        "measured",
+        "2.5 %",
+        "97.5 %",
+        "constant\ncurvature",
+        "dynamic\nmodel",
+        "friction\nholds from",
+        "\nto",
+    )
+    print_table(headings, _joints(one), f"Hold {chosen + 1}, joint angles [deg]")
+    print(f"\n{_filled(nearer_in_words(one))}\n{_filled(tension_in_words(one, hold.tension))}")
+    if len(found.holds) > 1:
+        print(f"\n{_filled(overall_in_words(found.overall))}")
+
+
+def _filled(text: str) -> str:
+    return textwrap.fill(text, _WIDTH)
+
+
+def _rows(found: Answer, several: bool) -> list[tuple[str, ...]]:
+    """A row for each hold."""
+    names = {"dynamic model": "dynamic", "constant curvature": "constant", "cannot be told": "not told"}
+    return [
+        (
+            *(printable(hold.recording.name),) * several, str(number), f"{hold.times[0]:.2f}", f"{hold.times[-1]:.2f}",
+            f"{np.degrees(one.theta.sum()):.1f}", _distances(one.angles_to_constant, one.tip_to_constant),
+            _distances(one.angles_to_dynamic, one.tip_to_dynamic), names[one.nearer.value],
+        )
+        for number, (hold, one) in enumerate(zip(found.holds, found.each, strict=True), start=1)
+    ]  # fmt: skip
+
+
+def _distances(angles: Distance, tip: Distance) -> str:
+    """Each with its interval, one below the other."""
+    return f"{_interval(angles, 180 / math.pi, 2)}\n{_interval(tip, 1e3, 1)}"
+
+
+def _interval(one: Distance, unit: float, digits: int) -> str:
+    return f"{unit * one.value:.{digits}f} +- {unit * 1.96 * one.sd:.{digits}f}"
+
+
+def _joints(one: Comparison) -> list[tuple[str, ...]]:
+    """A row for each joint."""
+    zone, low, high = one.held.zone, *one.quantiles
+    angles = np.degrees([one.theta, low, high, one.constant, one.held.theta, zone.lower, zone.upper]).T
+    return [
+        (f"joint {j}", *(f"{value:.2f}" for value in row[:5]), *(f"{value:.1f}" for value in row[5:]))
+        for j, row in enumerate(angles.tolist(), start=1)
+    ]
+
+
+def _made(options: argparse.Namespace) -> dict[str, Any]:
+    """Version and what was read, without the folders."""
+    return {
+        "version": importlib.metadata.version("continuum"),
+        "recordings": [printable(Path(path).name) for path in options.data],
+        "model": printable(Path(options.model).name),
+        "sensor_error_deg": options.sensor_error,
+    }

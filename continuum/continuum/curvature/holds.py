@@ -1,0 +1,156 @@
+"""Stretches of a recording in which no joint moves.
+
+Angles are averaged over parts of a tenth of a second. In a hold the averages of each joint are no further from the
+middle than
+
+    hypot(SETTLED, z sigma / sqrt(rows in a part)),    z = 3
+
+that is what counts as the same posture, and what white noise of standard deviation sigma makes of it, both from
+elsewhere in the library: `continuum.inertial.stillness` and `continuum.estimation.sensor_noise`. A hold lasts for
+SHORTEST_REST or longer. The longest stretch is taken first, so that the end of a motion is not its beginning; what
+creeps is cut into several. Where constant tensions end in a release, the rows before it are a hold of any length.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from continuum.arrays import Array
+from continuum.estimation.run import Run
+from continuum.estimation.sensor_noise import white_noise
+from continuum.inertial.stillness import SETTLED, SHORTEST_REST
+from continuum.recordings.recording import Recording
+
+_PART = 0.1
+"""Duration of a part [s]: some rows of any usual sensor, a small piece of an arm's swing."""
+
+_SIGMAS = 3.0
+
+
+@dataclass(frozen=True)
+class Hold:
+    """One stretch.
+
+    Attributes:
+        recording: it is a part of.
+        rows: of the recording.
+        theta: median of each joint's angle, (n,) [rad].
+        noise: covariance of a row's angles by white noise, (n, n) [rad^2].
+        tension: median of each cable's, (2,) [N]; None where no tensions were recorded.
+        approach: which way the arm bent last: 1 towards positive angles, -1 towards negative ones. Without a motion
+            before the hold the arm is taken to have been bent from straight.
+    """
+
+    recording: Recording
+    rows: slice
+    theta: Array
+    noise: Array
+    tension: Array | None
+    approach: int
+
+    @property
+    def times(self) -> Array:
+        """Of the rows [s]."""
+        return self.recording.times[self.rows]
+
+    @property
+    def since_begin(self) -> float:
+        """From the recording's first row to the middle of the hold [s]."""
+        return float((self.times[0] + self.times[-1]) / 2 - self.recording.times[0])
+
+    @property
+    def angles(self) -> Array:
+        """Of the rows, (n_rows, n) [rad]."""
+        return self.recording.theta[self.rows]
+
+
+def find_holds(recording: Recording) -> list[Hold]:
+    """All holds of a recording, in the order of time."""
+    parts = _Parts.of(recording)
+    ends = np.append(parts.first, recording.times.size)
+    found = [slice(int(ends[a]), int(ends[b])) for a, b in _longest_first(parts.mean, parts.limit)]
+    rows = [one for one in found if np.ptp(recording.times[one]) >= SHORTEST_REST - _PART]
+    held = _before_release(recording)
+    if held > 0 and not any(one.start < held for one in rows):
+        rows.append(slice(0, held))
+    return [_hold(recording, one, parts) for one in sorted(rows, key=lambda one: one.start)]
+
+
+def hold_at(recording: Recording, rows: slice) -> Hold:
+    """The hold of rows in which the arm is known to have rested, one row or more."""
+    return _hold(recording, rows, _Parts.of(recording))
+
+
+@dataclass(frozen=True)
+class _Parts:
+    """Parts of a recording.
+
+    Attributes:
+        first: row of each, (n_parts,).
+        mean: of its angles, (n_parts, n) [rad].
+        noise: covariance of a row's angles by white noise, (n, n) [rad^2].
+        limit: within which the means of a hold are, (n,) [rad].
+    """
+
+    first: NDArray[np.intp]
+    mean: Array
+    noise: Array
+    limit: Array
+
+    @classmethod
+    def of(cls, recording: Recording) -> _Parts:
+        since = recording.times - recording.times[0]
+        first = np.flatnonzero(np.diff(np.floor(since / _PART), prepend=-1.0))
+        counts, noise = np.diff(np.append(first, since.size)), _noise(recording)
+        mean = np.add.reduceat(recording.theta, first, axis=0) / counts[:, None]
+        by_noise = _SIGMAS * np.sqrt(np.diag(noise) / np.median(counts))
+        return cls(first, mean, noise, 2 * np.hypot(SETTLED, by_noise))
+
+
+def _hold(recording: Recording, rows: slice, parts: _Parts) -> Hold:
+    theta, tension = np.median(recording.theta[rows], axis=0), None
+    if recording.tensions is not None:
+        tension = np.maximum(np.median(recording.pull.over(recording.times[rows]), axis=0), 0.0)
+    moved = theta.sum() - parts.mean[parts.first < rows.start].sum(axis=1)
+    moved = moved[np.abs(moved) > np.linalg.norm(parts.limit)]
+    last = float(moved[-1]) if moved.size else float(theta.sum())
+    return Hold(recording, rows, theta, parts.noise, tension, 1 if last > 0 else -1)
+
+
+def _noise(recording: Recording) -> Array:
+    """Covariance of a row's angles by white noise, (n, n) [rad^2]."""
+    theta, nothing = np.ascontiguousarray(recording.theta), (np.zeros(1), np.zeros((1, 1)))
+    return white_noise([Run(recording.name, recording.times, theta, np.ones_like(theta), recording.n_joints, nothing)])
+
+
+def _before_release(recording: Recording) -> int:
+    """Number of rows before cables are let go that constant tensions held until then; 0 where there is no release."""
+    pull = recording.pull
+    let_go = np.any(pull.values < 0, axis=1)
+    if not np.any(let_go) or not np.any(pull.values > 0):
+        return 0
+    return int(np.searchsorted(recording.times, pull.times[np.argmax(let_go)]))
+
+
+def _longest_first(parts: Array, limit: Array) -> list[tuple[int, int]]:
+    """Stretches whose averages stay within ``limit`` (n,) of each other, as first part and one past the last."""
+    reach, end = np.empty(len(parts), dtype=np.int64), 0
+    for start in range(len(parts)):
+        end = max(end, start + 1)
+        while end < len(parts) and np.all(np.ptp(parts[start : end + 1], axis=0) <= limit):
+            end += 1
+        reach[start] = end
+    found, left = [], [(0, len(parts))]
+    while left:
+        low, high = left.pop()
+        lengths = np.minimum(reach[low:high], high) - np.arange(low, high)
+        if high - low < 2 or lengths.max() < 2:
+            continue
+        start = low + int(np.argmax(lengths))
+        end = start + int(lengths.max())
+        found.append((start, end))
+        left += [(low, start), (end, high)]
+    return found

@@ -1,0 +1,71 @@
+"""How often intervals hold the true angle, and how often the nearer model is the nearer one; 3 minutes.
+
+    PYTHONPATH="test:$PYTHONPATH" python3 -m tools.bench_curvature
+
+Overwrites a table of docs/curvature.md, unless another number of holds is asked for.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from continuum.curvature.comparison import LEVEL, Nearer
+from continuum.dynamics.model_file import load_model
+from tools.bench_curvature.plant_holds import PLANTS, KnownHold, known_holds
+from tools.markdown import replace_between, table
+from tools.one_line import in_one_line
+
+PAGE = Path("docs/curvature.md")
+BEGIN, END = "<!-- made by `python3 -m tools.bench_curvature` -->", "<!-- end -->"
+HOLDS = 200
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--holds", type=int, default=HOLDS, help="of each plant; default %(default)s")
+    options = parser.parse_args()
+    model = load_model("lamecc_prototype.yaml")
+    rows = [row for name in PLANTS for row in rows_of(name, known_holds(name, model, options.holds))]
+    head = ("plant, sensors", "holds", "true angle inside", "true difference inside", "right", "wrong", "not told")
+    text = table(head, rows)
+    print(text)
+    if options.holds == HOLDS:
+        replace_between(PAGE, BEGIN, END, text)
+        print(f"written: {PAGE}")
+
+
+def rows_of(name: str, holds: Sequence[KnownHold]) -> list[list[str]]:
+    """All holds of a plant, then those with each level of noise, and those before releases."""
+    parts = {f"{name}, all": list(holds)}
+    parts |= {f"{name}, {level} noise": [h for h in holds if h.level == level] for level in ("low", "ordinary", "high")}
+    parts[f"{name}, before a release"] = [h for h in holds if h.released]
+    return [_row(title, some) for title, some in parts.items() if some]
+
+
+def _row(title: str, holds: Sequence[KnownHold]) -> list[str]:
+    inside = np.mean([hold.inside for hold in holds])
+    told = [hold for hold in holds if hold.found.nearer is not Nearer.UNTOLD]
+    right = sum(hold.found.nearer is _truly(hold) for hold in told)
+    covered = np.mean([_difference_covered(hold) for hold in holds])
+    counts = (right, len(told) - right, len(holds) - len(told))
+    return [title, str(len(holds)), f"{100 * inside:.1f} %", f"{100 * covered:.1f} %", *map(str, counts)]
+
+
+def _truly(hold: KnownHold) -> Nearer:
+    return Nearer.DYNAMIC if hold.truly.difference[0] < 0 else Nearer.CONSTANT
+
+
+def _difference_covered(hold: KnownHold) -> bool:
+    """Whether the true difference of the squared distances is in its interval."""
+    found, slopes = hold.found.difference
+    sd = float(np.sqrt(slopes @ hold.found.covariance @ slopes))
+    return abs(found - hold.truly.difference[0]) <= LEVEL * sd
+
+
+if __name__ == "__main__":
+    sys.exit(in_one_line(main))
