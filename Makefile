@@ -80,7 +80,7 @@ exams: setup ## arms that nobody of this project made (3 minutes); overwrites do
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.exams $(ARGS)
 
 figures: reproduction prototype ## make every picture of docs/pictures again, and with two of them their pages (5 minutes)
-	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.figures $(ARGS)
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.figures $(ARGS)
 
 equations: setup ## look up where the thesis's equations, tables and figures are in the code; overwrites docs/equations.md
 	@$(IN_WORKSPACE) python3 -m tools.equations $(ARGS)

@@ -23,6 +23,9 @@ from tools.demo.nodes import run_nodes
 from tools.demo.viewer import viewed
 from trajectory_generator.from_parameters import trajectory_from_mapping
 
+SEED = 12
+"""Hides an effect that is named with certainty; others may end in `ambiguous` or `unknown`."""
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the demo; returns 0 if all of it was done, 1 if not."""
@@ -35,7 +38,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--arm", type=Path, default=arm, metavar="ARM.yaml", help="default: %(default)s")
     parser.add_argument("--out", type=Path, default=Path("out/demo"), metavar="FOLDER", help="default: %(default)s")
     parser.add_argument(
-        "--seed", type=int, default=12, metavar="N", help="of the effect that is hidden and found; default: %(default)s"
+        "--seed",
+        type=int,
+        default=SEED,
+        metavar="N",
+        help="of the effect that is hidden and found; default: %(default)s",
     )
     parser.add_argument("--helix-only", action="store_true", help="hide and find no effect")
     parser.add_argument("--view", action="store_true", help="show the arm in a browser, as with make demo VIEW=1")

@@ -14,6 +14,7 @@ from continuum.recordings.arm_recording import ArmRecording
 from continuum.recordings.cable_figure import write_cable_figure
 from tools.figures.arm_on_helix import draw_arm
 from tools.figures.helix_run import helix_run
+from tools.figures.hidden_effect import draw_hidden_effect
 from tools.one_line import in_one_line
 from tools.small_png import shrink
 
@@ -35,6 +36,8 @@ def main() -> None:
         draw(run, folder / name)
         shrink(folder / name)
         print(f"written: {folder / name}")
+    draw_hidden_effect(folder / "hidden_effect.png")
+    print(f"written: {folder / 'hidden_effect.png'}")
 
 
 if __name__ == "__main__":
