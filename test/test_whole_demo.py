@@ -146,14 +146,14 @@ def test_an_interrupt_leaves_no_process_and_a_whole_recording(domain: int, tmp_p
 
 def test_another_graph_in_the_domain_is_left_alone(tmp_path: Path, trajectory: Path) -> None:
     with domain_id() as number, Probe(number, "bench") as probe:
-        heard = probe.hear(PoseStamped, "traj_pose")
+        received = probe.hear(PoseStamped, "traj_pose")
         probe.node.create_publisher(JointState, "joint_states", STREAM)
         with DemoProcess(tmp_path / "out", number, trajectory=trajectory) as demo:
             code, _, err = demo.end()
         probe.listen_until_quiet()
     assert code == 1
     assert err == f"demo: ROS domain {number} is in use by /bench; end them, or set ROS_DOMAIN_ID to another\n"
-    assert heard == []
+    assert received == []
     assert not (tmp_path / "out" / "nodes.log").exists()
 
 

@@ -6,12 +6,12 @@ import pytest
 
 from continuum.errors import InvalidValueError
 from continuum.viewer.address import url
-from continuum.viewer.door import is_stranger
-from continuum.viewer.hands import Hands
+from continuum.viewer.default_arm import default_arm
+from continuum.viewer.manual_source import ManualSource
+from continuum.viewer.origin_guard import is_stranger
 from continuum.viewer.page import Page
-from continuum.viewer.usual_arm import usual_arm
 
-ARM = usual_arm(2)
+ARM = default_arm(2)
 
 
 def test_port_that_is_taken_is_refused():
@@ -20,7 +20,7 @@ def test_port_that_is_taken_is_refused():
         other.listen()
         port = other.getsockname()[1]
         with pytest.raises(InvalidValueError, match=f"127.0.0.1:{port}.*--port 0.*port:=0"):
-            Page(ARM, Hands(ARM), port=port)
+            Page(ARM, ManualSource(ARM), port=port)
 
 
 @pytest.mark.parametrize(
@@ -33,7 +33,7 @@ def test_address_is_one_that_a_browser_opens(host, opened_by):
 @pytest.mark.parametrize(("host", "port"), [("198.51.100.1", 0), ("127.0.0.1", 65536), ("no such host", 0)])
 def test_address_that_is_none_of_this_machine_is_refused(host, port):
     with pytest.raises(InvalidValueError, match="allowed"):
-        Page(ARM, Hands(ARM), host, port)
+        Page(ARM, ManualSource(ARM), host, port)
 
 
 @pytest.mark.parametrize(

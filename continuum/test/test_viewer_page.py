@@ -10,7 +10,8 @@ from continuum.kinematics.cable_lines import section_arrow
 from continuum.kinematics.chain import arm_pose
 from continuum.kinematics.routing import tangle
 from continuum.viewer import status_table
-from continuum.viewer.hands import Hands
+from continuum.viewer.default_arm import default_arm
+from continuum.viewer.manual_source import ManualSource
 from continuum.viewer.page import Page
 from continuum.viewer.plots import SPAN
 from continuum.viewer.remote_arm import RemoteArm
@@ -18,11 +19,10 @@ from continuum.viewer.screen_colours import linear_light
 from continuum.viewer.section_angles import joints_of
 from continuum.viewer.seen import Seen, Status
 from continuum.viewer.slider_value import end_in_degrees
-from continuum.viewer.usual_arm import usual_arm
 
 pytestmark = pytest.mark.slow
 
-ARM = usual_arm(2)
+ARM = default_arm(2)
 
 
 @pytest.fixture
@@ -39,7 +39,7 @@ def opened():
 
 
 def test_target_leads_the_sliders_and_sliders_the_target(opened):
-    source = Hands(ARM)
+    source = ManualSource(ARM)
     page = opened(source)
     page.draw()
     controls = source._controls
@@ -145,7 +145,7 @@ def test_no_browser_asks_for_more_than_a_slider_has(opened, said, meant):
 
 @pytest.mark.parametrize("place", [(np.nan, 0.0, 0.1), (np.inf, 0.0, 0.0), (1e300, 0.0, 0.0), (0.0, -100.0, 0.0)])
 def test_a_target_that_no_mouse_drags_is_put_back(opened, place):
-    source = Hands(ARM)
+    source = ManualSource(ARM)
     page = opened(source)
     page.draw()
     before = page._scene.tip
@@ -189,7 +189,7 @@ def test_plots_have_the_cables_alone_that_somebody_tells_of(opened):
 
 
 def test_plots_reach_back_so_far_and_no_further(opened):
-    plots = opened(Hands(ARM))._plots
+    plots = opened(ManualSource(ARM))._plots
     for time in range(60):
         plots._due = 0.0
         plots.show(Seen(time=float(time), lengths=dict.fromkeys(ARM.cable_names, 0.2)))
@@ -219,7 +219,7 @@ def test_all_of_the_arm_moves_with_its_joints(opened):
 
 
 def test_a_target_out_of_reach_is_told(opened):
-    source = Hands(ARM)
+    source = ManualSource(ARM)
     page = opened(source)
     source._controls._gizmo.position = np.array([0.0, 0.0, 2.0 * ARM.length])
     page.draw()
@@ -237,7 +237,7 @@ def test_words_of_others_are_text():
 
 
 def test_trail_begins_anew_after_a_leap(opened):
-    trail = opened(Hands(ARM))._tip_trail
+    trail = opened(ManualSource(ARM))._tip_trail
     for x in np.arange(0.0, 0.1, 0.001):
         trail.follow(np.array([x, 0.0, 0.0]))
     pieces = trail._line.points

@@ -57,5 +57,7 @@ def sensed_turn(
     spin = np.stack([zero, zero, sensor.scale * rate + sensor.bias], axis=1)
     spin = spin + rng.normal(scale=sensor.rate_noise, size=spin.shape)
     force = force + rng.normal(scale=sensor.force_noise, size=force.shape)
-    heard = np.ones((times.size, 1), dtype=bool)
-    return ImuRecording(times, (spin @ mount)[:, None], (force @ mount)[:, None], ~heard, heard), mount.T[:, 2][None]
+    received = np.ones((times.size, 1), dtype=bool)
+    return ImuRecording(times, (spin @ mount)[:, None], (force @ mount)[:, None], ~received, received), mount.T[:, 2][
+        None
+    ]

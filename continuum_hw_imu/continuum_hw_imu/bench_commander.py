@@ -48,7 +48,7 @@ class BenchCommander:
         self._clock = clock
         self.gate = TensionGate(limits, n_cables)
         self.client: BenchClient | None = None
-        self.misfit = ""
+        self.deviance = ""
         self.refused = ""
 
     def line_problem(self) -> str:
@@ -62,7 +62,7 @@ class BenchCommander:
             version = client.decoder.other_version
             return NO_HELLO if version is None else f"the bench speaks version {version} of the protocol"
         silence = client.silent_for(self._clock())
-        return self.misfit or (f"the bench is silent for {silence:.1f} s" if silence > SILENT else "")
+        return self.deviance or (f"the bench is silent for {silence:.1f} s" if silence > SILENT else "")
 
     def problem(self) -> str:
         """What keeps tension from going through to a bench that is claimed; empty if nothing does."""

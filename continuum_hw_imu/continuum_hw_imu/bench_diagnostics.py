@@ -134,7 +134,7 @@ class BenchDiagnostics:
         rate = self._samples[k].rate(watch.samples - missing, time.monotonic())
         complaints = list(self._grown(subject, {"samples missing": missing, "samples clipped": clipped}))
         expected = hello.sample_rate
-        if not watch.heard[k] or self._commander.line_problem():
+        if not watch.received[k] or self._commander.line_problem():
             complaints.append((ERROR, "no data"))
         elif rate < 0.95 * expected:
             complaints.append((WARN, f"{rate:.1f} Hz in the place of {expected:g} Hz"))

@@ -11,7 +11,7 @@ LONGEST_PATIENCE = 2.0
 """A bench that pulls on for longer than this without commands or heartbeats [s] is not safe to pull with."""
 
 
-def misfit(hello: Hello, n_joints: int, n_cables: int) -> str:
+def deviance(hello: Hello, n_joints: int, n_cables: int) -> str:
     """Why a bench does not fit an arm, in words; empty where it does: one sensor on each link, and all cables.
 
     Its times count, too: the node waits for slack cables, and relies on the bench once it is dead itself.

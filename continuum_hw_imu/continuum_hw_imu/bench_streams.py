@@ -13,10 +13,10 @@ from rclpy.time import Time
 from continuum.inertial.angle_estimator import AngleEstimate
 from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum.inertial.imu_sample import ImuSample
-from continuum_hw_imu.bench_fit import misfit
+from continuum_hw_imu.bench_fit import deviance
 from continuum_hw_imu.imu_messages import ImuMessages
 from continuum_hw_imu.latency_meter import LatencyMeter
-from continuum_hw_imu.link.heard import Heard
+from continuum_hw_imu.link.received import Received
 from continuum_hw_imu.protocol.device_time import MICROSECONDS
 from continuum_hw_imu.protocol.messages import Hello, ImuFrame, TensionFrame
 from continuum_hw_imu.sensor_watch import SensorWatch
@@ -80,22 +80,22 @@ class BenchStreams:
         self.age = self.oldest = 0.0
         self.tension: TensionFrame | None = None
 
-    def take(self, heard: Heard) -> None:
+    def take(self, received: Received) -> None:
         """A message came."""
-        if isinstance(heard.message, Hello) and heard.conversation != self._conversation:
-            self._greet(heard.message)
-            self._conversation = heard.conversation
+        if isinstance(received.message, Hello) and received.conversation != self._conversation:
+            self._greet(received.message)
+            self._conversation = received.conversation
         watch = self.watch
-        if watch is None or heard.conversation != self._conversation:
+        if watch is None or received.conversation != self._conversation:
             return
-        match heard.message:
+        match received.message:
             case ImuFrame() as frame if len(frame.readings) == len(self._sensors):
-                sample, stamp = watch.take(heard, frame), self._stamp(heard)
-                self._publish_joints(watch, heard, stamp)
+                sample, stamp = watch.take(received, frame), self._stamp(received)
+                self._publish_joints(watch, received, stamp)
                 self._publish_imus(sample, stamp)
             case TensionFrame() as frame if len(frame.set_points) == len(self._planar.cables):
                 self.tension = frame
-                self._publish_cables(watch, heard, frame)
+                self._publish_cables(watch, received, frame)
             case ImuFrame() | TensionFrame():
                 self.unfit += 1
 
@@ -105,24 +105,24 @@ class BenchStreams:
 
     def _greet(self, hello: Hello) -> None:
         """Another bench is there, or the same one has begun anew: nothing of what was before goes on."""
-        self.problem = misfit(hello, len(self._sensors), len(self._planar.cables))
+        self.problem = deviance(hello, len(self._sensors), len(self._planar.cables))
         self.watch = None if self.problem else SensorWatch(hello, self.steps)
         self.tension = None
 
-    def _stamp(self, heard: Heard) -> TimeMessage:
+    def _stamp(self, received: Received) -> TimeMessage:
         """ROS time of what was heard."""
         instant, now = read_together(time.monotonic, lambda: self._clock.now().nanoseconds)
-        return Time(nanoseconds=max(0, now - round((instant - heard.time) * NANOSECONDS))).to_msg()
+        return Time(nanoseconds=max(0, now - round((instant - received.time) * NANOSECONDS))).to_msg()
 
-    def _publish_joints(self, watch: SensorWatch, heard: Heard, stamp: TimeMessage) -> None:
-        self.age = heard.read - heard.time
+    def _publish_joints(self, watch: SensorWatch, received: Received, stamp: TimeMessage) -> None:
+        self.age = received.read - received.time
         self.oldest = max(self.oldest, self.age)
-        estimate = _good_estimate(watch, heard, SAME)
+        estimate = _good_estimate(watch, received, SAME)
         if estimate is None:
             self.withheld += 1
             return
         self._joints(self._planar.joint_state(stamp, estimate.angles, estimate.rates))
-        self.latency.note(time.monotonic() - heard.read)
+        self.latency.note(time.monotonic() - received.read)
 
     def _publish_imus(self, sample: ImuSample, stamp: TimeMessage) -> None:
         for k, publish in enumerate(self._imus):
@@ -130,20 +130,20 @@ class BenchStreams:
                 rate, force = sample.rates[k], sample.forces[k]
                 publish(self._sensors[k].message(stamp, rate, force, bool(sample.clipped[k])))
 
-    def _publish_cables(self, watch: SensorWatch, heard: Heard, frame: TensionFrame) -> None:
+    def _publish_cables(self, watch: SensorWatch, received: Received, frame: TensionFrame) -> None:
         """Lengths are those of the latest joint states; a cable pulls, so what is measured below zero is zero."""
         if any(tension is None for tension in frame.measured):
             tensions = np.array([])  # not known
         else:
             tensions = np.maximum(np.array(frame.measured, dtype=float), 0.0)
-        estimate = _good_estimate(watch, heard, FRESH)
+        estimate = _good_estimate(watch, received, FRESH)
         angles, rates = (None, None) if estimate is None else (estimate.angles, estimate.rates)
-        self._cables(self._planar.cable_states(self._stamp(heard), angles, rates, tensions))
+        self._cables(self._planar.cable_states(self._stamp(received), angles, rates, tensions))
 
 
-def _good_estimate(watch: SensorWatch, heard: Heard, within: float) -> AngleEstimate | None:
+def _good_estimate(watch: SensorWatch, received: Received, within: float) -> AngleEstimate | None:
     """The latest, where all of its angles are good and it is as old as what was heard, to within a time [s]."""
     estimate = watch.estimate
     if estimate is None or not estimate.good.all():
         return None
-    return estimate if abs(heard.device_time / MICROSECONDS - estimate.time) <= within else None
+    return estimate if abs(received.device_time / MICROSECONDS - estimate.time) <= within else None

@@ -14,7 +14,7 @@ from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.imu_sample import ImuSample
-from continuum_hw_imu.link.heard import Heard
+from continuum_hw_imu.link.received import Received
 from continuum_hw_imu.protocol.device_time import MICROSECONDS
 from continuum_hw_imu.protocol.messages import Hello, ImuFrame
 
@@ -48,19 +48,19 @@ class SensorWatch:
         self._estimator: AngleEstimator | None = None
         self.samples = 0
         self.missing, self.clipped = (np.zeros(len(hello.sensors), dtype=int) for _ in range(2))
-        self.heard = np.zeros(len(hello.sensors), dtype=bool)
+        self.received = np.zeros(len(hello.sensors), dtype=bool)
         self.estimate: AngleEstimate | None = None
         self.steps = steps
         self._zeroed: float | None = None  # the arm was straight and at rest then, by the samples' times [s]
         self._use(steps)
 
-    def take(self, heard: Heard, frame: ImuFrame) -> ImuSample:
+    def take(self, received: Received, frame: ImuFrame) -> ImuSample:
         """A frame came, later than the one before; its sample, sensors from base to tip.
 
         Samples have the device's own time, which has no jitter [s].
         """
         sample = ImuSample(
-            heard.device_time / MICROSECONDS,
+            received.device_time / MICROSECONDS,
             frame.angular_rates[self._order],
             frame.specific_forces[self._order],
             frame.clipped[self._order],
@@ -69,7 +69,7 @@ class SensorWatch:
         with self._mutex:
             self._kept.append(sample)
             self.samples += 1
-            self.heard = sample.valid
+            self.received = sample.valid
             self.missing += ~sample.valid
             self.clipped += sample.clipped & sample.valid
             self.estimate = None if self._estimator is None else self._estimator.update(sample)

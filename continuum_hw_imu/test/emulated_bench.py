@@ -67,7 +67,7 @@ class EmulatedBench:
         self.process.close()
 
 
-class Ears:
+class LatencyProbe:
     """A probe on the topics of bridges that come one after the other, and the one that commands them by a topic."""
 
     def __init__(self, probe: Probe, commands: str = "cable_tension_cmd") -> None:
@@ -79,20 +79,30 @@ class Ears:
         self.bridges = 0
 
     def clear(self) -> None:
-        for heard in (self.joints, self.cables, *self.imus):
-            heard.clear()
+        for received in (self.joints, self.cables, *self.imus):
+            received.clear()
 
 
 class Bridge:
     """The node at an emulated bench. Each has a name of its own, lest one that was killed be asked in its place."""
 
     def __init__(
-        self, ears: Ears, bench: EmulatedBench, domain: int, arguments: Sequence[str] = (), **parameters
+        self,
+        latency_probe: LatencyProbe,
+        bench: EmulatedBench,
+        domain: int,
+        arguments: Sequence[str] = (),
+        **parameters,
     ) -> None:
-        ears.bridges += 1
-        ears.clear()
-        self.probe, self.bench, self.name = ears.probe, bench, f"bench_bridge_{ears.bridges}"
-        self.joints, self.cables, self.imus, self._say = ears.joints, ears.cables, ears.imus, ears.say
+        latency_probe.bridges += 1
+        latency_probe.clear()
+        self.probe, self.bench, self.name = latency_probe.probe, bench, f"bench_bridge_{latency_probe.bridges}"
+        self.joints, self.cables, self.imus, self._say = (
+            latency_probe.joints,
+            latency_probe.cables,
+            latency_probe.imus,
+            latency_probe.say,
+        )
         parameters = {"port": bench.port, "rest_time": 1.5, **parameters}
         self.node = NodeProcess(
             "continuum_hw_imu",
@@ -103,7 +113,7 @@ class Bridge:
             arguments=tuple(arguments),
         )
         self._clients = {
-            name: ears.probe.node.create_client(kind, f"{self.name}/{name}")
+            name: latency_probe.probe.node.create_client(kind, f"{self.name}/{name}")
             for kind, names in {
                 Trigger: ("zero", "calibrate_bias", "find_axes", "release", "stop", "reset_stop"),
                 ChangeState: ("change_state",),
@@ -234,7 +244,9 @@ def emulated_bench(domain: int, folder: Path, *options: str):
 
 
 @contextmanager
-def bridge_at(ears: Ears, bench: EmulatedBench, domain: int, arguments: Sequence[str] = (), **parameters):
-    bridge = Bridge(ears, bench, domain, arguments, **parameters)
+def bridge_at(
+    latency_probe: LatencyProbe, bench: EmulatedBench, domain: int, arguments: Sequence[str] = (), **parameters
+):
+    bridge = Bridge(latency_probe, bench, domain, arguments, **parameters)
     with ended_in_any_case(bridge.node):
         yield bridge

@@ -36,9 +36,9 @@ class LoopedBench:
     """A controller and the client at it; both ends' clocks show ``now`` [s]."""
 
     def __init__(self, hello: Hello = HELLO) -> None:
-        self.heard = []
+        self.received = []
         self.controller = BenchController(hello)
-        self.client = BenchClient("nowhere", 921_600, self.heard.append)
+        self.client = BenchClient("nowhere", 921_600, self.received.append)
         self.link = LoopedLink()
         self.link.client, self.link.bench = self.client, self
         self.client.link = self.link

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from ament_index_python.packages import get_package_prefix
-from emulated_bench import Bridge, Ears, bridge_at, emulated_bench
+from emulated_bench import Bridge, LatencyProbe, bridge_at, emulated_bench
 from harness import NodeProcess, Probe, ended_in_any_case
 from test_bench_bridge_node import WAITING, angles_beside_truth
 
@@ -39,8 +39,8 @@ def probe(domain):
 
 
 @pytest.fixture(scope="module")
-def ears(probe):
-    return Ears(probe)
+def latency_probe(probe):
+    return LatencyProbe(probe)
 
 
 @pytest.fixture(scope="module")
@@ -50,10 +50,10 @@ def bench(domain, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def calibration(domain, ears, bench):
+def calibration(domain, latency_probe, bench):
     """File of the emulated sensors' calibration."""
     file = bench.port.with_name("calibration.yaml")
-    with bridge_at(ears, bench, domain, calibration=file) as bridge:
+    with bridge_at(latency_probe, bench, domain, calibration=file) as bridge:
         bridge.wait_for_state("inactive")
         bridge.calibrate()
         assert bridge.node.stop() == 0
@@ -61,10 +61,12 @@ def calibration(domain, ears, bench):
 
 
 @pytest.fixture
-def pulling(domain, ears, probe, bench, calibration):
+def pulling(domain, latency_probe, probe, bench, calibration):
     """A calibrated bridge, active, that pulls one cable by 8 N."""
     probe.wait_until(lambda: not bench.status["open"], "the port is free")
-    with bridge_at(ears, bench, domain, calibration=calibration, keep_bias=True, autostart="activate") as bridge:
+    with bridge_at(
+        latency_probe, bench, domain, calibration=calibration, keep_bias=True, autostart="activate"
+    ) as bridge:
         bridge.wait_for_state("active")
         probe.wait_until(lambda: len(bridge.joints) > 5, lambda: f"joint states; {bridge.told('angles')}")
         pull(bridge)
@@ -175,23 +177,25 @@ def test_late_frames_have_the_stamps_of_their_measurement(pulling):
     assert_no_wrong_angle(pulling, pulling.joints)
 
 
-def test_a_stop_at_the_bench_stops_the_node(pulling, domain, ears):
+def test_a_stop_at_the_bench_stops_the_node(pulling, domain, latency_probe):
     """Seen as the node's own: it is latched, and reset by its service."""
     assert pulling.call("stop").success
     pulling.wait_for_state("inactive")
     pulling.node.close()
-    with bridge_at(ears, pulling.bench, domain) as after:
+    with bridge_at(latency_probe, pulling.bench, domain) as after:
         after.node.wait_for_line("stopped: by the bench")
         assert not after.change("activate")
         assert after.call("reset_stop").success
         assert after.change("activate"), after.node.stderr
 
 
-def test_what_was_stopped_becomes_active_by_a_persons_word_alone(domain, ears, probe, bench, calibration):
+def test_what_was_stopped_becomes_active_by_a_persons_word_alone(domain, latency_probe, probe, bench, calibration):
     """Even a node that had yet to begin by itself when it was stopped."""
     probe.wait_until(lambda: not bench.status["open"], "the port is free")
     bench.tell("unplug for=1000")
-    with bridge_at(ears, bench, domain, calibration=calibration, keep_bias=True, autostart="activate") as bridge:
+    with bridge_at(
+        latency_probe, bench, domain, calibration=calibration, keep_bias=True, autostart="activate"
+    ) as bridge:
         bridge.node.wait_for_line("is not there")
         assert bridge.call("stop").success
         bench.tell("clear")
@@ -204,9 +208,9 @@ def test_what_was_stopped_becomes_active_by_a_persons_word_alone(domain, ears, p
         assert bridge.node.stop() == 0
 
 
-def test_the_bias_of_a_file_is_of_another_day(domain, ears, probe, bench, calibration):
+def test_the_bias_of_a_file_is_of_another_day(domain, latency_probe, probe, bench, calibration):
     probe.wait_until(lambda: not bench.status["open"], "the port is free")
-    with bridge_at(ears, bench, domain, calibration=calibration) as bridge:
+    with bridge_at(latency_probe, bench, domain, calibration=calibration) as bridge:
         bridge.wait_for_level("angles", "ERROR", "not calibrated: no bias")
         known = bench.status["monotonic"]
         probe.wait_until(lambda: len(bridge.since(known, bridge.imus[0])) > 60, "data of the sensors")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from emulated_bench import CABLES, N_SENSORS, Ears, bridge_at, emulated_bench
+from emulated_bench import CABLES, N_SENSORS, LatencyProbe, bridge_at, emulated_bench
 from harness import NodeProcess, Probe, running
 
 from continuum.dynamics.model_file import load_model
@@ -32,8 +32,8 @@ def probe(domain):
 
 
 @pytest.fixture(scope="module")
-def ears(probe):
-    return Ears(probe, COMMANDS)
+def latency_probe(probe):
+    return LatencyProbe(probe, COMMANDS)
 
 
 @pytest.fixture(scope="module")
@@ -43,10 +43,10 @@ def bench(domain, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def bridge(domain, ears, probe, bench):
+def bridge(domain, latency_probe, probe, bench):
     """Configured by itself, and calibrated."""
     file = bench.port.with_name("calibration.yaml")
-    with bridge_at(ears, bench, domain, RENAMED, calibration=file, **LIMITS) as bridge:
+    with bridge_at(latency_probe, bench, domain, RENAMED, calibration=file, **LIMITS) as bridge:
         bridge.wait_for_state("inactive")
         probe.wait_until(lambda: all(len(imu) > 5 for imu in bridge.imus), "data of all sensors")
         bridge.wait_for_level("angles", "ERROR", "not calibrated: no bias, no axis, no zero")

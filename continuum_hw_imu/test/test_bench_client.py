@@ -81,10 +81,10 @@ def test_old_commands_are_told_as_old(bench):
 
 def test_repeated_and_overtaken_frames_are_counted_and_not_handed_on(bench):
     status = bench.controller.status()
-    before = len(bench.heard)
+    before = len(bench.received)
     first, second = bench.frame(status), bench.frame(status)
     bench.deliver(second + first + second)
-    assert len(bench.heard) == before + 1
+    assert len(bench.received) == before + 1
     assert (bench.client.arrivals.late, bench.client.arrivals.repeated) == (1, 1)
 
 
@@ -100,9 +100,9 @@ def test_damage_costs_the_frames_that_it_touches(bench):
     status = bench.controller.status()
     hurt = bytearray(bench.frame(status))
     hurt[5] ^= 0x10
-    before = len(bench.heard)
+    before = len(bench.received)
     bench.deliver(bytes(hurt) + bench.frame(status))
-    assert len(bench.heard) == before + 1
+    assert len(bench.received) == before + 1
     assert bench.client.decoder.refused == 1
     assert bench.client.arrivals.lost == 1
 
@@ -116,15 +116,15 @@ def test_a_device_that_begins_anew_is_another_conversation(bench):
     assert bench.client.conversations == number + 1
     assert not bench.client.commands
     assert bench.client.hello.boot == 8
-    assert bench.heard[-1].conversation == number + 1
+    assert bench.received[-1].conversation == number + 1
 
 
 def test_times_of_the_device_become_the_hosts(bench):
     for _ in range(10):
         bench.now += 0.1
         bench.say(bench.controller.status())
-    assert bench.heard[-1].time == pytest.approx(bench.now, abs=1e-6)
-    assert bench.heard[-1].device_time == bench.device_time
+    assert bench.received[-1].time == pytest.approx(bench.now, abs=1e-6)
+    assert bench.received[-1].device_time == bench.device_time
 
 
 def test_an_answer_that_takes_longer_than_the_next_question_counts(bench):

@@ -151,12 +151,12 @@ def test_status_tells_what_was_heard(talk):
 )
 def test_silence_is_told_once_and_stands_until_it_ends(talk, keep, code):
     talk.say(m.Claim(TOKEN), talk.pull())
-    heard = []
+    received = []
     for _ in range(150):
         if keep:
             talk.say(keep)
-        heard += talk.tick()
-    assert [message for message in heard if isinstance(message, m.Fault)] == [m.Fault(code)]
+        received += talk.tick()
+    assert [message for message in received if isinstance(message, m.Fault)] == [m.Fault(code)]
     assert talk.device.status().faults == 1 << code
     talk.say(m.Claim(TOKEN), talk.pull())
     talk.tick()

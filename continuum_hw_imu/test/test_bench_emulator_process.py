@@ -59,15 +59,15 @@ def test_it_streams_obeys_and_ends_cleanly(tmp_path):
     with emulator("--link", link, "--control", control, "--truth", tmp_path / "truth.csv") as process:
         assert process.stdout.readline() == f"port {link}\n"
         port = os.open(link, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
-        decoder, heard = Decoder.of_host(), []
+        decoder, received = Decoder.of_host(), []
 
         def listen() -> list:
             with suppress(BlockingIOError):
-                heard.extend(frame.message for frame in decoder.feed(os.read(port, 1 << 16)))
-            return heard
+                received.extend(frame.message for frame in decoder.feed(os.read(port, 1 << 16)))
+            return received
 
         wait_until(lambda: [x for x in listen() if isinstance(x, m.ImuFrame)], "sensors")
-        assert [x for x in heard if isinstance(x, m.Hello)]
+        assert [x for x in received if isinstance(x, m.Hello)]
         with socket.socket(socket.AF_UNIX) as client:
             client.connect(str(control))
             answers = client.makefile("rw")
@@ -75,7 +75,7 @@ def test_it_streams_obeys_and_ends_cleanly(tmp_path):
                 answers.write(order + "\n")
                 answers.flush()
                 assert json.loads(answers.readline())["ok"] is ok
-        heard.clear()
+        received.clear()
         wait_until(lambda: m.Fault(m.FaultCode.SENSOR_LOST, 2) in listen(), "the sensor's loss")
         os.close(port)
         process.send_signal(signal.SIGINT)

@@ -39,7 +39,7 @@ def streamed(
     for k in range(round(60 * start), round(60 * (start + seconds))):
         device, real = round(k / 60 * 1e6), 5000.0 + k / 60 * (1 + ppm * 1e-6)
         late = 0.2 if random.random() < 0.05 else 0.0
-        clock.heard(device, real + random.exponential(0.002) + late)
+        clock.received(device, real + random.exponential(0.002) + late)
         errors.append(clock.host_time(device) - real)
     return np.array(errors)
 
@@ -58,7 +58,7 @@ def test_mapped_times_of_a_row_of_frames_never_go_back():
     clock, random = ClockMap(), np.random.default_rng(4)
     stamps = []
     for k in range(3600):
-        clock.heard(round(k / 60 * 1e6), k / 60 + random.exponential(0.003))
+        clock.received(round(k / 60 * 1e6), k / 60 + random.exponential(0.003))
         stamps.append(clock.host_time(round(k / 60 * 1e6)))
     gaps = np.diff(stamps[60:])
     assert gaps.min() > 1 / 60 - 1e-3
@@ -72,7 +72,7 @@ def test_a_burst_of_late_frames_changes_nothing():
     device = 20_000_000
     expected = clock.host_time(device)
     for k in range(300):
-        clock.heard(device + k * 16667, expected + k / 60 + 0.3)
+        clock.received(device + k * 16667, expected + k / 60 + 0.3)
     assert clock.host_time(device) == pytest.approx(expected, abs=2e-4)
 
 
@@ -81,7 +81,7 @@ def test_a_change_of_drift_is_followed():
     streamed(clock, random, 30.0, 0.0)
     for k in range(1800, 5400):
         device, real = round(k / 60 * 1e6), 5000.0 + 30.0 + (k / 60 - 30.0) * (1 - 200e-6)
-        clock.heard(device, real + random.exponential(0.001))
+        clock.received(device, real + random.exponential(0.001))
     assert clock.drift == pytest.approx(-200e-6, abs=5e-6)
     assert clock.host_time(device) == pytest.approx(real, abs=2e-4)
 
@@ -89,9 +89,9 @@ def test_a_change_of_drift_is_followed():
 def test_a_clock_that_was_set_begins_anew():
     clock = ClockMap()
     for k in range(600):
-        clock.heard(k * 16667, k / 60)
+        clock.received(k * 16667, k / 60)
     for k in range(600, 900):
-        clock.heard(k * 16667 + 3_000_000, k / 60)
+        clock.received(k * 16667 + 3_000_000, k / 60)
     assert clock.leaps == 1
     assert clock.host_time(900 * 16667 + 3_000_000) == pytest.approx(15.0, abs=1e-3)
 
@@ -99,16 +99,16 @@ def test_a_clock_that_was_set_begins_anew():
 def test_there_and_back():
     clock = ClockMap()
     for k in range(1200):
-        clock.heard(k * 16667, 100.0 + k / 60 * (1 + 1e-4))
+        clock.received(k * 16667, 100.0 + k / 60 * (1 + 1e-4))
     assert clock.device_time(clock.host_time(123_456_789)) == 123_456_789
 
 
 def test_late_frames_out_of_order_are_no_new_points():
     clock = ClockMap()
     for k in range(600):
-        clock.heard(k * 16667, k * 16667e-6)
+        clock.received(k * 16667, k * 16667e-6)
         if k > 100:
-            clock.heard((k - 90) * 16667, k * 16667e-6)
+            clock.received((k - 90) * 16667, k * 16667e-6)
     assert abs(clock.drift) < 1e-6
 
 

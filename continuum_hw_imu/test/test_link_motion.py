@@ -6,7 +6,7 @@ import pytest
 from continuum.dynamics.model import ActiveEffect
 from continuum.dynamics.model_file import load_model
 from continuum.effects.base_tilt import BaseTilt
-from continuum_hw_imu.emulator.link_motion import along, felt, gravity, link_motion
+from continuum_hw_imu.emulator.link_motion import along, effective, gravity, link_motion
 
 B = 0.02
 G = 9.81
@@ -31,7 +31,7 @@ def test_velocities_are_those_of_the_places():
 @pytest.mark.parametrize("bend", [0.0, 0.3, -0.5])
 def test_at_rest_it_feels_gravity_s_opposite_turned_with_the_link(bend):
     at_rest = link_motion(np.array([bend, 0.0]), np.zeros(2), B)
-    force = felt(at_rest, at_rest, 0.01, np.array([0.0, 0.0, G]))
+    force = effective(at_rest, at_rest, 0.01, np.array([0.0, 0.0, G]))
     expected = -G * np.array([-np.sin(bend), 0.0, np.cos(bend)])  # positive bends lift the tip towards x
     np.testing.assert_allclose(force, [expected, expected], atol=1e-12)
 
@@ -39,7 +39,7 @@ def test_at_rest_it_feels_gravity_s_opposite_turned_with_the_link(bend):
 def test_turning_steadily_it_feels_the_pull_to_the_middle():
     speed, step = 3.0, 1e-4
     before, after = (link_motion(np.array([angle]), np.array([speed]), B) for angle in (0.7, 0.7 + speed * step))
-    force = felt(before, after, step, np.zeros(3))
+    force = effective(before, after, step, np.zeros(3))
     np.testing.assert_allclose(force, [[0.0, 0.0, -(speed**2) * B]], atol=1e-6)
 
 

@@ -10,7 +10,7 @@ from looped_bench import HELLO
 from continuum.arrays import Array
 from continuum.errors import MeasurementError
 from continuum.inertial.calibration_steps import CalibrationSteps
-from continuum_hw_imu.link.heard import Heard
+from continuum_hw_imu.link.received import Received
 from continuum_hw_imu.protocol.messages import ImuFrame
 from continuum_hw_imu.protocol.messages.imu import PRESENT
 from continuum_hw_imu.sensor_watch import KEPT, SensorWatch
@@ -40,7 +40,7 @@ class Arm:
         force = 9.81 * np.stack([np.sin(links), np.zeros(N), -np.cos(links)], axis=1)
         frame = ImuFrame.of(self.sample, np.outer(rates, [0, 1, 0])[order], force[order], np.full(N, PRESENT))
         at = self.sample / RATE
-        self.watch.take(Heard(frame, at, at, round(at * 1e6), 1), frame)
+        self.watch.take(Received(frame, at, at, round(at * 1e6), 1), frame)
 
 
 @pytest.fixture
@@ -86,7 +86,7 @@ def test_samples_without_a_sensor_are_counted_by_its_link():
     flags[1] = 0
     frame = ImuFrame.of(1, np.zeros((N, 3)), np.zeros((N, 3)), flags)
     for _ in range(2):
-        watch.take(Heard(frame, 0.0, 0.0, 0, 1), frame)
+        watch.take(Received(frame, 0.0, 0.0, 0, 1), frame)
     lost = np.arange(1, N + 1) == HELLO.sensors[1].link
     np.testing.assert_array_equal(watch.missing, 2 * lost)
-    np.testing.assert_array_equal(watch.heard, ~lost)
+    np.testing.assert_array_equal(watch.received, ~lost)

@@ -27,7 +27,7 @@ def offered(profile: QoSProfile) -> Qos:
     )
 
 
-def heard_by_all(profiles: Sequence[QoSProfile]) -> QoSProfile:
+def received_by_all(profiles: Sequence[QoSProfile]) -> QoSProfile:
     """The strictest request that every one of the publishers meets; reliable while there is none."""
     reliable = all(profile.reliability == QoSReliabilityPolicy.RELIABLE for profile in profiles)
     kept = bool(profiles) and all(profile.durability == QoSDurabilityPolicy.TRANSIENT_LOCAL for profile in profiles)

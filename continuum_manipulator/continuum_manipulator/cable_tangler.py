@@ -57,7 +57,7 @@ class CableTanglerNode(CheckedNode):
         self.diagnostics.values["instants waiting for a section"] = lambda: self._instants.waiting
         self._publish_states = self.offer(CableStates, "cable_states")
         self._publish_commands = self.offer(CableStates, "section_cable_commands")
-        self._heard: set[int] = set()
+        self._received: set[int] = set()
         self._sections = self.listen(CableStates, "section_cable_states", self._on_section)
         self.listen(CableStates, "cable_commands", self._on_commands)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -67,7 +67,7 @@ class CableTanglerNode(CheckedNode):
         """Once: a launch file made for another number of sections would go unnoticed until poses come."""
         self.destroy_timer(self._patience_timer)
         speakers, wanted = self._sections.get_publisher_count(), len(self._numbers)
-        if speakers < wanted and len(self._heard) < wanted:
+        if speakers < wanted and len(self._received) < wanted:
             detail = f"the arm has {wanted} sections, publishers on {self._sections.topic_name}: {speakers}"
             self.diagnostics.warnings.note("sections without a node", detail)
 
@@ -80,7 +80,7 @@ class CableTanglerNode(CheckedNode):
         messages.indices_of(self._through[number], message.name)
         messages.finite("position", message.position)
         messages.finite("velocity", message.velocity)
-        self._heard.add(number)
+        self._received.add(number)
         instant = self._instants.add(number, nanoseconds(message.header.stamp), message)
         if instant is not None:
             self._tangle(instant)

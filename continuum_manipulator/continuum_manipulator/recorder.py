@@ -16,7 +16,7 @@ from rosbags.interfaces import Connection
 from continuum.errors import FileError
 from continuum.parameter_spec import ParameterSpec
 from continuum.recordings.bag import recovery_command
-from continuum_manipulator.bag_qos import heard_by_all, offered
+from continuum_manipulator.bag_qos import offered, received_by_all
 from continuum_manipulator.bag_writer import STORAGES, BagWriter
 from continuum_manipulator.message_definitions import message_definition
 from continuum_manipulator.nodekit.checked_node import CheckedNode
@@ -90,7 +90,7 @@ class RecorderNode(CheckedNode):
             if topic in self._refused or (self._wanted and topic not in self._wanted):
                 continue
             profiles = self._profiles(topic)
-            qos = heard_by_all(profiles)
+            qos = received_by_all(profiles)
             recorded = self._recorded.get(topic)
             if recorded is None:
                 self._record(topic, types[0], qos)

@@ -19,19 +19,19 @@ from continuum.arrays import Array
 from continuum.errors import ContinuumError
 from continuum.parameter_spec import ParameterSpec
 from continuum.viewer.address import HOST, PORT
+from continuum.viewer.default_arm import default_arm
 from continuum.viewer.page import FRAME_RATE, Page
 from continuum.viewer.remote_arm import RemoteArm
 from continuum.viewer.seen import Status
 from continuum.viewer.tension_controls import TensionControls
-from continuum.viewer.usual_arm import usual_arm
 from continuum_manipulator.arm_joints import arm_joint_names, arm_joint_values
 from continuum_manipulator.newest import Newest
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.occasional_publisher import OccasionalPublisher
 from continuum_manipulator.nodekit.qos import NEWEST, REPORT
 from continuum_manipulator.nodekit.stamps import nanoseconds
-from continuum_manipulator.sole_voice import SoleVoice
 from continuum_manipulator.tip_targets import BASE_FRAME, read_pose
+from continuum_manipulator.topic_arbiter import TopicArbiter
 from continuum_manipulator.viewer_messages import read_angles, read_cables, read_statuses
 from continuum_msgs.msg import CableStates
 
@@ -72,7 +72,7 @@ class ViewerNode(CheckedNode):
 
     @classmethod
     def default_arm(cls) -> Arm:
-        return usual_arm()
+        return default_arm()
 
     def __init__(self) -> None:
         super().__init__()
@@ -88,7 +88,7 @@ class ViewerNode(CheckedNode):
             "browsers": lambda: self._page.lookers,
             "frames": lambda: self._page.frames,
         }
-        self._voices = {topic: SoleVoice() for topic in (JOINTS, TARGETS, TENSIONS)}
+        self._arbiters = {topic: TopicArbiter() for topic in (JOINTS, TARGETS, TENSIONS)}
         self._publish_target = self.offer_at_times(PoseStamped, TARGETS)
         self._publish_joints = self.offer_at_times(JointState, JOINTS)
         self._publish_tensions = self.offer_at_times(CableStates, TENSIONS)
@@ -118,7 +118,7 @@ class ViewerNode(CheckedNode):
         checked = self.checked(topic, handle)
 
         def keep(message: Any) -> None:
-            if topic in self._voices:
+            if topic in self._arbiters:
                 self._hear(topic, message)
             self._newest.keep((topic, *getattr(message, "name", ())), (checked, message))
 
@@ -145,8 +145,8 @@ class ViewerNode(CheckedNode):
         for name in list(self._statuses)[:-MOST_STATUSES]:
             del self._statuses[name]
         shown = [
-            status if now - heard < STALE_AFTER else replace(status, level=3, message="silent")
-            for _, (heard, status) in sorted(self._statuses.items())
+            status if now - received < STALE_AFTER else replace(status, level=3, message="silent")
+            for _, (received, status) in sorted(self._statuses.items())
         ]
         self._remote.tell(statuses=tuple(shown))
 
@@ -199,16 +199,16 @@ class ViewerNode(CheckedNode):
         self._say(TENSIONS, self._publish_tensions, message)
 
     def _hear(self, topic: str, message: Any) -> None:
-        self._voices[topic].heard(nanoseconds(message.header.stamp), time.monotonic())
+        self._arbiters[topic].received(nanoseconds(message.header.stamp), time.monotonic())
 
     def _say(self, topic: str, publish: OccasionalPublisher, message: Any) -> None:
         """Publish with a stamp, unless another node speaks there, which is told."""
-        voice, now = self._voices[topic], time.monotonic()
-        if voice.is_taken(now):
+        arbiter, now = self._arbiters[topic], time.monotonic()
+        if arbiter.is_taken(now):
             self.diagnostics.warnings.note(f"{topic} not from the page", "another node publishes them")
             publish.withdraw()
-        if not voice.may_speak(now):
+        if not arbiter.may_speak(now):
             return
         message.header.stamp = self.get_clock().now().to_msg()
-        voice.said(nanoseconds(message.header.stamp))
+        arbiter.said(nanoseconds(message.header.stamp))
         publish(message)

@@ -15,7 +15,7 @@ from sensor_msgs.msg import JointState
 
 from continuum.errors import FileError, InvalidValueError
 from continuum.recordings.bag import Bag
-from continuum_manipulator.bag_qos import heard_by_all, offered
+from continuum_manipulator.bag_qos import offered, received_by_all
 from continuum_manipulator.bag_recovery import Recovered, recover
 from continuum_manipulator.bag_writer import BagWriter
 from continuum_manipulator.message_definitions import message_definition
@@ -163,9 +163,9 @@ def test_recovery_of_nothing(tmp_path):
 
 
 def test_request_is_met_by_every_publisher():
-    assert heard_by_all([]).reliability == STREAM.reliability
-    assert heard_by_all([STREAM]).reliability == STREAM.reliability
-    assert heard_by_all([STREAM, qos_profile_sensor_data]).reliability == qos_profile_sensor_data.reliability
+    assert received_by_all([]).reliability == STREAM.reliability
+    assert received_by_all([STREAM]).reliability == STREAM.reliability
+    assert received_by_all([STREAM, qos_profile_sensor_data]).reliability == qos_profile_sensor_data.reliability
     kept = QoSProfile(depth=1, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-    assert heard_by_all([kept, STREAM]).durability == STREAM.durability
-    assert heard_by_all([kept]).durability == kept.durability
+    assert received_by_all([kept, STREAM]).durability == STREAM.durability
+    assert received_by_all([kept]).durability == kept.durability

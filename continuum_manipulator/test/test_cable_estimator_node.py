@@ -36,13 +36,13 @@ class Bench:
         self.poses = probe.hear(PoseStamped, "tip_pose")
         self.twists = probe.hear(TwistStamped, "tip_twist")
         self.say = probe.speaker(CableStates, "measured_cable_states").publish
-        heard = (self.estimates, self.joints, self.poses, self.twists)
-        probe.warm_up(lambda: self.say(measured(0, LENGTHS[0], np.zeros(len(CABLES)))), *heard)
+        received = (self.estimates, self.joints, self.poses, self.twists)
+        probe.warm_up(lambda: self.say(measured(0, LENGTHS[0], np.zeros(len(CABLES)))), *received)
 
     def send(self, *messages: CableStates) -> None:
         """Send messages, and hear what comes until nothing comes any more."""
-        for heard in (self.estimates, self.joints, self.poses, self.twists):
-            heard.clear()
+        for received in (self.estimates, self.joints, self.poses, self.twists):
+            received.clear()
         for message in messages:
             self.say(message)
         self.probe.listen_until_quiet()

@@ -33,13 +33,13 @@ def node(domain):
 
 
 def test_quality_of_service_from_parameters_and_lost_messages(node):
-    heard = node.listen(String, "heard", lambda _: None)
+    received = node.listen(String, "heard", lambda _: None)
     node.offer(String, "said")
     node.refuse_unknown_overrides()
-    assert (heard.qos_profile.depth, heard.qos_profile.reliability) == (3, QoSReliabilityPolicy.BEST_EFFORT)
+    assert (received.qos_profile.depth, received.qos_profile.reliability) == (3, QoSReliabilityPolicy.BEST_EFFORT)
     assert node.get_parameter("qos_overrides./said.publisher.depth").value == 5
     assert (STREAM.depth, STREAM.reliability) == (4000, QoSReliabilityPolicy.RELIABLE)
     lost = QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST
-    (handler,) = (handler for handler in heard.event_handlers if handler.event_type == lost)
+    (handler,) = (handler for handler in received.event_handlers if handler.event_type == lost)
     handler.callback(SimpleNamespace(total_count=5, total_count_change=3))
     assert node.diagnostics.warnings.counts == {"messages lost on the way": 3}

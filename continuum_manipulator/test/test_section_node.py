@@ -201,8 +201,8 @@ def test_a_commanded_configuration_becomes_joints_and_cables(bench):
     w, rate = np.array([0.3, -0.5]), np.array([0.2, 0.7])
     phi, theta = jones_from_allen(w)
     phi_rate, theta_rate = jones_rates(w, rate)
-    for heard in (bench.joints, bench.cables, bench.configs):
-        heard.clear()
+    for received in (bench.joints, bench.cables, bench.configs):
+        received.clear()
     say(config(400, u=0.3, v=-0.5, u_rate=0.2, v_rate=0.7))
     say(config(401, phi=phi, theta=theta, phi_rate=phi_rate, theta_rate=theta_rate))
     bench.probe.wait_until(lambda: len(bench.joints) == len(bench.cables) == 2, "two answers")

@@ -55,9 +55,9 @@ def two_runs(draw):
         first = sorted(draw(st.sets(st.integers(1, 12), min_size=1)))
         second = sorted(draw(st.sets(st.integers(0, 12))) | {draw(st.integers(0, first[-1] - 1))})
         sent[key] = [(key, stamp, 1) for stamp in first] + [(key, stamp, 2) for stamp in second]
-    heard = [sent[key].pop(0) for key in KEYS]
+    received = [sent[key].pop(0) for key in KEYS]
     order = draw(st.permutations([key for key, messages in sent.items() for _ in messages]))
-    return heard + [sent[key].pop(0) for key in order]
+    return received + [sent[key].pop(0) for key in order]
 
 
 @given(two_runs())

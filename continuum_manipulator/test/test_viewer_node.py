@@ -76,14 +76,14 @@ def test_a_browser_that_stalls_or_leaves_holds_nobody_up(probe):
     try:
         probe.wait_until(lambda: probe.count("viewer", "browsers") == 1, "a browser")
         looker.send_signal(signal.SIGSTOP)
-        before, heard = probe.count("viewer", "frames"), probe.count("viewer", "received joint_states")
+        before, received = probe.count("viewer", "frames"), probe.count("viewer", "received joint_states")
         sent = itertools.cycle(way)
 
         def went_on():
             joints(next(sent))
             return (
                 probe.count("viewer", "frames") > before + 60
-                and probe.count("viewer", "received joint_states") > heard + 60
+                and probe.count("viewer", "received joint_states") > received + 60
             )
 
         probe.wait_until(went_on, lambda: f"frames and messages beside a browser that stalls: {probe.report('viewer')}")

@@ -61,11 +61,11 @@ class Bench:
     def wait_for_tension(self, tension):
         self.wait(lambda: self.tensions and self.tensions[-1].effort[0] == tension, f"{tension} N")
 
-    def wait_for_silence(self, heard):
+    def wait_for_silence(self, received):
         def quiet():
-            before = len(heard)
+            before = len(received)
             self.probe.wait_for_report("viewer")
-            return len(heard) == before
+            return len(received) == before
 
         self.wait(quiet, "silence")
 
@@ -149,8 +149,8 @@ def test_nobody_is_talked_over(bench):
         bench.wait_for_tension(12.0)
         bench.wait_until_silent("cable_tension_cmd", lambda: say(cables(1, 0, CABLES, [0.1, 0.1])))
         assert not bench.advertises("/cable_tension_cmd")
-        heard = len(bench.tensions)
-        bench.wait(lambda: any(len(one.effort) for one in bench.tensions[heard:]), "the viewer's voice again")
+        received = len(bench.tensions)
+        bench.wait(lambda: any(len(one.effort) for one in bench.tensions[received:]), "the viewer's voice again")
 
 
 def test_a_dragged_target_and_joints_are_published(bench):

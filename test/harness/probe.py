@@ -34,7 +34,7 @@ class Probe:
         self.node = rclpy.create_node(name, context=self._context)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
-        self._heard: list[list[Any]] = []
+        self._received: list[list[Any]] = []
         self._reports: dict[str, dict[str, str]] = {}
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, REPORT)
 
@@ -48,10 +48,10 @@ class Probe:
 
     def hear(self, message_type: type, topic: str, qos: QoSProfile = STREAM) -> list[Any]:
         """Subscribe; the returned list grows with every message."""
-        heard: list[Any] = []
-        self.node.create_subscription(message_type, topic, heard.append, qos)
-        self._heard.append(heard)
-        return heard
+        received: list[Any] = []
+        self.node.create_subscription(message_type, topic, received.append, qos)
+        self._received.append(received)
+        return received
 
     def speaker(self, message_type: type, topic: str, listeners: int = 1, qos: QoSProfile = STREAM) -> Publisher:
         """Advertise, and wait until so many subscriptions are there."""
@@ -75,29 +75,29 @@ class Probe:
         """Listen until nodes of these names run."""
         self.wait_until(lambda: set(names) <= set(self.node.get_node_names()), f"nodes {', '.join(names)}")
 
-    def warm_up(self, send: Callable[[], None], *heard: list[Any]) -> None:
+    def warm_up(self, send: Callable[[], None], *received: list[Any]) -> None:
         """Send until every list has something, then until all answers have come, and empty the lists.
 
         That both ends know of each other here does not say that the nodes under test know it too.
         """
         deadline = time.monotonic() + LONG
-        while not all(heard):
+        while not all(received):
             assert time.monotonic() < deadline, "no answer"
             send()
             again = time.monotonic() + 0.5
-            while not all(heard) and time.monotonic() < again:
+            while not all(received) and time.monotonic() < again:
                 self._executor.spin_once(timeout_sec=0.05)
         self.listen_until_quiet()
-        for messages in heard:
+        for messages in received:
             messages.clear()
 
     def listen_until_quiet(self, quiet: float = 0.3) -> None:
         """Listen until nothing has come on the topics heard for ``quiet`` [s]."""
-        last, before = time.monotonic(), sum(map(len, self._heard))
+        last, before = time.monotonic(), sum(map(len, self._received))
         while time.monotonic() - last < quiet:
             self._executor.spin_once(timeout_sec=0.05)
-            if sum(map(len, self._heard)) != before:
-                last, before = time.monotonic(), sum(map(len, self._heard))
+            if sum(map(len, self._received)) != before:
+                last, before = time.monotonic(), sum(map(len, self._received))
 
     def report(self, node: str) -> dict[str, str]:
         """The latest diagnostics of a node: its values by key, and ``level`` as OK, WARN, ERROR or STALE; empty before.

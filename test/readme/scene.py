@@ -93,7 +93,7 @@ class Scene:
         self._mark = Mark()
         self._environment = os.environ | self._mark.environment | {"ROS_DOMAIN_ID": str(domain)}
         self._probe = Probe(domain)
-        self._heard = {topic: self._probe.hear(kind, topic) for topic, kind in TOPICS.items()}
+        self._received = {topic: self._probe.hear(kind, topic) for topic, kind in TOPICS.items()}
         self._commands: list[Command] = []
         self._staying: list[Command] = []
 
@@ -110,8 +110,8 @@ class Scene:
         """Run a command to its end, or if it stays, until all that shows its work is there."""
         if way.after_ctrl_c:
             self.interrupt()
-        for heard in self._heard.values():
-            heard.clear()
+        for received in self._received.values():
+            received.clear()
         command = Command(text, way, self._folder, self._environment)
         self._commands.append(command)
         if way.stays:
@@ -120,8 +120,10 @@ class Scene:
             command.end()
         self._wait(command, command.says_all, "its words")
         for topic, count in way.hears:
-            heard = self._heard[topic]
-            self._wait(command, lambda heard=heard, count=count: len(heard) >= count, f"{count} messages on {topic}")
+            received = self._received[topic]
+            self._wait(
+                command, lambda received=received, count=count: len(received) >= count, f"{count} messages on {topic}"
+            )
         names = self._probe.node.get_node_names
         self._wait(command, lambda: set(way.nodes) <= set(names()), f"nodes {way.nodes}")
         if way.serves:

@@ -49,7 +49,7 @@ def rows_of(name: str, holds: Sequence[KnownHold]) -> list[list[str]]:
 
 def _row(title: str, holds: Sequence[KnownHold]) -> list[str]:
     inside = np.mean([hold.inside for hold in holds])
-    told = [hold for hold in holds if hold.found.nearer is not Nearer.UNTOLD]
+    told = [hold for hold in holds if hold.found.nearer is not Nearer.UNREPORTED]
     right = sum(hold.found.nearer is _truly(hold) for hold in told)
     covered = np.mean([_difference_covered(hold) for hold in holds])
     counts = (right, len(told) - right, len(holds) - len(told))

@@ -122,16 +122,15 @@ def _calibrate(conductor: Conductor) -> None:
 
 
 def _tell(run: Run, conductor: Conductor, truth: Path | None) -> None:
-    times, measured, simulated = side_by_side(conductor.heard)
+    times, measured, simulated = side_by_side(conductor.received)
     line = (
         f"{run.name}: {times[-1]:.1f} s, {len(times)} joint states, bent by up to "
         f"{abs(measured.sum(axis=1)).max() * 57.29578:.0f} degrees; simulated arm "
         f"{rms_degrees(simulated - measured):.1f} degrees RMS beside it"
     )
     if truth is not None:
-        line += (
-            f"; angles {rms_degrees(error_of_angles(conductor.heard['measured'], truth)):.2f} degrees RMS off the truth"
-        )
+        off = rms_degrees(error_of_angles(conductor.received["measured"], truth))
+        line += f"; angles {off:.2f} degrees RMS off the truth"
     print(line, flush=True)
 
 

@@ -53,7 +53,7 @@ class Conductor:
         self._executor.add_node(self._node)
         self._check = check
         self._say = self._node.create_publisher(CableStates, "cable_tension_cmd", STREAM)
-        self.heard: dict[str, list[tuple[int, Array]]] = {name: [] for name in STATES}
+        self.received: dict[str, list[tuple[int, Array]]] = {name: [] for name in STATES}
         for name, topic in STATES.items():
             self._node.create_subscription(JointState, topic, lambda m, n=name: self._keep(n, m), STREAM)
 
@@ -85,9 +85,9 @@ class Conductor:
 
     def wait_for_states(self) -> None:
         """Until both arms say how they are."""
-        for heard in self.heard.values():
-            heard.clear()
-        self.wait_until(lambda: all(self.heard.values()), "joint states of both arms")
+        for received in self.received.values():
+            received.clear()
+        self.wait_until(lambda: all(self.received.values()), "joint states of both arms")
 
     def trigger(self, service: str, patient: bool = False) -> str:
         """What a service answered; ``patient``, it is asked again until it does its work.
@@ -120,7 +120,7 @@ class Conductor:
     def place_simulated_arm(self) -> None:
         """Into the posture that the bench's arm has, at rest."""
         self.wait_for_states()
-        posture = self.heard["measured"][-1][1]
+        posture = self.received["measured"][-1][1]
         self._call(ResetArm, "simulated/dynamics/reset", ResetArm.Request(position=posture.tolist()))
 
     def carry_out(self, run: Run) -> None:
@@ -155,12 +155,12 @@ class Conductor:
         return client.call_async(request or kind.Request())
 
     def _keep(self, name: str, message: JointState) -> None:
-        self.heard[name].append((nanoseconds(message.header.stamp), np.array(message.position[1:-1])))
+        self.received[name].append((nanoseconds(message.header.stamp), np.array(message.position[1:-1])))
 
 
-def side_by_side(heard: dict[str, list[tuple[int, Array]]]) -> tuple[Array, Array, Array]:
+def side_by_side(received: dict[str, list[tuple[int, Array]]]) -> tuple[Array, Array, Array]:
     """Times since the first measured (n,) [s], angles measured and simulated at them, (n, n_joints) each [rad]."""
-    measured, simulated = (heard[name] for name in ("measured", "simulated"))
+    measured, simulated = (received[name] for name in ("measured", "simulated"))
     stamps, known = (np.array([stamp for stamp, _ in arm]) for arm in (measured, simulated))
     table = np.array([angles for _, angles in simulated])
     at = np.stack([np.interp(stamps, known, column) for column in table.T], axis=1)

@@ -13,14 +13,14 @@ from continuum_manipulator.nodekit.stamps import NANOSECONDS
 from continuum_manipulator.nodekit.two_clocks import read_together
 
 
-def error_of_angles(heard: list[tuple[int, Array]], truth_file: Path) -> Array:
+def error_of_angles(received: list[tuple[int, Array]], truth_file: Path) -> Array:
     """Published less true joint angles, (n, n_joints) [rad]; ``heard`` as (stamp [ns], angles (n_joints,) [rad])."""
     truth = read_truth(truth_file)
     instant, now = read_together(time.monotonic, time.time_ns)
     since = instant - now / NANOSECONDS  # from ROS time to the truth file's clock
-    at = np.array([stamp / NANOSECONDS + since for stamp, _ in heard])
+    at = np.array([stamp / NANOSECONDS + since for stamp, _ in received])
     true = np.stack([np.interp(at, truth["monotonic_s"], column) for column in truth["theta"].T], axis=1)
-    return np.array([angles for _, angles in heard]) - true
+    return np.array([angles for _, angles in received]) - true
 
 
 def rms_degrees(difference: Array) -> float:

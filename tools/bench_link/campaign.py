@@ -12,9 +12,9 @@ import numpy as np
 from emulated_bench import Bridge
 
 from continuum.arrays import Array
-from tools.bench_link.ears import Sample, State
 from tools.bench_link.faults import LASTS, NO_DRIFT, orders
 from tools.bench_link.latency import load_sent
+from tools.bench_link.latency_probe import Sample, State
 from tools.bench_link.resumption import good_again
 from tools.bench_link.rig import RATE, Rig, rig
 from tools.bench_link.truth import Truth, errors_of, load_truth
@@ -107,7 +107,7 @@ def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
         bridge.wait_for_state("active")
     bench.wait_for_joints(bridge)
     bench.drive(bridge, to_and_fro, 4 * HALF)
-    bench.ears.clear()
+    bench.latency_probe.clear()
     begin = time.monotonic()
     for order in orders(case):
         bench.bench.tell(order)
@@ -117,7 +117,11 @@ def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
     bench.drive(bridge, to_and_fro, PULLED_ON)
     bench.drive(bridge, lambda _: np.zeros(2), 4 * HALF)
     bench.drive(bridge, None, CALM)
-    end, joints, imus = time.monotonic(), list(bench.ears.joints), [list(imu) for imu in bench.ears.imus]
+    end, joints, imus = (
+        time.monotonic(),
+        list(bench.latency_probe.joints),
+        [list(imu) for imu in bench.latency_probe.imus],
+    )
     fell_back = ""
     if bridge.state != "active":
         said = bridge.node.stderr.rpartition(_FALLEN)[2].partition("\n")[0]

@@ -12,8 +12,8 @@ import numpy as np
 from emulated_bench import Bridge
 
 from continuum.arrays import Array
-from tools.bench_link.ears import State
 from tools.bench_link.latency import Delays, delays, load_sent
+from tools.bench_link.latency_probe import State
 from tools.bench_link.processes import core_share, usage
 from tools.bench_link.rig import Rig, rig
 from tools.bench_link.truth import Truth, errors_of, load_truth, rms_of_worst
@@ -82,8 +82,8 @@ def measure(minutes: float, folder: Path) -> ClosedLoop:
         begin = told = time.monotonic()
         for let_go in _courses(bench, bridge):
             releases.append(let_go)
-            states += bench.ears.joints
-            bench.ears.clear()
+            states += bench.latency_probe.joints
+            bench.latency_probe.clear()
             if time.monotonic() - told >= MINUTE:
                 told += MINUTE
                 loads.append(os.getloadavg()[0])

@@ -12,7 +12,7 @@ from typing import Any
 import tools.bench_link
 from continuum.errors import ContinuumError
 from continuum.whole_file import write_whole
-from tools.bench_link import campaign, closed_loop, deaths, soak
+from tools.bench_link import campaign, closed_loop, crash_tests, soak
 from tools.bench_link.faults import CASES, FAULTS
 from tools.bench_link.page import page
 from tools.bench_link.processes import take_niceness
@@ -41,14 +41,14 @@ def main(arguments: list[str] | None = None) -> int:
         help="of all its processes and their session; below 0 takes a privilege")  # fmt: skip
     add("--out", type=Path, default=Path("out/bench_link"), metavar="FOLDER", help="default %(default)s")
     add("--page", type=Path, default=PAGE, metavar="FILE", help="the page, which is overwritten; default %(default)s")
-    add("parts", nargs="*", metavar="PART", help="closed, campaign, deaths, soak or page (no run); default all")
+    add("parts", nargs="*", metavar="PART", help="closed, campaign, crash_tests, soak or page (no run); default all")
     options = parser.parse_args(arguments)
     runs: dict[str, Callable[[Path], Any]] = {
         "closed": lambda folder: [*(load(options.out).closed or []), closed_loop.measure(options.minutes, folder)],
         "campaign": lambda folder: together(
             load(options.out).campaign if options.faults else None, campaign.measure(folder, _cases(options.faults))
         ),
-        "deaths": lambda folder: deaths.measure(folder, options.repetitions),
+        "crash_tests": lambda folder: crash_tests.measure(folder, options.repetitions),
         "soak": lambda folder: soak.measure(options.soak_minutes, options.soak_rate, folder),
     }
     parts = options.parts or list(runs)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from continuum_hw_imu.protocol.messages.forces import STEP
 from tools.bench_link.campaign import FASTEST, MOST, RIGHT, Case
 from tools.bench_link.closed_loop import ClosedLoop
-from tools.bench_link.deaths import LIMITS, TICK, Death
+from tools.bench_link.crash_tests import LIMITS, TICK, Crash
 from tools.bench_link.results import Results
 from tools.bench_link.rig import RATE
 from tools.bench_link.soak import Soak
@@ -38,7 +38,7 @@ def goals(results: Results) -> list[Goal]:
     parts: Sequence[tuple[object, Callable[..., Iterator[Goal]]]] = (
         (results.closed and results.closed[-1], _closed),
         (results.campaign, _campaign),
-        (results.deaths, _deaths),
+        (results.crash_tests, _crashes),
         (results.soak, _soak),
     )
     for result, told in parts:
@@ -77,11 +77,11 @@ def _campaign(cases: Sequence[Case]) -> Iterator[Goal]:
     yield Goal("its rise", f"<= {FASTEST:g} N/s", f"{rise:.1f}", rise <= FASTEST + RISE_ROUNDING)
 
 
-def _deaths(deaths: Sequence[Death]) -> Iterator[Goal]:
-    for death in deaths:
-        worst = max(death.times)
-        yield Goal(f"slack after: {death.name}", _slack(death.stated, 1), f"{worst:.2f}", worst <= death.stated + TICK)
-    ramp = max(time - begun for death in deaths for time, begun in zip(death.times, death.begun, strict=True))
+def _crashes(crash_tests: Sequence[Crash]) -> Iterator[Goal]:
+    for crash in crash_tests:
+        worst = max(crash.times)
+        yield Goal(f"slack after: {crash.name}", _slack(crash.stated, 1), f"{worst:.2f}", worst <= crash.stated + TICK)
+    ramp = max(time - begun for crash in crash_tests for time, begun in zip(crash.times, crash.begun, strict=True))
     yield Goal("slack after the receiver began to let go", _slack(SLACK, 2), f"{ramp:.2f}", ramp <= SLACK + 2 * TICK)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum_hw_imu.protocol.frame import WRAP_TIME
-from tools.bench_link.ears import State
+from tools.bench_link.latency_probe import State
 from tools.bench_link.truth import Truth
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from tools.bench_link.campaign import CALM, COMMANDED, FASTEST, HALF, MOST, PULLED_ON, RIGHT, Case
 from tools.bench_link.closed_loop import HIGHEST, SWING, ClosedLoop
-from tools.bench_link.deaths import TENSION, TICK, Death
+from tools.bench_link.crash_tests import TENSION, TICK, Crash
 from tools.bench_link.faults import FAULTS, LASTS
 from tools.bench_link.goals import goals
 from tools.bench_link.results import Results
@@ -42,8 +42,8 @@ def page(results: Results) -> str:
         parts += [*_closed(results.closed[-1]), *_runs(results.closed)]
     if results.campaign:
         parts += _campaign(results.campaign)
-    if results.deaths:
-        parts += _deaths(results.deaths)
+    if results.crash_tests:
+        parts += _crashes(results.crash_tests)
     if results.soak:
         parts += _soak(results.soak)
     return "\n\n".join(parts) + "\n"
@@ -165,7 +165,7 @@ def _campaign(cases: Sequence[Case]) -> list[str]:
     ]
 
 
-def _deaths(deaths: Sequence[Death]) -> list[str]:
+def _crashes(crash_tests: Sequence[Crash]) -> list[str]:
     return [
         "## When the bridge or the port goes",
         paragraph(
@@ -177,8 +177,8 @@ def _deaths(deaths: Sequence[Death]) -> list[str]:
         table(
             ("what happens", "slack, stated [s]", "slack [s]", "let go [s]", "load"),
             [
-                (death.name, f"{death.stated:g}", _sorted(death.times), _sorted(death.begun), f"{max(death.loads):.1f}")
-                for death in deaths
+                (crash.name, f"{crash.stated:g}", _sorted(crash.times), _sorted(crash.begun), f"{max(crash.loads):.1f}")
+                for crash in crash_tests
             ],
         ),
     ]

@@ -11,7 +11,7 @@ from typing import Any
 from continuum.whole_file import write_whole
 from tools.bench_link.campaign import Case
 from tools.bench_link.closed_loop import ClosedLoop, Minute
-from tools.bench_link.deaths import Death
+from tools.bench_link.crash_tests import Crash
 from tools.bench_link.soak import Memory, Soak
 
 
@@ -24,12 +24,12 @@ class Results:
 
     closed: list[ClosedLoop] | None
     campaign: list[Case] | None
-    deaths: list[Death] | None
+    crash_tests: list[Crash] | None
     soak: Soak | None
     niceness: dict[str, int] = field(default_factory=dict)
 
 
-PARTS = "closed", "campaign", "deaths", "soak"
+PARTS = "closed", "campaign", "crash_tests", "soak"
 """Each in a file of its name."""
 
 
@@ -49,7 +49,7 @@ def together(kept: Sequence[Case] | None, new: Sequence[Case]) -> list[Case]:
 def load(folder: Path) -> Results:
     """All that was kept."""
     kept = {part: _plain(folder / f"{part}.json") for part in PARTS}
-    closed, campaign, deaths, soak = (kept[part] and kept[part]["result"] for part in PARTS)
+    closed, campaign, crash_tests, soak = (kept[part] and kept[part]["result"] for part in PARTS)
     for run in closed or []:
         run["by_minute"] = [Minute(**minute) for minute in run["by_minute"]]
     if soak:
@@ -57,7 +57,7 @@ def load(folder: Path) -> Results:
     return Results(
         closed and [ClosedLoop(**run) for run in closed],
         campaign and [Case(**case) for case in campaign],
-        deaths and [Death(**death) for death in deaths],
+        crash_tests and [Crash(**crash) for crash in crash_tests],
         soak and Soak(**soak),
         {part: known["niceness"] for part, known in kept.items() if known},
     )

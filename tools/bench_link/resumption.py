@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tools.bench_link.ears import Sample, State
+from tools.bench_link.latency_probe import Sample, State
 
 WHOLE = 0.5
 """A stream is good from an instant on if nothing is missing in so long a stretch from there [s]."""
@@ -13,7 +13,7 @@ LARGEST_STEP = 1.5
 """From stamp to stamp, of the period; more means that one is missing."""
 
 
-def good_again(heard: Sequence[Sample | State], back: float, period: float) -> float | None:
+def good_again(received: Sequence[Sample | State], back: float, period: float) -> float | None:
     """Time from ``back`` until the first message came of a stretch without gaps [s]; None if there is no such stretch.
 
     Args:
@@ -21,7 +21,7 @@ def good_again(heard: Sequence[Sample | State], back: float, period: float) -> f
         back: instant from which on the link is sound; messages that tell of earlier instants do not count.
         period: between two messages [s].
     """
-    later = [one for one in heard if one.stamp >= back]
+    later = [one for one in received if one.stamp >= back]
     first = 0
     for at in range(1, len(later)):
         step = later[at].stamp - later[at - 1].stamp

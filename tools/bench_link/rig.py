@@ -14,7 +14,7 @@ from emulated_bench import Bridge, EmulatedBench, bridge_at, emulated_bench
 from harness import Probe
 
 from continuum.arrays import Array
-from tools.bench_link.ears import TimedEars
+from tools.bench_link.latency_probe import LatencyProbe
 from tools.demo.folder import claimed
 
 RATE = 60.0
@@ -45,7 +45,7 @@ class Rig:
     domain: int
     folder: Path
     bench: EmulatedBench
-    ears: TimedEars
+    latency_probe: LatencyProbe
 
     @property
     def calibration(self) -> Path:
@@ -61,29 +61,31 @@ class Rig:
 
     def calibrate(self) -> None:
         """Leave the sensors' calibration in its file."""
-        with bridge_at(self.ears, self.bench, self.domain, calibration=self.calibration) as bridge:
+        with bridge_at(self.latency_probe, self.bench, self.domain, calibration=self.calibration) as bridge:
             bridge.wait_for_state("inactive")
             bridge.calibrate()
             bridge.node.stop()
         self.wait_for_free_port()
 
     def wait_for_free_port(self) -> None:
-        self.ears.probe.wait_until(lambda: not self.bench.status["open"], "a free port")
+        self.latency_probe.probe.wait_until(lambda: not self.bench.status["open"], "a free port")
 
     @contextmanager
     def bridge(self, **parameters: object) -> Iterator[Bridge]:
         """A bridge with that calibration that is active, once its joint states come."""
         self.wait_for_free_port()
         given = {"calibration": self.calibration, "keep_bias": True, "autostart": "activate", **parameters}
-        with bridge_at(self.ears, self.bench, self.domain, **given) as bridge:
+        with bridge_at(self.latency_probe, self.bench, self.domain, **given) as bridge:
             bridge.wait_for_state("active")
             self.wait_for_joints(bridge)
             yield bridge
 
     def wait_for_joints(self, bridge: Bridge) -> None:
         """Until some come from now on."""
-        before = len(self.ears.joints)
-        bridge.probe.wait_until(lambda: len(self.ears.joints) > before + 5, lambda: f"states; {bridge.told('angles')}")
+        before = len(self.latency_probe.joints)
+        bridge.probe.wait_until(
+            lambda: len(self.latency_probe.joints) > before + 5, lambda: f"states; {bridge.told('angles')}"
+        )
 
     def drive(self, bridge: Bridge, pull: Pull | None, lasts: float) -> None:
         """Command tensions (None: nothing), and listen, for so long [s]."""
@@ -114,6 +116,6 @@ def rig(folder: Path, *options: str) -> Iterator[Rig]:
         Probe(domain, "bench_link") as probe,
         emulated_bench(domain, folder, "--sent", str(folder / SENT), *options) as bench,
     ):
-        found = Rig(domain, folder, bench, TimedEars(probe))
+        found = Rig(domain, folder, bench, LatencyProbe(probe))
         found.calibrate()
         yield found

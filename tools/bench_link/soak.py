@@ -59,9 +59,9 @@ class Soak:
 def measure(minutes: float, rate: float, folder: Path) -> Soak:
     """Stream at a rate [Hz], the cables pulled gently to and fro."""
     looks: tuple[list[Usage], list[Usage]] = [], []
-    loads, heard = [], 0
+    loads, received = [], 0
     with rig(folder, "--rate", str(rate)) as bench, bench.bridge() as bridge:
-        bench.ears.clear()
+        bench.latency_probe.clear()
         pids = bridge.node.process.pid, bench.bench.process.process.pid
         begin = time.monotonic()
         while time.monotonic() - begin < 60.0 * minutes:
@@ -69,16 +69,16 @@ def measure(minutes: float, rate: float, folder: Path) -> Soak:
                 seen.append(usage(pid))
             loads.append(os.getloadavg()[0])
             bench.drive(bridge, lambda t: 4.0 * np.array([1.0 - np.cos(t), 0.0]), PERIOD)
-            heard += len(bench.ears.joints)
-            bench.ears.clear()
+            received += len(bench.latency_probe.joints)
+            bench.latency_probe.clear()
             if len(loads) % 12 == 0:
                 memory = ", ".join(f"{seen[-1].memory / 1024:.1f} MiB" for seen in looks)
                 lasted = time.monotonic() - begin
-                print(f"  {lasted / 60:.0f} min, {heard / lasted:.0f} Hz: {memory}", flush=True)
+                print(f"  {lasted / 60:.0f} min, {received / lasted:.0f} Hz: {memory}", flush=True)
         lasted = time.monotonic() - begin
         bridge.probe.wait_for_report(f"{bridge.name}: link")
         lost = int(bridge.told("link")["frames lost"])
-    reached = heard / lasted
+    reached = received / lasted
     of_bridge, of_emulator = (memory_of(seen, reached / RATE) for seen in looks)
     return Soak(lasted / 60.0, rate, reached, float(np.mean(loads)), lost, of_bridge, of_emulator)
 

@@ -11,7 +11,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum_hw_imu.emulator.truth_file import read_truth
 from continuum_hw_imu.protocol.messages import GuardState
-from tools.bench_link.ears import State
+from tools.bench_link.latency_probe import State
 
 STILL = np.radians(0.5)
 """A joint that turns slower is at rest [rad/s]."""

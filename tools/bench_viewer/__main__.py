@@ -18,7 +18,7 @@ from domain_coordinator import domain_id
 from harness import NodeProcess, running
 
 from continuum.arm import Arm, arm_to_mapping
-from continuum.viewer.usual_arm import usual_arm
+from continuum.viewer.default_arm import default_arm
 from tools.bench_viewer.moving_arm import RATE, MovingArm
 from tools.bench_viewer.viewer_process import SETTLING, measured_load, viewer
 from tools.markdown import paragraph, replace_between, table
@@ -110,7 +110,7 @@ def others(domain: int, seconds: float, turns: int) -> str:
 @contextmanager
 def arm_on_disk(n_sections: int) -> Iterator[tuple[Arm, Path]]:
     """An arm of so many sections, and its parameter file."""
-    arm = usual_arm(n_sections)
+    arm = default_arm(n_sections)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "arm.yaml"
         content = {"/**": {"ros__parameters": {"arm": arm_to_mapping(arm)}}}

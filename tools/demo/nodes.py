@@ -16,7 +16,7 @@ from tools.demo.progress import follow
 END_TIMEOUT = 20.0
 """Time given to the nodes to end by themselves [s]."""
 
-_DEATH = re.compile(r"^\[ERROR\] \[(?P<label>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)", re.M)
+_CRASH = re.compile(r"^\[ERROR\] \[(?P<label>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)", re.M)
 
 
 def run_nodes(
@@ -40,19 +40,19 @@ def checker(launch: subprocess.Popen[bytes], log_file: Path) -> Callable[[], Non
 
     def check() -> None:
         text = log_file.read_text(encoding="utf-8", errors="replace")
-        death = _DEATH.search(text)
-        if death:
-            raise DemoError(f"{death['label']} died: {_last_words(text, death)}; see {log_file}")
+        crash = _CRASH.search(text)
+        if crash:
+            raise DemoError(f"{crash['label']} died: {_last_words(text, crash)}; see {log_file}")
         if launch.poll() is not None:
             raise DemoError(f"the launch ended: {(text.strip() or 'silently').splitlines()[-1]}; see {log_file}")
 
     return check
 
 
-def _last_words(text: str, death: re.Match[str]) -> str:
+def _last_words(text: str, crash: re.Match[str]) -> str:
     """What a dead node said last, or its exit code if it said nothing."""
-    said = re.findall(rf"^\[{re.escape(death['label'])}\] (.*\S)", text[: death.start()], re.M)
-    return f"{said[-1] if said else 'without a word'} (exit code {death['code']})"
+    said = re.findall(rf"^\[{re.escape(crash['label'])}\] (.*\S)", text[: crash.start()], re.M)
+    return f"{said[-1] if said else 'without a word'} (exit code {crash['code']})"
 
 
 @contextmanager

@@ -91,8 +91,8 @@ def read_run(path: Path = RUN) -> PairRun:
         raise FileError(path, f"is no run of a pair of sensors ({error})") from error
     new = np.diff(t, prepend=-np.inf) > 0
     rates, forces = np.radians(np.stack(blocks[:2], axis=1)), GRAVITY * np.stack(blocks[2:], axis=1)
-    heard = np.isfinite(rates).all(axis=2) & np.isfinite(forces).all(axis=2)
-    recording = ImuRecording(t[new], rates[new], forces[new], np.zeros_like(heard[new]), heard[new])
+    received = np.isfinite(rates).all(axis=2) & np.isfinite(forces).all(axis=2)
+    recording = ImuRecording(t[new], rates[new], forces[new], np.zeros_like(received[new]), received[new])
     return PairRun(recording, np.unwrap(np.radians(degrees[new])))
 
 

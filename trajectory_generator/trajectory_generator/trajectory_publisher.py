@@ -66,7 +66,7 @@ class TrajectoryPublisherNode(CheckedNode):
         self.diagnostics.values["progress"] = lambda: f"{self._next} of {len(self._messages)} instants"
         self._publish_pose = self.offer(PoseStamped, "traj_pose")
         self._publish_twist = self.offer(TwistStamped, "traj_twist")
-        self._watch = GraphWatch(self, self.values["wait_for_nodes"], self._heard, self.values["settle_time"])
+        self._watch = GraphWatch(self, self.values["wait_for_nodes"], self._received, self.values["settle_time"])
         self._wait_until = time.monotonic() + self.values["wait_timeout"]
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._wait_timer = self.create_timer(START_PERIOD, self._wait, clock=steady)
@@ -81,7 +81,7 @@ class TrajectoryPublisherNode(CheckedNode):
     def parameter_specs(cls, given: Mapping[str, object]) -> tuple[ParameterSpec, ...]:
         return (*cls.PARAMETERS, *parameters_of(given.get(PATH.name, PATH.default)))
 
-    def _heard(self) -> bool:
+    def _received(self) -> bool:
         return min(self._publish_pose.subscribers, self._publish_twist.subscribers) >= self.values["subscribers"]
 
     def _wait(self) -> None:
@@ -98,8 +98,8 @@ class TrajectoryPublisherNode(CheckedNode):
 
     def _who_is_missing(self) -> str:
         wanted = self.values["subscribers"]
-        heard = {"traj_pose": self._publish_pose.subscribers, "traj_twist": self._publish_twist.subscribers}
-        missing = [f"{topic} has {n} of {wanted} subscriptions" for topic, n in heard.items() if n < wanted]
+        received = {"traj_pose": self._publish_pose.subscribers, "traj_twist": self._publish_twist.subscribers}
+        missing = [f"{topic} has {n} of {wanted} subscriptions" for topic, n in received.items() if n < wanted]
         missing += [f"node {name} does not run" for name in self._watch.missing()]
         return ", ".join(missing) or "all are there, but nodes or topics still come and go"
 

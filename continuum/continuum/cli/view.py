@@ -57,18 +57,18 @@ def run(options: argparse.Namespace) -> int:
 def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
     from continuum.recordings.bag import is_bag
     from continuum.recordings.recorded_arm import check_joints
-    from continuum.viewer.hands import Hands
+    from continuum.viewer.default_arm import arm_of_joints, default_arm
+    from continuum.viewer.manual_source import ManualSource
     from continuum.viewer.playback import Playback
     from continuum.viewer.tracks import read_tracks
-    from continuum.viewer.usual_arm import arm_of_joints, usual_arm
 
     what = options.what
     if what is None or (Path(what).suffix in (".yaml", ".yml") and not is_bag(what)):
         if what is not None and options.arm is not None:
             raise InvalidValueError("--arm", options.arm, f"only beside a recording; {what} is an arm itself")
         file = options.arm if what is None else what
-        arm = usual_arm() if file is None else load_arm(file)
-        return arm, Hands(arm)
+        arm = default_arm() if file is None else load_arm(file)
+        return arm, ManualSource(arm)
     if sys.stdout.isatty():  # a refusal is one line, elsewhere
         print(f"reading {what} ...", flush=True)
     tracks = read_tracks(what)

@@ -97,11 +97,11 @@ class FreeSpace:
     def directions_of(self, recording: int) -> Array:
         """Directions as one recording sees them, (n_p, n_free): what belongs to another moves nothing."""
         found = np.zeros_like(self.directions)
-        mine = self.felt_by(recording)
+        mine = self.affected_by(recording)
         found[:, mine] = self.directions[:, mine]
         return found
 
-    def felt_by(self, recording: int) -> NDArray[np.intp]:
+    def affected_by(self, recording: int) -> NDArray[np.intp]:
         """Numbers of the unknowns that do not belong to another recording."""
         return np.flatnonzero([unknown.recording in (None, recording) for unknown in self.unknowns])
 

@@ -97,25 +97,29 @@ def particle_swarm(
     """
     place = random.uniform(lower, upper, (settings.particles, lower.size))
     speed = np.zeros_like(place)
-    own_place, own_best = place.copy(), np.array([objective(x) for x in place])
+    personal_place, personal_best = place.copy(), np.array([objective(x) for x in place])
     before = np.inf
     for iteration in range(settings.iterations):
         if progress is not None:
             progress(iteration / settings.iterations)
-        leader = int(np.argmin(own_best))
+        global_best = int(np.argmin(personal_best))
         spread = np.std(place, axis=0) / np.maximum(np.abs(np.mean(place, axis=0)), 1e-12)
-        if before - own_best[leader] < settings.objective_tolerance and np.all(spread < settings.spread_tolerance):
+        if before - personal_best[global_best] < settings.objective_tolerance and np.all(
+            spread < settings.spread_tolerance
+        ):
             break
-        before = own_best[leader]
+        before = personal_best[global_best]
         r1, r2 = random.random((2, *place.shape))
-        pull = settings.cognitive * r1 * (own_place - place) + settings.social * r2 * (own_place[leader] - place)
+        pull = settings.cognitive * r1 * (personal_place - place) + settings.social * r2 * (
+            personal_place[global_best] - place
+        )
         speed = settings.constriction * (settings.momentum * speed + pull)
         place = np.clip(place + speed, lower, upper)
         found = np.array([objective(x) for x in place])
-        better = found < own_best
-        own_place[better], own_best[better] = place[better], found[better]
-    leader = int(np.argmin(own_best))
-    return own_place[leader], float(own_best[leader])
+        better = found < personal_best
+        personal_place[better], personal_best[better] = place[better], found[better]
+    global_best = int(np.argmin(personal_best))
+    return personal_place[global_best], float(personal_best[global_best])
 
 
 def _run_objective(simulator: Simulator, recording: Recording, values: Array) -> float:

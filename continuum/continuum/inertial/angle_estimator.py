@@ -69,7 +69,7 @@ class AngleEstimator:
         self._unbroken = np.zeros(n)  # readings since the last one that was missed or clipped
         self._run = np.zeros(n)  # since more than a few were missed, or one clipped
         self._count = np.zeros(n)  # of readings at rest since the angle was lost
-        self._heard = np.full(n, -np.inf)
+        self._received = np.full(n, -np.inf)
         self._rate_before, self._lively = np.zeros(n), Liveliness(np.zeros(n), np.zeros(n))
         self._last: AngleEstimate | None = None
         self.ignored = 0
@@ -86,38 +86,38 @@ class AngleEstimator:
             self.ignored += 1
             return self._last
         since = self.settings.period if self._last is None else sample.time - self._last.time
-        heard = sample.usable()
-        clipped = sample.clipped & heard
-        rates = np.where(heard[:, None], sample.rates - self.calibration.bias, 0.0)
-        rate = np.where(heard, np.sum(self.calibration.axis * rates, axis=1) - self._state.drift, self._rate_before)
-        self._integrate(sample.time, rate, heard, clipped)
-        resting = self._resting(rate, sample, heard)
+        received = sample.usable()
+        clipped = sample.clipped & received
+        rates = np.where(received[:, None], sample.rates - self.calibration.bias, 0.0)
+        rate = np.where(received, np.sum(self.calibration.axis * rates, axis=1) - self._state.drift, self._rate_before)
+        self._integrate(sample.time, rate, received, clipped)
+        resting = self._resting(rate, sample, received)
         self._correct(sample, resting, since)
-        self._last = self._estimate(sample.time, rate, heard, clipped, resting)
+        self._last = self._estimate(sample.time, rate, received, clipped, resting)
         return self._last
 
-    def _integrate(self, time: float, rate: Array, heard: Truths, clipped: Truths) -> None:
+    def _integrate(self, time: float, rate: Array, received: Truths, clipped: Truths) -> None:
         s, state = self.settings, self._state
-        known = heard & np.isfinite(self._heard)
-        elapsed = np.where(known, time - np.where(known, self._heard, time), 0.0)
+        known = received & np.isfinite(self._received)
+        elapsed = np.where(known, time - np.where(known, self._received, time), 0.0)
         missing = np.where(known, np.maximum(np.round(elapsed / s.period) - 1, 0), 0.0)
         unsure = self._lively.error_of_gap(missing, rate - self._rate_before, s.period)
         angle = state.angle + turn_since(rate, self._rate_before, elapsed, s.period, s.rates_are_means)
         error = np.hypot(state.error, unsure) + s.bias_left * elapsed
         lost = clipped | (elapsed > s.longest_gap)  # how fast a clipped sensor turned nobody knows
         self._state = Correction(angle, state.drift, np.minimum(np.where(lost, np.pi, error), np.pi))
-        self._heard = np.where(heard, time, self._heard)
+        self._received = np.where(received, time, self._received)
         self._rate_before = rate
-        counts = heard & ~clipped
+        counts = received & ~clipped
         self._unbroken = np.where(counts, np.where(missing > 0, 1, self._unbroken + 1), 0)
-        self._run = np.where(counts & (missing <= _FEW), self._run + 1, np.where(heard, 0, self._run))
+        self._run = np.where(counts & (missing <= _FEW), self._run + 1, np.where(received, 0, self._run))
 
-    def _resting(self, rate: Array, sample: ImuSample, heard: Truths) -> Truths:
+    def _resting(self, rate: Array, sample: ImuSample, received: Truths) -> Truths:
         """Links whose sensors were heard without a gap and quiet over the whole window."""
         s = self.settings
         size = np.linalg.norm(sample.forces, axis=1) - self.calibration.gravity
         self._rates.append(rate)
-        self._forces.append(np.where(heard, np.abs(size), np.inf))
+        self._forces.append(np.where(received, np.abs(size), np.inf))
         rates = np.array(self._rates)
         if len(rates) >= 3:
             now = self._lively.after(rates[-3:], s.period, s.rest_window)
@@ -144,9 +144,9 @@ class AngleEstimator:
         self._lost &= ~found
         self._state = Correction(state.angle, state.drift, np.where(found, s.inclination_error, state.error))
 
-    def _estimate(self, time: float, rate: Array, heard: Truths, clipped: Truths, resting: Truths) -> AngleEstimate:
+    def _estimate(self, time: float, rate: Array, received: Truths, clipped: Truths, resting: Truths) -> AngleEstimate:
         errors = with_neighbour(self._state.error)
-        why = [self._why_not(i, bool(heard[i]), bool(clipped[i])) for i in range(heard.size)]
+        why = [self._why_not(i, bool(received[i]), bool(clipped[i])) for i in range(received.size)]
         told = tuple(
             own or before or ("" if error <= self.settings.largest_error else f"known to {np.degrees(error):.1f} deg")
             for own, before, error in zip(why, ["", *why], errors, strict=False)
@@ -163,8 +163,8 @@ class AngleEstimator:
             resting,
         )
 
-    def _why_not(self, sensor: int, heard: bool, clipped: bool) -> str:
-        if not heard:
+    def _why_not(self, sensor: int, received: bool, clipped: bool) -> str:
+        if not received:
             return f"sensor {sensor + 1} is missing"
         if clipped:
             return f"sensor {sensor + 1} is clipped"

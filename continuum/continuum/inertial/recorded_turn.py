@@ -65,8 +65,8 @@ def recorded_turn(recording: ImuRecording, first_turn: int = 1) -> RecordedTurn:
     axis = axes_of_motion(recording, prior, first_turn)
     found = bias_in_motion(recording, axis, prior, uncertainty)
     rate = np.einsum("tni,ni->tn", recording.rates - found.bias, axis)
-    for column, heard in zip(rate.T, recording.good.T, strict=True):
-        column[~heard] = np.interp(recording.times[~heard], recording.times[heard], column[heard])
+    for column, received in zip(rate.T, recording.good.T, strict=True):
+        column[~received] = np.interp(recording.times[~received], recording.times[received], column[received])
     return RecordedTurn(recording.times, integrated(recording.times, rate), rate, axis, found.bias, found.error)
 
 

@@ -18,8 +18,8 @@ from continuum.burst_log import BurstLog
 from continuum.viewer.address import HOST, PORT, check_address, url
 from continuum.viewer.arm_scene import ArmLinks, ArmScene
 from continuum.viewer.description import arm_description
-from continuum.viewer.door import kept_door
 from continuum.viewer.layout import layout_of
+from continuum.viewer.origin_guard import kept_guard
 from continuum.viewer.plots import CablePlots
 from continuum.viewer.seen import Seen, Source
 from continuum.viewer.status_table import StatusTable
@@ -59,7 +59,7 @@ class Page:
         self._description = arm_description(arm)
         self._faults = faults or BurstLog(lambda line: print(line, file=sys.stderr), time.monotonic, "dropped, ")
         words: set[str] = set()
-        with redirect_stdout(io.StringIO()), kept_door(host, words, self._faults):  # it has a banner of its own
+        with redirect_stdout(io.StringIO()), kept_guard(host, words, self._faults):  # it has a banner of its own
             self._server = viser.ViserServer(host=host, port=port, label="continuum", verbose=False)
         self._host = host
         layout = layout_of(self._server, self._faults, words)

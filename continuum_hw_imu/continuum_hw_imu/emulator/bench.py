@@ -14,7 +14,7 @@ from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
 from continuum_hw_imu.emulator.actuators import Actuators
 from continuum_hw_imu.emulator.hand import Hand
-from continuum_hw_imu.emulator.link_motion import LinkMotion, felt, gravity, half_spacing, link_motion
+from continuum_hw_imu.emulator.link_motion import LinkMotion, effective, gravity, half_spacing, link_motion
 from continuum_hw_imu.emulator.sensor_model import SensorModel
 from continuum_hw_imu.protocol.messages import FaultCode, Hello, ImuFrame, Message, ReceiverLimits, SensorPlace
 from continuum_hw_imu.protocol.messages.imu import MOST_SENSORS
@@ -128,7 +128,7 @@ class Bench:
         before = self._motion()
         self._move_arm(pull, real)
         after = self._motion()
-        self._forces += felt(before, after, duration, self._fall)
+        self._forces += effective(before, after, duration, self._fall)
         self._ticks += 1
         self._watch()
         return self._sampled(duration) if self._ticks == self.ticks_per_sample else []

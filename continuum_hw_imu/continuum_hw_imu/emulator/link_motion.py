@@ -66,7 +66,7 @@ def effective_parameters(model: Model) -> Parameters:
     return p
 
 
-def felt(before: LinkMotion, after: LinkMotion, duration: float, fall: Array) -> Array:
+def effective(before: LinkMotion, after: LinkMotion, duration: float, fall: Array) -> Array:
     """Mean specific force (n, 3) [m/s^2] of each sensor in its link's axes, over a short ``duration`` [s].
 
     ``fall`` is gravity in axes of the base, (3,) [m/s^2].

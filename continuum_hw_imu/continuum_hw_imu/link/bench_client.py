@@ -11,7 +11,7 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 
-from continuum_hw_imu.link.heard import Conversation, Heard, Results
+from continuum_hw_imu.link.received import Conversation, Received, Results
 from continuum_hw_imu.link.serial_link import SerialLink
 from continuum_hw_imu.protocol.clock_map import ClockMap
 from continuum_hw_imu.protocol.decoder import Decoder
@@ -66,10 +66,10 @@ class BenchClient:
     """
 
     def __init__(
-        self, port: str, baud_rate: int, heard: Callable[[Heard], None], rng: random.Random | None = None
+        self, port: str, baud_rate: int, received: Callable[[Received], None], rng: random.Random | None = None
     ) -> None:
         self.link = SerialLink(port, baud_rate, self._take, self._begin)
-        self._hand_on = heard
+        self._hand_on = received
         self._rng = rng or random.SystemRandom()
         self._news = threading.Condition()
         self._answers: dict[int, Result | None] = {}  # to the sendings of the request under way, by number
@@ -212,11 +212,11 @@ class BenchClient:
     def _take(self, data: bytes, now: float) -> None:
         """Bytes came."""
         for frame in self.decoder.feed(data):
-            heard = self._note(frame, now)
-            if heard is not None:
-                self._hand_on(heard)
+            received = self._note(frame, now)
+            if received is not None:
+                self._hand_on(received)
 
-    def _note(self, frame: Frame, now: float) -> Heard | None:
+    def _note(self, frame: Frame, now: float) -> Received | None:
         """Keep what a frame says; None where it is not to be handed on."""
         with self._news:
             if isinstance(frame.message, Hello) and self.hello is not None and frame.message != self.hello:
@@ -229,7 +229,7 @@ class BenchClient:
                 self._forget()
                 self._news.notify_all()
                 return None
-            self.clock.heard(device_time, now)
+            self.clock.received(device_time, now)
             talk = self.conversation
             talk.last, talk.newest = now, max(talk.newest, device_time)
             overtaken = arrival is Arrival.LATE
@@ -241,7 +241,7 @@ class BenchClient:
             if overtaken:
                 return None
             host_time = self.clock.host_time(device_time)
-            return Heard(frame.message, host_time, now, device_time, self.conversations)
+            return Received(frame.message, host_time, now, device_time, self.conversations)
 
     def _goes_back(self, message: Message, arrival: Arrival, device_time: int) -> bool:
         """Whether the device's clock does. Instants of sensors' frames never go back where their numbers go on."""

@@ -59,7 +59,7 @@ class ClockMap:
         """Whether any frame was heard."""
         return self._origin is not None
 
-    def heard(self, device: int, host: float) -> None:
+    def received(self, device: int, host: float) -> None:
         """A frame of a device time came at a host time."""
         if self._origin is not None and host - self.host_time(device) < -_LEAP:
             self.leaps += 1

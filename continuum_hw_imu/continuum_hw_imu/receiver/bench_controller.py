@@ -105,7 +105,7 @@ class BenchController:
 
     def news(self, now: int) -> list[Message]:
         """Faults that began, and a `Status` where one is due."""
-        told: list[Message] = [*self.faults.take_untold()]
+        told: list[Message] = [*self.faults.take_unreported()]
         condition = _Condition(self.guard.state, self.guard.cause, self.guard.claimed, self.faults.bits)
         if condition != self._told or now - self._told_at >= STATUS_PERIOD:
             self._told, self._told_at = condition, now

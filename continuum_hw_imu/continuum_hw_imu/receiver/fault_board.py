@@ -10,7 +10,7 @@ class FaultBoard:
 
     def __init__(self) -> None:
         self._holding: set[Fault] = set()
-        self._untold: list[Fault] = []
+        self._unreported: list[Fault] = []
 
     def put(self, holds: bool, code: FaultCode, subject: int = 0) -> None:
         """Say whether a fault holds."""
@@ -19,14 +19,14 @@ class FaultBoard:
             self._holding.discard(fault)
         elif fault not in self._holding:
             self._holding.add(fault)
-            self._untold.append(fault)
+            self._unreported.append(fault)
 
     @property
     def bits(self) -> int:
         """As in `Status.faults`."""
         return sum({1 << fault.code for fault in self._holding})
 
-    def take_untold(self) -> list[Fault]:
+    def take_unreported(self) -> list[Fault]:
         """What began since the last call, oldest first."""
-        untold, self._untold = self._untold, []
-        return untold
+        unreported, self._unreported = self._unreported, []
+        return unreported

@@ -8,10 +8,10 @@ import pytest
 from tools.bench_link.campaign import Case, _Course, evaluated
 from tools.bench_link.closed_loop import ClosedLoop, Minute, by_minute
 from tools.bench_link.command import main
-from tools.bench_link.deaths import Death
-from tools.bench_link.ears import Sample, State
+from tools.bench_link.crash_tests import Crash
 from tools.bench_link.goals import goals
 from tools.bench_link.latency import Delays
+from tools.bench_link.latency_probe import Sample, State
 from tools.bench_link.page import page
 from tools.bench_link.processes import Usage
 from tools.bench_link.results import PARTS, Results, keep, load, together
@@ -24,9 +24,9 @@ CLOSED = ClosedLoop(
     [Minute(3.0, 0.9, 5.0)], 0.1, 0.1,
 )  # fmt: skip
 CASE = Case(["lost", "late"], 3.0, 0.01, 0.3, 0.1, 400, 0.7, 0, 12.0, 120.0, "the port is not there")
-DEATH = Death("killed (SIGKILL)", 0.0, [0.5, 0.48], [0.01, 0.0], [3.0, 3.0])
+CRASH = Crash("killed (SIGKILL)", 0.0, [0.5, 0.48], [0.01, 0.0], [3.0, 3.0])
 SOAK = Soak(20.0, 180.0, 180.0, 3.0, 0, Memory(80.0, 80.1, 0.1, 0.3), Memory(90.0, 90.0, 0.0, 0.3))
-ALL = Results([CLOSED], [CASE], [DEATH], SOAK, dict.fromkeys(PARTS, 3))
+ALL = Results([CLOSED], [CASE], [CRASH], SOAK, dict.fromkeys(PARTS, 3))
 
 SPOILED = {
     "release tests": replace(ALL, closed=[replace(CLOSED, released=0.51)]),
@@ -39,8 +39,8 @@ SPOILED = {
     "joint states with": replace(ALL, campaign=[CASE, replace(CASE, wrong=1)]),
     "tension at": replace(ALL, campaign=[CASE, replace(CASE, largest_tension=12.1)]),
     "its rise": replace(ALL, campaign=[CASE, replace(CASE, fastest_rise=130.0)]),
-    "slack after: ": replace(ALL, deaths=[replace(DEATH, times=[0.4, 0.6], begun=[0.0, 0.2])]),
-    "slack after the": replace(ALL, deaths=[replace(DEATH, begins=0.25, times=[0.4, 0.6])]),
+    "slack after: ": replace(ALL, crash_tests=[replace(CRASH, times=[0.4, 0.6], begun=[0.0, 0.2])]),
+    "slack after the": replace(ALL, crash_tests=[replace(CRASH, begins=0.25, times=[0.4, 0.6])]),
     "streaming, as hours": replace(ALL, soak=replace(SOAK, minutes=10.0)),
     "memory of the bridge": replace(ALL, soak=replace(SOAK, bridge=Memory(80.0, 90.0, 1.1, 0.3))),
 }

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from continuum_hw_imu.protocol.messages import GuardState
-from tools.bench_link.ears import Sample, State
 from tools.bench_link.latency import delays, load_sent
+from tools.bench_link.latency_probe import Sample, State
 from tools.bench_link.resumption import good_again
 from tools.bench_link.truth import Truth, errors_of, load_truth, rms_of_worst
 
@@ -67,8 +67,10 @@ def test_the_fastest_rise_does_not_count_falls():
 
 def test_states_find_their_frames_and_missing_ones_are_counted():
     told, written = TIME, TIME + 0.003
-    heard = [state(t + 0.001, [0, 0], delay=0.005) for k, t in enumerate(TIME) if 10 <= k < 200 and k not in (50, 60)]
-    found = delays(heard, written, told)
+    received = [
+        state(t + 0.001, [0, 0], delay=0.005) for k, t in enumerate(TIME) if 10 <= k < 200 and k not in (50, 60)
+    ]
+    found = delays(received, written, told)
     assert found.missing == 2
     np.testing.assert_allclose(found.published, 0.003, atol=1e-9)
     np.testing.assert_allclose(found.received, 0.008, atol=1e-9)
@@ -97,8 +99,8 @@ def stream(*parts: tuple[float, float], delay: float = 0.01) -> list[Sample]:
 
 
 def test_a_stream_is_good_from_its_first_whole_stretch_on():
-    heard = stream((99.0, 100.0), (100.2, 100.5), (100.7, 102.0))
-    assert good_again(heard, 100.1, PERIOD) == pytest.approx(0.61)
-    assert good_again(heard, 101.0, PERIOD) == pytest.approx(0.01, abs=PERIOD)
-    assert good_again(heard, 101.7, PERIOD) is None
+    received = stream((99.0, 100.0), (100.2, 100.5), (100.7, 102.0))
+    assert good_again(received, 100.1, PERIOD) == pytest.approx(0.61)
+    assert good_again(received, 101.0, PERIOD) == pytest.approx(0.01, abs=PERIOD)
+    assert good_again(received, 101.7, PERIOD) is None
     assert good_again([], 100.0, PERIOD) is None

@@ -12,7 +12,7 @@ from types import FrameType
 
 
 @contextmanager
-def ends_are_heard() -> Iterator[Callable[[], None]]:
+def ends_are_received() -> Iterator[Callable[[], None]]:
     """Note the SIGINT and SIGTERM that come; gives what raises once more what the handler of the last one raised.
 
     A signal that no handler of Python's takes is left alone.

@@ -14,7 +14,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
-from ros2_standin.end_signals import ends_are_heard
+from ros2_standin.end_signals import ends_are_received
 from ros2_standin.errors import UserError
 
 _POLL = 0.05
@@ -47,7 +47,7 @@ class Session:
         return True
 
     def _spin_once(self) -> None:
-        with ends_are_heard() as raise_again:
+        with ends_are_received() as raise_again:
             try:
                 self._executor.spin_once(timeout_sec=_POLL)
             finally:

@@ -75,8 +75,8 @@ def test_played_messages_are_those_recorded(ros2, bag: Path, tmp_path: Path) -> 
     recorder = ros2.start("bag", "record", "/again", "-o", tmp_path / "copy")
     clock = ros2("topic", "echo", "--once", "/clock", "--field", "clock.sec", "--spin-time", "30")
     assert clock.stdout == "1700000000\n---\n"
-    heard = ros2.start("topic", "echo", "/again", "--field", "data", "--spin-time", "30")
-    heard.wait_for("---\n", count=2 * COUNT)
+    received = ros2.start("topic", "echo", "/again", "--field", "data", "--spin-time", "30")
+    received.wait_for("---\n", count=2 * COUNT)
     assert recorder.stop() == 0
     assert player.stop() == 2
     assert "Traceback" not in player.stderr

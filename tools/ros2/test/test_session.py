@@ -5,7 +5,7 @@ import signal
 
 import pytest
 
-from ros2_standin.end_signals import ends_are_heard
+from ros2_standin.end_signals import ends_are_received
 from ros2_standin.session import Session
 
 
@@ -63,7 +63,7 @@ def test_an_error_without_a_signal_is_what_it_is() -> None:
 def test_a_signal_that_nobody_takes_is_left_alone() -> None:
     before = signal.signal(signal.SIGTERM, signal.SIG_DFL)
     try:
-        with ends_are_heard():
+        with ends_are_received():
             assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
     finally:
         signal.signal(signal.SIGTERM, before)

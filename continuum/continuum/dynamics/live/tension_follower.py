@@ -49,14 +49,14 @@ class TensionFollower:
         self.tension = self._slack
         self._goal = self._slack
         self._rate = np.full_like(self._slack, self._limits.max_rate)  # of change [N/s]
-        self._heard = -np.inf
+        self._received = -np.inf
         self.abandoned = False
 
     def command(self, wanted: Array, now: float) -> None:
         """Go for tensions (n_cables,) [N], finite and none negative; those above the limit mean the limit."""
         self._goal = np.minimum(wanted, self._limits.max_tension)
         self._rate = np.full_like(self._slack, self._limits.max_rate)
-        self._heard = now
+        self._received = now
         self.abandoned = False
 
     def abandon(self) -> None:
@@ -71,11 +71,11 @@ class TensionFollower:
 
     def forget_time(self) -> None:
         """The clock went back: who commanded has to do so again, or the cables are let go."""
-        self._heard = -np.inf
+        self._received = -np.inf
 
     def move_on(self, now: float, duration: float) -> Interval:
         """The tensions from ``now`` on for a ``duration`` [s], which then are those of the follower."""
-        if now - self._heard > self._limits.patience:
+        if now - self._received > self._limits.patience:
             self.abandon()
         before, most = self.tension, self._rate * duration
         self.tension = np.maximum(before + np.clip(self._goal - before, -most, most), 0.0)

@@ -45,7 +45,7 @@ class Sample:
     received: float
 
 
-class TimedEars:
+class LatencyProbe:
     """In the place of the tests' `Ears`: lists that grow with every message.
 
     Args:
@@ -65,8 +65,8 @@ class TimedEars:
         self.say = probe.node.create_publisher(CableStates, "cable_tension_cmd", STREAM).publish
 
     def clear(self) -> None:
-        for heard in (self.joints, self.cables, *self.imus):
-            heard.clear()
+        for received in (self.joints, self.cables, *self.imus):
+            received.clear()
 
     def _on_joints(self, message: JointState, info: dict[str, int]) -> None:
         called, past = time.monotonic(), since_boot()

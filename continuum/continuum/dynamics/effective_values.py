@@ -12,7 +12,7 @@ _HOOKS = [name for name, hook in vars(Effect).items() if callable(hook) and name
 """By which an effect's values act other than by changing the parameters of Eq. 12."""
 
 
-def felt_values(model: Model) -> Array:
+def effective_values(model: Model) -> Array:
     """Parameters of Eq. 12 as the effects make them, then values of those effects that do more than that, (m,).
 
     A spring that is stiffer by a tenth is one number, whether K says so or an effect that changes K.

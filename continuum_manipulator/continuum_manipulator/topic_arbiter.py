@@ -11,7 +11,7 @@ _REMEMBERED = 100
 """Own stamps: what was said comes back soon, or not at all."""
 
 
-class SoleVoice:
+class TopicArbiter:
     """What is heard on a topic, told apart from what one said oneself by the stamps. Times are of any clock [s]."""
 
     def __init__(self) -> None:
@@ -23,7 +23,7 @@ class SoleVoice:
         """A message of this stamp [ns] is one's own."""
         self._own.append(stamp)
 
-    def heard(self, stamp: int, now: float) -> None:
+    def received(self, stamp: int, now: float) -> None:
         """A message of this stamp [ns] came."""
         if stamp not in self._own:
             self._others = now

@@ -10,7 +10,7 @@ from continuum_hw_imu.protocol.messages import Hello, Message, Result, Status
 
 
 @dataclass(frozen=True)
-class Heard:
+class Received:
     """One message of the bench.
 
     Attributes:

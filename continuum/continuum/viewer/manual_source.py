@@ -13,7 +13,7 @@ from continuum.viewer.section_angles import joints_of
 from continuum.viewer.seen import Seen
 
 
-class Hands:
+class ManualSource:
     """Sliders and a target move the arm.
 
     Args:

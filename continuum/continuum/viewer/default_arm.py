@@ -14,7 +14,7 @@ _MODULES = 5
 _WITHIN = 0.99  # of the bend at which discs touch
 
 
-def usual_arm(n_sections: int = 3) -> Arm:
+def default_arm(n_sections: int = 3) -> Arm:
     """Sections of five modules, each a twelfth of a turn on from the one before."""
     twists = [0.0] + [math.pi / 6] * (n_sections - 1)
     return Arm(tuple(Section(f"section_{i}", _MODULES, _B, _A, twist=twist) for i, twist in enumerate(twists, start=1)))

@@ -15,12 +15,12 @@ from websockets.typing import Origin, Subprotocol
 from continuum.burst_log import BurstLog
 from continuum.kinematics.chain import arm_pose
 from continuum.viewer.browser_messages import LONGEST
-from continuum.viewer.door import NoDoorError, kept_door
+from continuum.viewer.default_arm import default_arm
+from continuum.viewer.origin_guard import NoOriginGuardError, kept_guard
 from continuum.viewer.page import Page
 from continuum.viewer.remote_arm import RemoteArm
-from continuum.viewer.usual_arm import usual_arm
 
-ARM = usual_arm(2)
+ARM = default_arm(2)
 PLACES = [arm_pose(np.full((2, 2), bend), ARM)[:3, 3].tolist() for bend in (0.1, 0.2)]
 CAMERA = {
     "type": "ViewerCameraMessage", "wxyz": (1.0, 0.0, 0.0, 0.0), "position": (1.0, 0.0, 0.0), "fov": 1.0,
@@ -104,7 +104,7 @@ def test_a_page_of_another_site_is_refused_in_the_handshake(served: Served, orig
 
 
 def test_a_server_that_is_served_in_another_way_is_refused(served: Served) -> None:
-    with pytest.raises(NoDoorError), kept_door("127.0.0.1", (), served.faults):
+    with pytest.raises(NoOriginGuardError), kept_guard("127.0.0.1", (), served.faults):
         pass
 
 

@@ -45,12 +45,12 @@ _hung = threading.Lock()
 """One door is hung at a time."""
 
 
-class NoDoorError(ContinuumError):
+class NoOriginGuardError(ContinuumError):
     """The server of pages cannot be kept from letting everybody in."""
 
 
 @contextmanager
-def kept_door(host: str, words: Collection[str], faults: BurstLog) -> Iterator[None]:
+def kept_guard(host: str, words: Collection[str], faults: BurstLog) -> Iterator[None]:
     """Let a server of pages that is started meanwhile let in only who shall, and only what a page sends.
 
     The server by itself would take orders from a page of any site that is open in a browser of this host, would let a
@@ -83,7 +83,7 @@ def kept_door(host: str, words: Collection[str], faults: BurstLog) -> Iterator[N
                 else:
                     return data
 
-    def serve_with_door(
+    def serve_guarded(
         handler: _Handler, host: str, port: int, *, process_request: _Answer, **options: Any
     ) -> websocket_server.serve:
         def answer(connection: ServerConnection, request: Request) -> Response | None:
@@ -107,13 +107,15 @@ def kept_door(host: str, words: Collection[str], faults: BurstLog) -> Iterator[N
         return serve(handle, host, port, **(options | hooks))
 
     with _hung:
-        websocket_server.serve = serve_with_door  # type: ignore[assignment, misc]
+        websocket_server.serve = serve_guarded  # type: ignore[assignment, misc]
         try:
             yield
         finally:
             websocket_server.serve = serve  # type: ignore[misc]
     if not served.is_set():
-        raise NoDoorError("this version of viser lets everybody in; docs/dependencies.md names one that does not")
+        raise NoOriginGuardError(
+            "this version of viser lets everybody in; docs/dependencies.md names one that does not"
+        )
 
 
 def is_stranger(origin: str | None, served_as: str | None, own_names: set[str]) -> bool:

@@ -27,7 +27,7 @@ TICK = 1 / RATE
 
 
 @dataclass(frozen=True)
-class Death:
+class Crash:
     """One way to go.
 
     Attributes:
@@ -76,12 +76,12 @@ KINDS = (
 )
 
 
-def measure(folder: Path, repetitions: int) -> list[Death]:
+def measure(folder: Path, repetitions: int) -> list[Crash]:
     """Each so many times, each time with a bridge that begins anew."""
-    return [death for is_seen in (True, False) for death in _measure_all(folder, is_seen, repetitions)]
+    return [crash for is_seen in (True, False) for crash in _measure_all(folder, is_seen, repetitions)]
 
 
-def _measure_all(folder: Path, is_seen: bool, repetitions: int) -> list[Death]:
+def _measure_all(folder: Path, is_seen: bool, repetitions: int) -> list[Crash]:
     """Those of one emulator."""
     instants: list[tuple[Kind, list[tuple[float, float]]]] = []
     with rig(folder, *([] if is_seen else ["--no-hang-up"])) as bench:
@@ -93,12 +93,12 @@ def _measure_all(folder: Path, is_seen: bool, repetitions: int) -> list[Death]:
     return [evaluated(kind, found, truth) for kind, found in instants]
 
 
-def evaluated(kind: Kind, found: list[tuple[float, float]], truth: Truth) -> Death:
+def evaluated(kind: Kind, found: list[tuple[float, float]], truth: Truth) -> Crash:
     """Beside the truth: instants [s] at which it happened, and the load then."""
     parts = [(truth.between(at - 1.0, at + WATCHED), at) for at, _ in found]
     times = [part.slack_after(at) for part, at in parts]
     begun = [part.let_go_after(at) for part, at in parts]
-    return Death(kind.name, kind.begins, times, begun, [load for _, load in found])
+    return Crash(kind.name, kind.begins, times, begun, [load for _, load in found])
 
 
 def _instant(bench: Rig, kind: Kind) -> tuple[float, float]:
