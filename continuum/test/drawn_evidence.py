@@ -41,7 +41,7 @@ class Drawn:
     runs: list[list[RunLikelihood]]
     nuisance: Nuisance
     pair: Hypothesis
-    own: Hypothesis
+    per_run: Hypothesis
 
     @classmethod
     def by(cls, seed: int) -> Self:
@@ -68,8 +68,8 @@ class Drawn:
         precision = np.concatenate(sd) ** -2.0
         A, b, c = np.diag(precision), np.zeros(precision.size), 0.5 * np.sum(np.log(precision / (2 * np.pi)))
         for r, run in enumerate(self.runs[level]):
-            own = [unit[:, local] * (r == other) for other in range(3)] if local else []
-            H = np.hstack([common, *own])
+            per_run = [unit[:, local] * (r == other) for other in range(3)] if local else []
+            H = np.hstack([common, *per_run])
             A, b, c = A + H.T @ run.L @ H, b + H.T @ run.e, c - 0.5 * (run.energy + run.log_det)
         return A, b, float(c)
 

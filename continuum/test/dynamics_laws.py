@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from continuum.dynamics.balance import balance
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
@@ -100,9 +100,9 @@ class TipLoad(Effect):
         "mass": Parameter("m_t", "kg", 0.0, 10.0, False, "mass held by the tip", 0.0)
     }
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
         """The last link heavier, its centre of mass taken as before."""
-        return replace(p, mass=np.append(p.mass[:-1], p.mass[-1:] + own["mass"]))
+        return replace(p, mass=np.append(p.mass[:-1], p.mass[-1:] + params["mass"]))
 
 
 class Wind(Effect):
@@ -113,9 +113,9 @@ class Wind(Effect):
         "torque": Parameter("t_w", "N m", -1.0, 1.0, True, "torque against the joint's bend", 0.0)
     }
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         """As its parameter says."""
-        return own["torque"] * np.ones(now.p.n_joints)
+        return params["torque"] * np.ones(now.p.n_joints)
 
 
 class LaggingDrive(Effect):
@@ -130,13 +130,13 @@ class LaggingDrive(Effect):
         """Two tensions."""
         return 2
 
-    def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
+    def pull(self, u: Numbers, params: EffectParams, state: Numbers) -> Numbers:
         """Its states; they are the command where there is no lag."""
         return state
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
         """Its states towards a tension of 2 N and 1 N."""
-        return own["lag"] * state_rate + state - np.array([2.0, 1.0])
+        return params["lag"] * state_rate + state - np.array([2.0, 1.0])
 
 
 class TurningBase(Effect):
@@ -152,18 +152,18 @@ class TurningBase(Effect):
         """Angle and rate."""
         return 2
 
-    def move_base(self, motion: Motion, own: Own, state: Numbers, state_rate: Numbers) -> Motion:
+    def move_base(self, motion: Motion, params: EffectParams, state: Numbers, state_rate: Numbers) -> Motion:
         """The base where its states say."""
         return replace(
             motion,
-            base_angle=motion.base_angle + own["tilt"] + state[:1],
+            base_angle=motion.base_angle + params["tilt"] + state[:1],
             base_rate=motion.base_rate + state[1:],
             base_acceleration=motion.base_acceleration + state_rate[1:],
         )
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
         """A harmonic oscillator."""
-        return np.concatenate([state_rate[:1] - state[1:], state_rate[1:] + own["frequency"] ** 2 * state[:1]])
+        return np.concatenate([state_rate[:1] - state[1:], state_rate[1:] + params["frequency"] ** 2 * state[:1]])
 
 
 class Broken(Effect):
@@ -174,9 +174,9 @@ class Broken(Effect):
         "limit": Parameter("l", "rad", -10.0, 10.0, False, "angle up to which it is a number", 10.0)
     }
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         """A square root of what becomes negative."""
-        return 1e-9 * np.sqrt(own["limit"] - now.motion.theta)
+        return 1e-9 * np.sqrt(params["limit"] - now.motion.theta)
 
 
 def active(effect: Effect, n_joints: int = 1, **values: float) -> ActiveEffect:

@@ -36,8 +36,8 @@ def drawn_values(random: np.random.Generator, with_effects: bool = True, **chang
     arm = Model(random_parameters(random, N))
     values[: parameter_vector(arm).size] = parameter_vector(arm)
     for effect in s.plain if with_effects else ():
-        for name, own in drawn_own(effect, random).items():
-            values[s.slots[f"{effect.name}.{name}"]] = own
+        for name, params in drawn_own(effect, random).items():
+            values[s.slots[f"{effect.name}.{name}"]] = params
     for name, value in changed.items():
         values[s.slots[name]] = value
     return values
@@ -95,13 +95,13 @@ def drawn_motion(random: np.random.Generator, rows: int = 12, slowest: float = 0
 
 
 def scene_along(
-    along: SubstepMotion, values: np.ndarray, own: Mapping[str, Mapping[str, np.ndarray]] | None = None
+    along: SubstepMotion, values: np.ndarray, params: Mapping[str, Mapping[str, np.ndarray]] | None = None
 ) -> Scene:
     """A scene of one run whose substeps are the given instants."""
     times = np.concatenate([[0.0], np.cumsum(along.length)])
     still = np.zeros((times.size, N))
     run, way = run_over(times), Trajectory(still, still, still, still)
-    return Scene(structure(), Point(values, {}, (own or {},)), 0, run, way, along, np.ones((len(along.length), N)))
+    return Scene(structure(), Point(values, {}, (params or {},)), 0, run, way, along, np.ones((len(along.length), N)))
 
 
 def slipping(sign: np.ndarray, torque_noise: float = 1e-3) -> FrictionModes:

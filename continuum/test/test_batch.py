@@ -75,8 +75,8 @@ def test_a_trajectory_is_followed_without_jumps_each_answer_from_the_one_before(
     assert np.all(batch.solved)
     distances, angles = misses(arm, batch.configurations, targets)
     assert max(np.max(distances), np.max(angles)) <= 1e-10 + 1e-14
-    own = np.max(np.abs(np.diff(postures, axis=0)))
-    assert np.max(np.abs(np.diff(batch.configurations, axis=0))) <= 4.0 * own
+    params = np.max(np.abs(np.diff(postures, axis=0)))
+    assert np.max(np.abs(np.diff(batch.configurations, axis=0))) <= 4.0 * params
     for k in (1, 7, 150, 299):
         assert_same(batch[k], ik.solve(one_of(targets, k), batch.configurations[k - 1]))
     assert_same(batch[0], ik.solve(one_of(targets, 0), postures[0]))

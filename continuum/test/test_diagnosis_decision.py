@@ -174,8 +174,8 @@ def test_values_of_each_recording_are_not_worth_it_where_they_are_nothing() -> N
         fitted = noise - rows * sd**2 * noise.mean(axis=1, keepdims=True)
         before, after = (np.full(2, np.sqrt(np.mean(x**2))) for x in (noise, fitted))
         for occam in named:
-            own = Candidate(SPRING, after, noise.size, occam)
-            named[occam] += is_probable(own, Candidate(NONE, before, noise.size))
+            per_run = Candidate(SPRING, after, noise.size, occam)
+            named[occam] += is_probable(per_run, Candidate(NONE, before, noise.size))
     unpaid, paid = named.values()
     assert paid == 0
     assert unpaid > 90

@@ -63,8 +63,8 @@ def test_bounds_count_by_each_coefficient_s_own_distribution(seed: int, one: flo
 def test_what_each_run_has_for_itself_is_integrated_run_by_run(seed: int) -> None:
     """By quadrature over all runs' own coefficients, nuisances in closed form; alone and beside another effect."""
     drawn = Drawn.by(seed)
-    evidence = drawn.evidence(drawn.own, drawn.pair)
-    for chosen, rest in (((drawn.own,), [0, 1]), ((drawn.pair, drawn.own), [0, 1, 2, 3])):
+    evidence = drawn.evidence(drawn.per_run, drawn.pair)
+    for chosen, rest in (((drawn.per_run,), [0, 1]), ((drawn.pair, drawn.per_run), [0, 1, 2, 3])):
         expected = [log_integral(*without(*drawn.quadratic(k, chosen), rest), np.full(3, -np.inf)) for k in (0, 1)]
         np.testing.assert_allclose(evidence.by_level(chosen), expected, rtol=1e-6)
 

@@ -36,7 +36,7 @@ class Drawn:
         random = np.random.default_rng(seed)
         bounds = (-0.05, 0.05) if bounded else (-np.inf, np.inf)
         common = [unknown(random, *bounds) for _ in range(COMMON)]
-        self.unknowns = SimpleNamespace(common=common, own=tuple([unknown(random) for _ in range(m)] for m in OWN))
+        self.unknowns = SimpleNamespace(common=common, per_run=tuple([unknown(random) for _ in range(m)] for m in OWN))
         count = sum(SEGMENTS)
         self.values = Values(
             np.zeros(COMMON), tuple(random.normal(0, 1, m) for m in OWN), tuple(random.normal(0, 1, (count, LOCAL)))
@@ -54,15 +54,15 @@ class Drawn:
     def columns(self, number: int) -> np.ndarray:
         """Where a segment's unknowns stand in the one vector."""
         run = self.segments[number].run
-        own = COMMON + sum(OWN[:run]) + np.arange(OWN[run])
+        per_run = COMMON + sum(OWN[:run]) + np.arange(OWN[run])
         local = COMMON + sum(OWN) + number * LOCAL + np.arange(LOCAL)
-        return np.concatenate([np.arange(COMMON), own, local]).astype(int)
+        return np.concatenate([np.arange(COMMON), per_run, local]).astype(int)
 
     def dense(self, left_out: int | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Information and right side of everything; one segment's rows may be left out."""
-        every = [*self.unknowns.common, *(one for own in self.unknowns.own for one in own)]
+        every = [*self.unknowns.common, *(one for per_run in self.unknowns.per_run for one in per_run)]
         local = np.concatenate(self.values.local)
-        x = np.concatenate([self.values.common, *self.values.own, local])
+        x = np.concatenate([self.values.common, *self.values.per_run, local])
         precision = np.concatenate([[one.sd**-2 for one in every], np.tile(self.precision, len(self.segments))])
         mean = np.concatenate([[one.mean for one in every], np.zeros(local.size)])
         A, b = np.diag(precision), -precision * (x - mean)
@@ -81,8 +81,8 @@ def test_a_step_is_that_of_all_unknowns_at_once(seed: int) -> None:
     drawn = Drawn(seed)
     A, b = drawn.dense()
     step, found = np.linalg.solve(A, b), drawn.normal.stepped(0.0)
-    flat = np.concatenate([found.common, *found.own, *found.local])
-    at = np.concatenate([drawn.values.common, *drawn.values.own, *drawn.values.local])
+    flat = np.concatenate([found.common, *found.per_run, *found.local])
+    at = np.concatenate([drawn.values.common, *drawn.values.per_run, *drawn.values.local])
     np.testing.assert_allclose(flat - at, step, rtol=1e-6, atol=1e-8)
 
 
@@ -92,8 +92,8 @@ def test_spreads_are_those_of_the_whole_information(seed: int) -> None:
     drawn = Drawn(seed)
     whole = np.linalg.inv(drawn.dense()[0])
     np.testing.assert_allclose(drawn.normal.covariance, whole[:COMMON, :COMMON], rtol=1e-6, atol=1e-10)
-    own = np.sqrt(np.diag(whole))[COMMON : COMMON + sum(OWN)]
-    np.testing.assert_allclose(np.concatenate(drawn.normal.own_sd()), own, rtol=1e-6)
+    per_run = np.sqrt(np.diag(whole))[COMMON : COMMON + sum(OWN)]
+    np.testing.assert_allclose(np.concatenate(drawn.normal.per_run_sd()), per_run, rtol=1e-6)
 
 
 @LAW
@@ -157,7 +157,7 @@ def left_out(seed: int, shift: float, unequal: float = 0.0) -> WithoutEach:
     slopes[:, :, -1] *= FLOOR
     slopes[count // 2 :, :, -1] -= shift * slopes[count // 2 :, :, 0]
     segments = [drawn_segment(0, one) for one in slopes]
-    unknowns = SimpleNamespace(common=[unknown(random) for _ in range(COMMON)], own=((),))
+    unknowns = SimpleNamespace(common=[unknown(random) for _ in range(COMMON)], per_run=((),))
     values = Values(np.zeros(COMMON), (np.zeros(0),), tuple(np.zeros((count, LOCAL))))
     weights = [one.readings.size / one.square for one in segments]
     return NormalEquations(unknowns, values, segments, weights, np.ones(LOCAL)).without_each(Scale(segments, FLOOR))  # type: ignore[arg-type]

@@ -20,7 +20,7 @@ SEEDS = st.integers(0, 10**6)
 @given(SEEDS)
 def test_the_optimum_is_that_of_all_coefficients_at_once(seed: int) -> None:
     """Each run's own among them; their spread is the inverse of the whole information's."""
-    drawn, chosen = Drawn.by(seed), (Drawn.by(seed).pair, Drawn.by(seed).own)
+    drawn, chosen = Drawn.by(seed), (Drawn.by(seed).pair, Drawn.by(seed).per_run)
     A, b, _ = drawn.quadratic(1, chosen)
     best, expected = drawn.evidence(*chosen).optimum(chosen, 1), np.linalg.solve(A, b)
     np.testing.assert_allclose(best.theta[NUISANCES], expected[:2], rtol=1e-6, atol=1e-8)
@@ -96,7 +96,7 @@ def test_the_optimum_keeps_the_set_s_own_bounds(seed: int) -> None:
     A, b, _ = drawn.quadratic(0, (cut,))
     expected = least_of_all(A, b, np.eye(4)[2:], cut.least)
     np.testing.assert_allclose(found.values, expected[2:], rtol=1e-3, atol=1e-4)
-    assert drawn.evidence(cut).optimum((cut,), 0, own_bounds=False).values == pytest.approx(free)
+    assert drawn.evidence(cut).optimum((cut,), 0, run_bounds=False).values == pytest.approx(free)
 
 
 @LAW

@@ -71,15 +71,15 @@ def test_derivatives_are_differences_of_simulations() -> None:
     simulators, rows = Simulators(lin.problem, recordings(), FINE), slice(0, 40)
     n, k = lin.problem.structure.n, len(unknowns.common)
     common = np.array([one.start for one in unknowns.common])
-    own = tuple(np.array([0.01]) for _ in recordings())
+    per_run = tuple(np.array([0.01]) for _ in recordings())
 
     def segment(x: np.ndarray) -> Segment:
-        state = unknowns.state(x[:k], (own[0] + x[k : k + 1], *own[1:]))
-        return RunSimulation(simulators, state, 0, [*unknowns.common, *unknowns.own[0]]).segment(rows, x[k + 1 :])
+        state = unknowns.state(x[:k], (per_run[0] + x[k : k + 1], *per_run[1:]))
+        return RunSimulation(simulators, state, 0, [*unknowns.common, *unknowns.per_run[0]]).segment(rows, x[k + 1 :])
 
     x = np.concatenate([common, np.zeros(1 + 3 * n)])
     jacobian = segment(x).jacobian
-    sd = np.array([one.sd for one in (*unknowns.common, *unknowns.own[0])])
+    sd = np.array([one.sd for one in (*unknowns.common, *unknowns.per_run[0])])
     for i, size in enumerate(np.concatenate([sd, np.full(3 * n, 0.1)])):
         step = 1e-3 * size * np.eye(x.size)[i]
         difference = (segment(x + step).residuals - segment(x - step).residuals) / (2e-3 * size)
@@ -99,7 +99,7 @@ def test_what_was_simulated_is_found_again() -> None:
 
 def test_an_effect_that_is_not_there_is_found_to_be_nothing() -> None:
     fit = fitted("angle_offset")
-    sizes = np.concatenate(fit.values.own) / np.concatenate(fit.own_sd)
+    sizes = np.concatenate(fit.values.per_run) / np.concatenate(fit.per_run_sd)
     assert sizes.size == len(recordings())
     assert np.all(np.abs(sizes) < 4)
 

@@ -33,17 +33,17 @@ SPRING = "joint_stiffness"
 def simulations(name: str, values: Mapping[str, float]) -> tuple[Simulators, State, np.ndarray]:
     """A pulled arm with an effect, its exact motion as the smoothed one, and all states, (n_times, n_x)."""
     model, effect = with_dry_friction(load_model("lamecc_prototype.yaml")), effect_named(name)
-    own = {n: np.array(v) for n, v in absent_values(effect, 5).items()}
-    own |= {n: np.full_like(own[n], value) for n, value in values.items()}
+    per_run = {n: np.array(v) for n, v in absent_values(effect, 5).items()}
+    per_run |= {n: np.full_like(per_run[n], value) for n, value in values.items()}
     pull = np.stack([8 * (1 - np.cos(5 * TIMES)), np.zeros(TIMES.size)], axis=1)
-    arm, inputs = replace(model, effects=(ActiveEffect(effect, own),)), Tensions(TIMES, pull, held=True)
+    arm, inputs = replace(model, effects=(ActiveEffect(effect, per_run),)), Tensions(TIMES, pull, held=True)
     bent = np.full(5, 0.1)
-    begin = effect.initial_state(bent, pull[0], own, arm.parameters)
+    begin = effect.initial_state(bent, pull[0], per_run, arm.parameters)
     moved = Simulator(arm, FINE).run(np.concatenate([bent, np.zeros(5), begin]), TIMES, inputs)
     seen = Recording("pull", TIMES, moved.theta, moved.theta_rate, Tensions(TIMES, pull))
     problem = problem_of(Structure(model, [name, SPRING]), [seen])
     way = Trajectory(moved.theta, moved.theta_rate, 0 * moved.theta, 0 * moved.theta)
-    state = replace(fitted_baseline(problem), shared={(SPRING, "excess", 1): 0.0}, active={name: own}, ways=(way,))
+    state = replace(fitted_baseline(problem), shared={(SPRING, "excess", 1): 0.0}, active={name: per_run}, ways=(way,))
     return Simulators(problem, (seen,), FINE), state, moved.states
 
 

@@ -10,7 +10,7 @@ from continuum_laws.differences import differences
 from dynamics_laws import Broken, LaggingDrive, TurningBase, accelerations, active, prototype_model, random_model
 from scipy.integrate import solve_ivp
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.integration.esdirk import integrate
 from continuum.dynamics.integration.esdirk_tableau import fourth_order, third_order
@@ -174,7 +174,7 @@ class Explosion(Effect):
         """One."""
         return 1
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
         """As above."""
         return state_rate - state**2
 

@@ -163,8 +163,8 @@ def test_an_arm_that_gives_way_to_its_cables_loosens_them_and_one_that_draws_the
 
 
 def test_load_cells_show_one_plus_their_gain_times_what_pulls() -> None:
-    own = {"gain_1": np.array([0.25]), "gain_2": np.array([-0.2])}
-    np.testing.assert_allclose(effect_of("tension_scale").pull(np.array([5.0, 8.0]), own, np.zeros(0)), [4.0, 10.0])
+    params = {"gain_1": np.array([0.25]), "gain_2": np.array([-0.2])}
+    np.testing.assert_allclose(effect_of("tension_scale").pull(np.array([5.0, 8.0]), params, np.zeros(0)), [4.0, 10.0])
 
 
 def test_load_cells_that_are_both_off_are_an_arm_whose_torques_are_all_scaled() -> None:

@@ -157,16 +157,16 @@ def test_compiled_equations_are_those_of_numbers(name: str) -> None:
 def test_a_release_of_the_prototype_and_its_slopes(name: str, times_typical: float) -> None:
     """By the effect's own parameters, against differences of runs; at the lower bound to one side."""
     model = prototype_with(name, times_typical)
-    fast, own = simulator(name, SUDDEN.get(name, EXACT)).around(model), effect_of(name).parameters
+    fast, params = simulator(name, SUDDEN.get(name, EXACT)).around(model), effect_of(name).parameters
     slots, p = parameter_slots(model), parameter_vector(model)
     x0 = resting_state(model, RELEASED, PULLS.at(0.0))
-    free = np.zeros((p.size, len(own)))
-    for column, (key, parameter) in enumerate(own.items()):
+    free = np.zeros((p.size, len(params)))
+    for column, (key, parameter) in enumerate(params.items()):
         free[slots[f"{name}.{key}"], column] = parameter.typical
     run = fast.run(x0, TIMES, PULLS, free=free)
     assert run.status is SimulationStatus.COMPLETE
     assert np.all(np.isfinite(run.slopes))
-    for column, (key, parameter) in enumerate(own.items()):
+    for column, (key, parameter) in enumerate(params.items()):
         step = STEPS.get(f"{name}.{key}", 1e-4 if times_typical or not is_size(parameter) else 1e-5)
         lowest = min(p[slots[f"{name}.{key}"]]) - 2 * step * parameter.typical < parameter.lower
         shifts, weights = ((0, 1, 2), (-1.5, 2.0, -0.5)) if lowest else ((-1, 0, 1), (-0.5, 0.0, 0.5))
@@ -179,14 +179,14 @@ def test_a_release_of_the_prototype_and_its_slopes(name: str, times_typical: flo
 
 def mirrored(model: Model, name: str) -> Model:
     """The arm's mirror image: what has a sign by its bounds turns it, and cables change sides."""
-    own = effect_of(name).parameters
+    params = effect_of(name).parameters
     values = model.values()
     turned = {
         f"{name}.{key}": -values[f"{name}.{key}"]
-        for key, parameter in own.items()
+        for key, parameter in params.items()
         if parameter.lower == -parameter.upper
     }
-    swapped = {f"{name}.{key}": values[f"{name}.{_other_cable(key)}"] for key in own if _other_cable(key) in own}
+    swapped = {f"{name}.{key}": values[f"{name}.{_other_cable(key)}"] for key in params if _other_cable(key) in params}
     return model.with_values(turned | swapped)
 
 
@@ -230,11 +230,11 @@ def a_reading(seed: int) -> Reading:
 @each_effect
 def test_measuring_is_affine_in_the_motion_and_nothing_at_the_defaults(name: str) -> None:
     effect, one, two = effect_of(name), a_reading(1), a_reading(2)
-    own = random_with(name, 5).effects[0].values
+    params = random_with(name, 5).effects[0].values
     mixed = replace(
         one, theta=0.3 * one.theta + 0.7 * two.theta, theta_rate=0.3 * one.theta_rate + 0.7 * two.theta_rate
     )
-    seen_one, seen_two, seen = (effect.measure(reading, own) for reading in (one, two, mixed))
+    seen_one, seen_two, seen = (effect.measure(reading, params) for reading in (one, two, mixed))
     np.testing.assert_allclose(seen.theta, 0.3 * seen_one.theta + 0.7 * seen_two.theta, atol=1e-12)
     np.testing.assert_allclose(seen.theta_rate, 0.3 * seen_one.theta_rate + 0.7 * seen_two.theta_rate, atol=1e-9)
     absent = effect.measure(one, prototype_with(name, 0.0).effects[0].values)
@@ -253,9 +253,9 @@ def test_hooks_change_nothing_that_they_are_given(name: str) -> None:
     for array in given:
         array.setflags(write=False)
     np.testing.assert_array_equal(balance(model, x, v, U), balance(model, x, v, U))
-    effect, own = model.effects[0].effect, model.effects[0].values
-    np.testing.assert_array_equal(effect.measure(reading, own).theta, effect.measure(reading, own).theta)
-    effect.initial_state(x[:N], U, own, model.parameters)
+    effect, params = model.effects[0].effect, model.effects[0].values
+    np.testing.assert_array_equal(effect.measure(reading, params).theta, effect.measure(reading, params).theta)
+    effect.initial_state(x[:N], U, params, model.parameters)
 
 
 @each_effect
@@ -275,7 +275,7 @@ class Halved(Effect):
 
     name = "halved"
 
-    def pull(self, u: np.ndarray, own: object, state: np.ndarray) -> np.ndarray:
+    def pull(self, u: np.ndarray, params: object, state: np.ndarray) -> np.ndarray:
         return u / 2
 
 

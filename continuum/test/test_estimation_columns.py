@@ -41,9 +41,9 @@ def test_a_slope_is_the_derivative_of_the_torque(name: str) -> None:
     random = np.random.default_rng(NAMES.index(name))
     values, along, slot = drawn_values(random), drawn_motion(random, ROWS), structure().slots[name]
 
-    def torque(own: np.ndarray) -> np.ndarray:
+    def torque(params: np.ndarray) -> np.ndarray:
         changed = values.copy()
-        changed[slot] = own
+        changed[slot] = params
         return missing(along, changed)
 
     found = Slope(directions_of(name)).torque(scene_along(along, values))
@@ -83,10 +83,10 @@ def test_what_a_recording_has_for_itself_counts_in_its_columns(seed: int) -> Non
     """A parameter's own value in a run takes the place of the common one."""
     random = np.random.default_rng(seed)
     values, along = drawn_values(random), drawn_motion(random, ROWS)
-    own = {"remounted_base": {"angle": random.normal(0, 0.3, 1)}}
+    params = {"remounted_base": {"angle": random.normal(0, 0.3, 1)}}
     here = values.copy()
-    here[structure().slots["remounted_base.angle"]] = own["remounted_base"]["angle"]
-    scene = scene_along(along, values, own)
+    here[structure().slots["remounted_base.angle"]] = params["remounted_base"]["angle"]
+    scene = scene_along(along, values, params)
     np.testing.assert_allclose(scene.nominal(), missing(along, here), rtol=1e-9, atol=1e-10)
     slopes = Slope(directions_of("stiffness")).torque(scene)
     np.testing.assert_allclose(slopes, Slope(directions_of("stiffness")).torque(scene_along(along, here)), atol=1e-12)
@@ -111,26 +111,26 @@ def sensed(random: np.random.Generator, with_rates: bool) -> tuple[Run, Trajecto
     """A run that begins some time after zero, a trajectory, and sensors that err in every way."""
     run = run_over(3.0 + np.cumsum(random.uniform(0.003, 0.02, 8)), with_rates=with_rates)
     motion = random.normal(0, 1, (2, 8, N))
-    own = {effect.name: drawn_own(effect, random) for effect in structure().sensors}
-    return run, Trajectory(*motion, 0 * motion[0], 0 * motion[0]), own
+    params = {effect.name: drawn_own(effect, random) for effect in structure().sensors}
+    return run, Trajectory(*motion, 0 * motion[0], 0 * motion[0]), params
 
 
 @pytest.mark.parametrize(("effect", "name"), SENSORS, ids=[f"{effect.name}.{name}" for effect, name in SENSORS])
 @pytest.mark.parametrize("with_rates", [False, True])
 def test_a_sensor_slope_is_the_derivative_of_what_is_read(effect, name: str, with_rates: bool) -> None:  # type: ignore[no-untyped-def]
     """All sensors measure one after the other."""
-    run, way, own = sensed(np.random.default_rng(len(name)), with_rates)
-    scene = scene_along(drawn_motion(np.random.default_rng(0), 7), structure().values, own)
+    run, way, params = sensed(np.random.default_rng(len(name)), with_rates)
+    scene = scene_along(drawn_motion(np.random.default_rng(0), 7), structure().values, params)
     scene = replace(scene, run=run, way=way)
 
     def read(values: np.ndarray) -> np.ndarray:
         seen = Reading(run.times, way.q, way.w, float(run.times[0]))
         for each in structure().sensors:
-            mine = own[each.name] if each is not effect else {**own[each.name], name: values}
+            mine = params[each.name] if each is not effect else {**params[each.name], name: values}
             seen = each.measure(seen, mine)
         return np.hstack([seen.theta, seen.theta_rate]) if with_rates else seen.theta
 
-    at = own[effect.name][name]
+    at = params[effect.name][name]
     found = SensorSlope(effect.name, name, at.size).reading(scene)
     expected = differences(read, at, 1e-3)
     assert np.any(expected)
@@ -142,10 +142,10 @@ def test_a_sensor_slope_is_the_derivative_of_what_is_read(effect, name: str, wit
 def test_readings_move_with_the_trajectory_as_their_matrix_says(seed: int, with_rates: bool) -> None:
     """Sensors are affine in the motion, the same way in every row."""
     random = np.random.default_rng(seed)
-    run, way, own = sensed(random, with_rates)
+    run, way, params = sensed(random, with_rates)
     by = random.normal(0, 1, (2, 8, N))
-    seen = structure().measurement(run, way, own)
-    moved = structure().readings(run, way.q + by[0], way.w + by[1], own)
+    seen = structure().measurement(run, way, params)
+    moved = structure().readings(run, way.q + by[0], way.w + by[1], params)
     np.testing.assert_allclose(seen.expected + np.hstack(list(by)) @ seen.H.T, moved, rtol=1e-9, atol=1e-9)
 
 
@@ -165,8 +165,8 @@ def test_torque_in_the_substeps_adds_up_at_the_interval_s_end(seed: int) -> None
 def test_columns_side_by_side_are_each_by_itself() -> None:
     """Those of torque leave the readings alone, those of readings the torque."""
     random = np.random.default_rng(0)
-    own = {effect.name: drawn_own(effect, random) for effect in structure().sensors}
-    scene = scene_along(drawn_motion(random, ROWS), drawn_values(random), own)
+    params = {effect.name: drawn_own(effect, random) for effect in structure().sensors}
+    scene = scene_along(drawn_motion(random, ROWS), drawn_values(random), params)
     ones = [Slope(directions_of("mass")), SensorSlope("angle_offset", "offset", N), Change({"stiffness": 1.2})]
     torque, reading = assembled(ones, scene)
     assert torque.shape == (ROWS, N, 2 * N + 1)

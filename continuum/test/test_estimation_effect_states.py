@@ -31,8 +31,8 @@ AROUND = 1e-5  # s: rates so far apart tell an acceleration
 
 def prototype(**changed: float) -> np.ndarray:
     """Values of the prototype without effects."""
-    own, values = parameter_vector(prototype_model(N)), structure().values.copy()
-    values[: own.size] = own
+    params, values = parameter_vector(prototype_model(N)), structure().values.copy()
+    values[: params.size] = params
     for name, value in changed.items():
         values[structure().slots[name]] = value
     return values
@@ -51,12 +51,12 @@ def simulator(name: str) -> Simulator:
     return Simulator(model, Tolerances(1e-8, 1e-9, 5e-4), fourth_order())
 
 
-def simulated(name: str, own: dict[str, np.ndarray], values: np.ndarray, step: float) -> SubstepMotion:
+def simulated(name: str, params: dict[str, np.ndarray], values: np.ndarray, step: float) -> SubstepMotion:
     """Motion of an arm that has the effect, amid substeps of one length, from a release on."""
     base = with_vector(structure().model, values)
     effect = structure().stateful[name].effect
-    model = Model(base.parameters, (*base.effects, ActiveEffect(effect, own)))
-    first = effect.initial_state(RELEASED, PULLS.at(0.0), own, model.changed_parameters)
+    model = Model(base.parameters, (*base.effects, ActiveEffect(effect, params)))
+    first = effect.initial_state(RELEASED, PULLS.at(0.0), params, model.changed_parameters)
     middle = np.arange(step / 2, DURATION, step)
     times = (middle[:, None] + np.array([-AROUND, 0.0, AROUND])).ravel()
     x = np.concatenate([RELEASED, np.zeros(N), np.asarray(first, dtype=float)])
@@ -69,10 +69,12 @@ def simulated(name: str, own: dict[str, np.ndarray], values: np.ndarray, step: f
     return SubstepMotion(motion, rate.copy(), run.inputs, np.full(middle.size, step))
 
 
-def torques_of(name: str, own: dict[str, np.ndarray], values: np.ndarray, step: float) -> tuple[np.ndarray, np.ndarray]:
+def torques_of(
+    name: str, params: dict[str, np.ndarray], values: np.ndarray, step: float
+) -> tuple[np.ndarray, np.ndarray]:
     """What the column says that the effect adds, and what Eq. 12 without it misses less of that arm's motion."""
-    scene = scene_along(simulated(name, own, values, step), values)
-    return StatefulTorque(name, own).torque(scene)[:, :, 0], -scene.nominal()
+    scene = scene_along(simulated(name, params, values, step), values)
+    return StatefulTorque(name, params).torque(scene)[:, :, 0], -scene.nominal()
 
 
 @pytest.mark.parametrize("name", INTEGRATED)
@@ -102,22 +104,24 @@ def test_backlash_of_hard_stops_is_nearly_that_of_the_simulation() -> None:
 def test_backlash_along_a_motion_is_its_effect_s_own(times_typical: float) -> None:
     """Which stands on the left of Eq. 12, as all torques that resist."""
     random = np.random.default_rng(0)
-    values, along, own = drawn_values(random), drawn_motion(random, 30), values_of("backlash", times_typical)
+    values, along, params = drawn_values(random), drawn_motion(random, 30), values_of("backlash", times_typical)
     p = with_vector(structure().model, values).changed_parameters
-    expected = -structure().stateful["backlash"].effect.torque_along(along.motion, along.slip, along.length, own, p)
+    expected = -structure().stateful["backlash"].effect.torque_along(along.motion, along.slip, along.length, params, p)
     assert np.any(expected)
-    np.testing.assert_array_equal(StatefulTorque("backlash", own).torque(scene_along(along, values))[:, :, 0], expected)
+    np.testing.assert_array_equal(
+        StatefulTorque("backlash", params).torque(scene_along(along, values))[:, :, 0], expected
+    )
 
 
 @pytest.mark.parametrize("name", STATEFUL)
 def test_joints_have_columns_of_their_own_that_add_up(name: str) -> None:
     random = np.random.default_rng(0)
-    scene, own = scene_along(drawn_motion(random, 10), prototype()), values_of(name, 1.0)
-    whole, apart = StatefulTorque(name, own).torque(scene), StatefulTorque(name, own, (0, 1, 2)).torque(scene)
+    scene, params = scene_along(drawn_motion(random, 10), prototype()), values_of(name, 1.0)
+    whole, apart = StatefulTorque(name, params).torque(scene), StatefulTorque(name, params, (0, 1, 2)).torque(scene)
     np.testing.assert_array_equal(apart.sum(axis=2), whole[:, :, 0])
     for joint in range(N):
         np.testing.assert_array_equal(np.delete(apart[:, :, joint], joint, axis=1), 0.0)
-    one = StatefulTorque(name, own, (1,)).torque(scene)
+    one = StatefulTorque(name, params, (1,)).torque(scene)
     np.testing.assert_array_equal(one[:, :, 0], apart[:, :, 1])
 
 
@@ -126,10 +130,10 @@ def test_half_the_difference_of_neighbours_tends_to_the_slope_by_the_logarithm(n
     """Off by the square of their distance: what a Gauss-Newton step is made of, where states have no corners."""
     scene = scene_along(simulated(name, values_of(name, 1.0), prototype(), 2e-3), prototype())
     size = next(iter(structure().stateful[name].effect.parameters))
-    own = values_of(name, 1.0)
+    params = values_of(name, 1.0)
 
     def near(ratio: float) -> list[StatefulTorque]:
-        return [StatefulTorque(name, {**own, size: own[size] * factor}) for factor in (ratio, 1 / ratio)]
+        return [StatefulTorque(name, {**params, size: params[size] * factor}) for factor in (ratio, 1 / ratio)]
 
     above, below = (column.torque(scene) for column in near(1.01))
     exact = (above - below) / np.log(1.01**2)

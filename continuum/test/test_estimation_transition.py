@@ -128,18 +128,18 @@ def test_a_constrained_joint_follows_its_acceleration(
     arm = Arm.drawn(seed)
     held = np.random.default_rng(seed).normal(0, 1, (arm.substeps(length), N))
     found = arm.over(length, constrained(arm.slips, joint, acceleration, rate_noise), held=held, gained=1.0)
-    own = [joint, N + joint]
+    params = [joint, N + joint]
     moved = length * np.array([arm.x[N + joint] + acceleration * length / 2, acceleration])
-    np.testing.assert_allclose(found.end[0, own], arm.x[own] + moved, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(found.end[0, params], arm.x[params] + moved, rtol=1e-9, atol=1e-9)
     by_state = np.zeros((2, 2 * N))
-    by_state[:, own] = [[1.0, length], [0.0, 1.0]]
-    np.testing.assert_allclose(found.F[0, own], by_state, rtol=1e-9, atol=1e-9)
-    assert not np.any(found.D[0, own])
+    by_state[:, params] = [[1.0, length], [0.0, 1.0]]
+    np.testing.assert_allclose(found.F[0, params], by_state, rtol=1e-9, atol=1e-9)
+    assert not np.any(found.D[0, params])
     assert not np.any(found.D[0, :, joint])
-    assert not np.any(found.W[:, own])
+    assert not np.any(found.W[:, params])
     assert not np.any(found.W[:, :, joint])
     white = rate_noise**2 * np.array([[length**2 / 3, length / 2], [length / 2, 1.0]])
-    np.testing.assert_allclose(found.noise[0][np.ix_(own, own)], white, rtol=1e-6, atol=1e-12)
+    np.testing.assert_allclose(found.noise[0][np.ix_(params, params)], white, rtol=1e-6, atol=1e-12)
 
 
 @LAW

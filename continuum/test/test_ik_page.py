@@ -26,4 +26,4 @@ def test_the_examples_run(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_every_status_is_explained() -> None:
-    assert re.findall(r"^\| `(\w+)` \|", PAGE, re.MULTILINE) == [status.name for status in IkStatus]
+    assert re.findall(r"^\| `([A-Z_]+)` \|", PAGE, re.MULTILINE) == [status.name for status in IkStatus]

@@ -32,8 +32,10 @@ def estimates_of(problem: Problem, fit: Fitted, hypothesis: Hypothesis) -> tuple
             out += _lacking(problem, fit, one, float(sd))
         else:
             out += _estimates(effect.parameters, one, float(value), float(sd))
-    for run, those, values, own_sds in zip(problem.runs, fit.unknowns.own, fit.values.own, fit.own_sd, strict=True):
-        for one, value, sd in zip(those, values, own_sds, strict=True):
+    for run, those, values, per_run_sds in zip(
+        problem.runs, fit.unknowns.per_run, fit.values.per_run, fit.per_run_sd, strict=True
+    ):
+        for one, value, sd in zip(those, values, per_run_sds, strict=True):
             if one.hypothesis is hypothesis:
                 out += _estimates(effect.parameters, one, float(value), float(sd), run.name)
     return tuple(out)

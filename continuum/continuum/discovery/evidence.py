@@ -130,7 +130,7 @@ class Evidence:
                 if found[k] < bounded.max() - 10 and k != int(np.argmax(found)):
                     continue
                 if worst[k] < -1e-9:
-                    bounded[k] -= self.optimum(chosen, int(k), own_bounds=False).rise
+                    bounded[k] -= self.optimum(chosen, int(k), run_bounds=False).rise
             self._constrained[key] = bounded
         return self._constrained[key]
 
@@ -196,27 +196,27 @@ class Evidence:
         sd = np.concatenate([self.nuisance.sd, *(h.sd for h in chosen)])
         local, local_sd = (np.array(x) for x in local_of(chosen))
         local = local.astype(int)
-        runs, own = [], []
+        runs, per_run = [], []
         for run in self.runs[level]:
             Lr, er, c = without_local(run, local, local_sd)
             runs.append((H.T @ Lr @ H, H.T @ er, c))
             if local.size:
                 A = run.L[np.ix_(local, local)] + np.diag(local_sd**-2.0)
-                own.append(np.linalg.solve(A, np.column_stack([run.L[local], run.e[local]])))
+                per_run.append(np.linalg.solve(A, np.column_stack([run.L[local], run.e[local]])))
             else:
-                own.append(np.zeros((0, self.width + 1)))
-        return H, sd, runs, own
+                per_run.append(np.zeros((0, self.width + 1)))
+        return H, sd, runs, per_run
 
-    def optimum(self, chosen: Set, level: int, own_bounds: bool = True) -> Optimum:
+    def optimum(self, chosen: Set, level: int, run_bounds: bool = True) -> Optimum:
         """Most probable coefficients within the constraints, and within the set's own bounds."""
-        H, sd, runs, own = self.system(chosen, level)
+        H, sd, runs, per_run = self.system(chosen, level)
         A = np.sum([L for L, _, _ in runs], axis=0) + np.diag(sd**-2.0)
         b: Array = np.sum([e for _, e, _ in runs], axis=0)
         bounds, low = self.nuisance.bounds
         at = self.nuisance.sd.size
         bounds = np.hstack([bounds, np.zeros((len(bounds), sd.size - at))])
         G, least = [self.nuisance.constraints @ H, bounds], [self.nuisance.least, low]
-        if own_bounds:
+        if run_bounds:
             lower = np.concatenate([np.zeros(0), *(h.least for h in chosen)])
             rows = np.flatnonzero(np.isfinite(lower))
             bound = np.zeros((rows.size, sd.size))
@@ -226,7 +226,7 @@ class Evidence:
         a, rise = bounded_minimum(A, b, np.concatenate(G), np.concatenate(least))
         covariance = np.linalg.inv(A)[at:, at:]
         theta = H @ a
-        local = np.array([solve[:, -1] - solve[:, :-1] @ theta for solve in own])
+        local = np.array([solve[:, -1] - solve[:, :-1] @ theta for solve in per_run])
         columns = np.array(local_of(chosen)[0], dtype=int)
         return Optimum(theta, a[at:], np.sqrt(np.diag(covariance)), columns, local, rise, covariance)
 

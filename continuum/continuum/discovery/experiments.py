@@ -132,10 +132,10 @@ def _simulated(found: Examination, fit: Fitted, design: Design) -> _Run | None:
         design.inputs if isinstance(design.inputs, JointTorques) else None,
     )  # fmt: skip
     run, way = run_of(recording, s.given, with_rates=False), Trajectory(still, 0 * still, 0 * still, 0 * still)
-    own = {key: (-1.0) ** k * one.sd / PRIOR for k, one in enumerate(fit.unknowns.own[0]) for key in one.places
+    per_run = {key: (-1.0) ** k * one.sd / PRIOR for k, one in enumerate(fit.unknowns.per_run[0]) for key in one.places
            if not _is_zeroed(problem, key, design)}  # fmt: skip
     shared = {key: value for key, value in fit.state.shared.items() if not _is_zeroed(problem, key, design)}
-    state = replace(fit.state, shared=shared, own=(own,), ways=(way,))
+    state = replace(fit.state, shared=shared, per_run=(per_run,), ways=(way,))
     judge = found.judge.along(replace(problem, runs=(run,)), (recording,))
     motion, readings = judge.motion(state, 0)
     if motion.status is not SimulationStatus.COMPLETE:
@@ -183,14 +183,14 @@ class _Trial:
             values = np.clip(values, low, high)
         known = zip(fit.unknowns.common, values, sds, strict=True)
         common = [replace(one, mean=float(value), sd=float(sd)) for one, value, sd in known]
-        own = [replace(one, mean=0.0, start=0.0) for one in fit.unknowns.own[0]]
-        state = replace(fit.state, own=({},), ways=(made.way,))
+        per_run = [replace(one, mean=0.0, start=0.0) for one in fit.unknowns.per_run[0]]
+        state = replace(fit.state, per_run=({},), ways=(made.way,))
         none = np.zeros(len(self._judge.local_precision))
-        start = Values(values, (np.zeros(len(own)),), (none,) * self._judge.segments)
+        start = Values(values, (np.zeros(len(per_run)),), (none,) * self._judge.segments)
         total = made.run.readings.size
         independent = fit.observations / sum(run.readings[:, : run.n].size for run in judge.problem.runs)
         self._fit = replace(
-            fit, state=state, unknowns=fit.unknowns.about(state, common, [own]), values=start,
+            fit, state=state, unknowns=fit.unknowns.about(state, common, [per_run]), values=start,
             errors=np.full(self._judge.segments, self._judge.floor), observations=min(1.0, independent) * total,
         )  # fmt: skip
 
@@ -212,7 +212,7 @@ class _Trial:
         excess = 0.5 * np.log1p(np.array([np.mean(r**2) for r in left]) / judge.floor**2)
         if not self._design.zeroed:
             return _Refit(excess, False)
-        refitted = replace(fit, values=there, sd=np.sqrt(np.diag(normal.covariance)), own_sd=normal.own_sd())
+        refitted = replace(fit, values=there, sd=np.sqrt(np.diag(normal.covariance)), per_run_sd=normal.per_run_sd())
         return _Refit(excess, probability(zeros_in(refitted, 0)) < CHANCE)
 
     def shown(self, library: Library, hidden: set[str]) -> set[str]:

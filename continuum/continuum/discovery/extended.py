@@ -47,13 +47,13 @@ def model_of(problem: Problem, state: State, key: Key, model: Model) -> Model:
         kept.setdefault(active.effect.name, active)
     for effect in s.offered:
         if effect.name in named and effect.name not in kept:
-            own = {name: np.array(value) for name, value in absent_values(effect, s.n).items()}
+            params = {name: np.array(value) for name, value in absent_values(effect, s.n).items()}
             for (name, parameter, joint), value in state.shared.items():
                 if name == effect.name:
-                    own[parameter][max(joint, 0)] += value
-            own |= {name: np.asarray(value) for name, value in state.active.get(effect.name, {}).items()}
-            if any(np.any(own[name] != value) for name, value in absent_values(effect, s.n).items()):
-                kept[effect.name] = ActiveEffect(effect, own)
+                    params[parameter][max(joint, 0)] += value
+            params |= {name: np.asarray(value) for name, value in state.active.get(effect.name, {}).items()}
+            if any(np.any(params[name] != value) for name, value in absent_values(effect, s.n).items()):
+                kept[effect.name] = ActiveEffect(effect, params)
     clipped = {name: _within(name, value) for name, value in p.named().items() if value is not None}
     found = replace(model, parameters=replace(p, **clipped), effects=tuple(kept.values()))
     given = model.values()

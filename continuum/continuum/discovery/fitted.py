@@ -42,7 +42,7 @@ class Fitted:
         unknowns, values: what was fitted, and the result.
         sd: standard deviations of the common unknowns, larger where segments disagree, (k,).
         correlation: of the common unknowns, (k, k).
-        own_sd: standard deviations of each recording's own.
+        per_run_sd: standard deviations of each recording's own.
         errors: root mean square over rows and joints of each segment, with what the other segments say of all that
             recordings have in common, (segments,) [rad]; NaN where a simulation failed.
         observations: residuals that are independent of each other, their number.
@@ -55,7 +55,7 @@ class Fitted:
     values: Values
     sd: Array
     correlation: Array
-    own_sd: tuple[Array, ...]
+    per_run_sd: tuple[Array, ...]
     errors: Array
     observations: float
     agreement: float
@@ -72,7 +72,7 @@ class Fitted:
 
         What segments have in common is judged by segments that it was not fitted to; these values are not.
         """
-        pairs = [(one.sd, sd) for those, sds in zip(self.unknowns.own, self.own_sd, strict=True)
+        pairs = [(one.sd, sd) for those, sds in zip(self.unknowns.per_run, self.per_run_sd, strict=True)
                  for one, sd in zip(those, sds, strict=True)]  # fmt: skip
         return float(sum(max(0.0, np.log(prior / sd)) for prior, sd in pairs)) if self.completed else 0.0
 
@@ -95,14 +95,14 @@ class Fitted:
     @property
     def of_effects(self) -> frozenset[object]:
         """What the set's effects change; values in each recording hold the one that all recordings may share."""
-        own = [one for one in self.unknowns.all if one.hypothesis]
-        shared = {place for one in own if one.of_run is not None for place in _shared(one)}
-        return frozenset(one.place for one in own) | shared
+        per_run = [one for one in self.unknowns.all if one.hypothesis]
+        shared = {place for one in per_run if one.of_run is not None for place in _shared(one)}
+        return frozenset(one.place for one in per_run) | shared
 
     @property
     def start(self) -> dict[tuple[object, ...], float]:
         """Where a fit of another set may begin, by `Unknown.key`."""
-        values = np.concatenate([self.values.common, *self.values.own])
+        values = np.concatenate([self.values.common, *self.values.per_run])
         return {one.key: float(value) for one, value in zip(self.unknowns.all, values, strict=True)}
 
 

@@ -39,13 +39,15 @@ def moved(lin: Linearised, chosen: Set, level: int, sigma_index: int) -> State:
         sds.append(np.sqrt(np.maximum(variance[:, n : 2 * n], 0.0)))
     shared = {key: float(best.theta[column]) for key, column in library.at.items() if best.theta[column] != 0.0}
     name_of = {column: key for key, column in library.at.items()}
-    own = tuple(
+    per_run = tuple(
         {name_of[int(c)]: float(v) for c, v in zip(best.local_columns, values, strict=True)} for values in best.local
     )
     held = {name: float(best.theta[column]) for name, column in library.torque_only.items()}
     active = _stepped(lin, chosen, best.values)
     _take_shapes(lin, chosen, best.values, active, shared)
-    return replace(state, shared=shared, own=own, held=held, active=active, ways=tuple(ways), rate_sd=tuple(sds))
+    return replace(
+        state, shared=shared, per_run=per_run, held=held, active=active, ways=tuple(ways), rate_sd=tuple(sds)
+    )
 
 
 def smoothed_runs(lin: Linearised, best: Optimum, sigma: Array) -> Iterator[tuple[Array, Array]]:
@@ -84,14 +86,14 @@ def _stepped(lin: Linearised, chosen: Set, values: Array) -> dict[str, dict[str,
                 active[hypothesis.effect] = {}
             continue
         effect = next(e for e in library.structure.offered if e.name == hypothesis.effect)
-        own = {name: np.array(value) for name, value in hypothesis.start.items()}
+        per_run = {name: np.array(value) for name, value in hypothesis.start.items()}
         for c, value in zip(hypothesis.coefficients, mine, strict=True):
             if c.kind == "log":
                 factor = library.ratio ** np.clip(value / max(mine[0], _LEAST_SIZE), -_STEP, _STEP)
-                own[c.parameter] = within(effect.parameters[c.parameter], own[c.parameter] * factor)
+                per_run[c.parameter] = within(effect.parameters[c.parameter], per_run[c.parameter] * factor)
         if effect.name in active:  # at another joint besides
-            own = {name: np.maximum(value, active[effect.name][name]) for name, value in own.items()}
-        active[effect.name] = own
+            per_run = {name: np.maximum(value, active[effect.name][name]) for name, value in per_run.items()}
+        active[effect.name] = per_run
     return active
 
 

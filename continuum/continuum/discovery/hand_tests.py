@@ -49,8 +49,8 @@ def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest
 def removals(rivals: Sequence[Examined]) -> tuple[Removal, ...]:
     """Effects of one of two sets that can be taken off the arm."""
     names = [{h.effect for h in one.found.chosen} for one in rivals]
-    own = sorted(names[0] ^ names[1]) if len(names) > 1 else []
-    return tuple(Removal(name, text) for name in own if (text := effect_named(name).removal))
+    per_run = sorted(names[0] ^ names[1]) if len(names) > 1 else []
+    return tuple(Removal(name, text) for name in per_run if (text := effect_named(name).removal))
 
 
 def value_and_sd(fit: Fitted, key: ValueKey) -> tuple[float, float]:

@@ -231,7 +231,7 @@ class Library:
     def _stateful(self, effect: Effect) -> None:
         n = self.structure.n
         of_joints = [name for name, spec in effect.parameters.items() if spec.per_joint]
-        own = self.active.get(effect.name)
+        params = self.active.get(effect.name)
         first, spec = next(iter(effect.parameters.items()))
         if spec.ordinary:
             absent = absent_values(effect, n)
@@ -240,10 +240,10 @@ class Library:
             self.ordinary.append((at, ORDINARY))
             if self._live is not None and effect.name not in self._live:
                 return
-        if own is not None:
-            self._active(effect, own, of_joints)
-        if own is None or of_joints:
-            taken = {j for name in of_joints for j in np.flatnonzero(own[name])} if own is not None else set()
+        if params is not None:
+            self._active(effect, params, of_joints)
+        if params is None or of_joints:
+            taken = {j for name in of_joints for j in np.flatnonzero(params[name])} if params is not None else set()
             for values in grid(effect, n):
                 joints = tuple(range(n)) if of_joints else ()
                 value = self._add(StatefulTorque(effect.name, values, joints))
@@ -254,22 +254,20 @@ class Library:
                 if not joints:
                     self._nonlinear(effect, None, value, [], values)
 
-    def _active(self, effect: Effect, own: Mapping[str, Array], of_joints: Sequence[str]) -> None:
+    def _active(self, effect: Effect, params: Mapping[str, Array], of_joints: Sequence[str]) -> None:
         """The effect's torque at its values, and how it changes with each of those that the data may tell."""
-        joints = tuple(int(j) for j in np.flatnonzero(own[of_joints[0]])) if of_joints else ()
-        value = self._add(StatefulTorque(effect.name, own, joints))
+        joints = tuple(int(j) for j in np.flatnonzero(params[of_joints[0]])) if of_joints else ()
+        value = self._add(StatefulTorque(effect.name, params, joints))
         logs = []
         for name in fitted_parameters(effect):
-            above, below = (
-                StatefulTorque(effect.name, {**own, name: within(effect.parameters[name], own[name] * factor)}, joints)
-                for factor in (self.ratio, 1 / self.ratio)
-            )
+            changed = [within(effect.parameters[name], params[name] * by) for by in (self.ratio, 1 / self.ratio)]
+            above, below = (StatefulTorque(effect.name, {**params, name: one}, joints) for one in changed)
             logs.append((self._add(Difference(above, below)), name))
         for k in range(max(len(joints), 1)):
             self.held.append(value + k)
             where = (joints[k],) if joints else ()
             self._nonlinear(
-                effect, where or None, value + k, [(at + k, name, where) for at, name in logs], own
+                effect, where or None, value + k, [(at + k, name, where) for at, name in logs], params
             )  # fmt: skip
 
     def _nonlinear(

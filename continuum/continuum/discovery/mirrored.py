@@ -55,5 +55,5 @@ def mirrored(
         if not effect and place < 0 and kind in factors:
             relative = float(np.max(coordinates.steps[kind] / p[slots[PARAMETER[kind]]]))
             values[at] = ((1 + relative * values[at]) * factors[kind] - 1) / relative
-    lists = fit.unknowns.with_lists(unknowns, fit.unknowns.own)
-    return other, replace(fit, unknowns=lists, values=Values(values, fit.values.own, fit.values.local))
+    lists = fit.unknowns.with_lists(unknowns, fit.unknowns.per_run)
+    return other, replace(fit, unknowns=lists, values=Values(values, fit.values.per_run, fit.values.local))

@@ -29,12 +29,12 @@ class Values:
 
     Attributes:
         common: of all recordings, (k,).
-        own: of each recording.
+        per_run: of each recording.
         local: of each segment, (3 n,) each.
     """
 
     common: Array
-    own: tuple[Array, ...]
+    per_run: tuple[Array, ...]
     local: tuple[Array, ...]
 
 
@@ -79,7 +79,7 @@ def independent(square: float, product: float) -> float:
 
 def prior_cost(unknowns: Unknowns, values: Values, local_precision: Array) -> float:
     """Minus the log-prior, less a constant."""
-    of_all = [(values.common, unknowns.common), *zip(values.own, unknowns.own, strict=True)]
+    of_all = [(values.common, unknowns.common), *zip(values.per_run, unknowns.per_run, strict=True)]
     common = sum(((v - one.mean) / one.sd) ** 2 for x, those in of_all for v, one in zip(x, those, strict=True))
     return 0.5 * float(common + sum(x @ (local_precision * x) for x in values.local))
 
@@ -91,22 +91,22 @@ class _Run:
     Attributes:
         A, b: on the common unknowns, the others eliminated, (k, k) and (k,).
         of_segments: the same on the common unknowns and the recording's own, by segment.
-        own_prior: on these, (k + m, k + m) and (k + m,).
-        own, segments: what gives the recording's own unknowns and its segments' from the common ones.
-        own_covariance: at given common unknowns, (m, m).
+        per_run_prior: on these, (k + m, k + m) and (k + m,).
+        per_run, segments: what gives the recording's own unknowns and its segments' from the common ones.
+        per_run_covariance: at given common unknowns, (m, m).
     """
 
     A: Array
     b: Array
     of_segments: tuple[tuple[Array, Array], ...]
-    own_prior: tuple[Array, Array]
-    own: Array
+    per_run_prior: tuple[Array, Array]
+    per_run: Array
     segments: tuple[Array, ...]
-    own_covariance: Array
+    per_run_covariance: Array
 
     def without(self, segment: int) -> tuple[Array, Array, Array]:
         """On the common unknowns, without one segment, and what gives the recording's own then."""
-        A, b = self.own_prior
+        A, b = self.per_run_prior
         for i, (more, right) in enumerate(self.of_segments):
             if i != segment:
                 A, b = A + more, b + right
@@ -114,9 +114,9 @@ class _Run:
 
     def rest(self, step: Array) -> tuple[Array, tuple[Array, ...]]:
         """Steps of the recording's own unknowns and of those of its segments."""
-        own = self.own[:, -1] - self.own[:, :-1] @ step
-        both = np.concatenate([step, own])
-        return own, tuple(part[:, -1] - part[:, :-1] @ both for part in self.segments)
+        per_run = self.per_run[:, -1] - self.per_run[:, :-1] @ step
+        both = np.concatenate([step, per_run])
+        return per_run, tuple(part[:, -1] - part[:, :-1] @ both for part in self.segments)
 
 
 class WithoutEach(NamedTuple):
@@ -170,8 +170,8 @@ class NormalEquations:
         self._unknowns, self._values, self._segments, self._weights = unknowns, values, segments, weights
         self._local_precision, local = local_precision, iter(zip(weights, values.local, strict=True))
         self._runs: list[_Run] = []
-        for r, (own, those) in enumerate(zip(values.own, unknowns.own, strict=True)):
-            k, parts, systems = len(values.common) + len(own), list[Array](), list[tuple[Array, Array]]()
+        for r, (per_run, those) in enumerate(zip(values.per_run, unknowns.per_run, strict=True)):
+            k, parts, systems = len(values.common) + len(per_run), list[Array](), list[tuple[Array, Array]]()
             for one in self._of(r):
                 weight, mine = next(local)
                 G, h = weight * one.information, -weight * (one.residuals @ one.jacobian)
@@ -180,7 +180,7 @@ class NormalEquations:
                 A, b, part = _eliminated(G, h, k)
                 systems.append((A, b))
                 parts.append(part)
-            self._runs.append(_run(systems, parts, own, those))
+            self._runs.append(_run(systems, parts, per_run, those))
         precision, means = _prior(unknowns.common)
         self._A = np.sum([one.A for one in self._runs], axis=0) + np.diag(precision)
         self._b = np.sum([one.b for one in self._runs], axis=0) - precision * (values.common - means)
@@ -201,7 +201,7 @@ class NormalEquations:
         moves = [move for _, of_segments in rest for move in of_segments]
         return Values(
             self._values.common + step,
-            tuple(x + own for x, (own, _) in zip(self._values.own, rest, strict=True)),
+            tuple(x + per_run for x, (per_run, _) in zip(self._values.per_run, rest, strict=True)),
             tuple(x + move for x, move in zip(self._values.local, moves, strict=True)),
         )
 
@@ -214,7 +214,7 @@ class NormalEquations:
         """Changes of each segment's unknowns on the way to other values."""
         here = self._values
         local = iter([after - before for before, after in zip(here.local, there.local, strict=True)])
-        for r, (before, after) in enumerate(zip(here.own, there.own, strict=True)):
+        for r, (before, after) in enumerate(zip(here.per_run, there.per_run, strict=True)):
             for _ in self._of(r):
                 yield np.concatenate([there.common - here.common, after - before, next(local)])
 
@@ -225,12 +225,12 @@ class NormalEquations:
         priors = [prior_cost(self._unknowns, values, self._local_precision) for values in (self._values, there)]
         return 0.5 * float(np.dot(self._weights, falls)) + priors[0] - priors[1]
 
-    def own_sd(self) -> tuple[Array, ...]:
+    def per_run_sd(self) -> tuple[Array, ...]:
         """Standard deviations of each recording's own unknowns."""
         out = []
         for one in self._runs:
-            through = one.own[:, :-1]
-            out.append(np.sqrt(np.diag(one.own_covariance + through @ self.covariance @ through.T)))
+            through = one.per_run[:, :-1]
+            out.append(np.sqrt(np.diag(one.per_run_covariance + through @ self.covariance @ through.T)))
         return tuple(out)
 
     def without_each(self, scale: Scale) -> WithoutEach:
@@ -246,13 +246,13 @@ class NormalEquations:
         before = iter(self._values.local)
         for r, run in enumerate(self._runs):
             for i, one in enumerate(self._of(r)):
-                step, own, variance = np.zeros(k), run.own[:, -1], np.zeros(k)
+                step, per_run, variance = np.zeros(k), run.per_run[:, -1], np.zeros(k)
                 if len(self._segments) > 1:
-                    A, b, of_own = run.without(i)
+                    A, b, of_run = run.without(i)
                     step, without = _solved(self._A - run.A + A, self._b - run.b + b, free)
                     variance = np.diag(without) - np.diag(covariance)
-                    own = of_own[:, -1] - of_own[:, :-1] @ step
-                both = np.concatenate([step, own])
+                    per_run = of_run[:, -1] - of_run[:, :-1] @ step
+                both = np.concatenate([step, per_run])
                 local = run.segments[i][:, -1] - run.segments[i][:, :-1] @ both
                 move = np.concatenate([both, local])
                 moves.append(step - whole)
@@ -272,10 +272,12 @@ def _solved(A: Array, b: Array, free: NDArray[np.bool_]) -> tuple[Array, Array]:
     return x, inverse
 
 
-def _run(systems: Sequence[tuple[Array, Array]], parts: Sequence[Array], values: Array, own: Sequence[Unknown]) -> _Run:
+def _run(
+    systems: Sequence[tuple[Array, Array]], parts: Sequence[Array], values: Array, per_run: Sequence[Unknown]
+) -> _Run:
     """Eliminate a recording's own unknowns, the last of its segments' systems."""
-    precision, means = _prior(own)
-    k = len(systems[0][1]) - len(own)
+    precision, means = _prior(per_run)
+    k = len(systems[0][1]) - len(per_run)
     prior = np.zeros_like(systems[0][0]), np.zeros_like(systems[0][1])
     prior[0][k:, k:], prior[1][k:] = np.diag(precision), -precision * (values - means)
     A, b = prior[0] + sum(A for A, _ in systems), prior[1] + sum(b for _, b in systems)

@@ -59,7 +59,7 @@ class Simulators:
     def inputs(self, state: State, run: int) -> InputSignal:
         """What drives a run, as late as the state says."""
         s = self.problem.structure
-        delay = sum(float(np.sum(e.late(own))) for e in s.late if (own := state.active.get(e.name)))
+        delay = sum(float(np.sum(e.late(params))) for e in s.late if (params := state.active.get(e.name)))
         delay += lateness(s.given)
         inputs = self._recordings[run].inputs_for(s.given)
         return replace(inputs, held=self.problem.runs[run].held).later(delay)
@@ -80,8 +80,8 @@ class RunSimulation:
         self._r, self._run, self._way = run, problem.runs[run], state.ways[run]
         self._model = extended_model(problem, state, run)
         self._simulator, self._inputs = simulators.of(self._model), simulators.inputs(state, run)
-        s, self._own = problem.structure, sensors_at(problem, state, run)
-        self._reads = s.reading_slopes(self._run, self._own)[: s.n]
+        s, self._params = problem.structure, sensors_at(problem, state, run)
+        self._reads = s.reading_slopes(self._run, self._params)[: s.n]
         sensors, late = {e.name for e in s.sensors}, {(e.name, delay_of(e)) for e in s.late}
         slots = parameter_slots(self._model)
         self._directions = np.zeros((parameter_vector(self._model).size, len(unknowns)))
@@ -118,16 +118,16 @@ class RunSimulation:
         if found.status is not SimulationStatus.COMPLETE:
             return self._failed(rows, width)
         q, w = found.theta, found.theta_rate
-        read = self._read(rows, q, w, self._own)
+        read = self._read(rows, q, w, self._params)
         J = np.zeros((times.size, n, width))
         J[:, :, : k + 2 * n] = self._reads @ found.slopes[:, : 2 * n]
-        for i, own in self._sensors.items():
-            J[:, :, i] = (self._read(rows, q, w, own) - read) / STEP
+        for i, params in self._sensors.items():
+            J[:, :, i] = (self._read(rows, q, w, params) - read) / STEP
         for i, inputs in self._late.items():
             later = self._simulator.run(x0, times, inputs)
             if later.status is not SimulationStatus.COMPLETE:
                 return self._failed(rows, width)
-            J[:, :, i] = (self._read(rows, later.theta, later.theta_rate, self._own) - read) / _LATER
+            J[:, :, i] = (self._read(rows, later.theta, later.theta_rate, self._params) - read) / _LATER
         J[:, :, k + 2 * n :] = np.eye(n)
         residuals, unread = read + zeros - np.nan_to_num(run.readings[rows, :n]), run.live[rows, :n] <= 0
         J[unread], residuals[unread] = 0.0, 0.0
@@ -143,7 +143,7 @@ class RunSimulation:
         found, n = self.motion(rows, local), self._problem.structure.n
         if found.status is not SimulationStatus.COMPLETE:
             return np.full_like(found.theta, np.nan)
-        return self._read(rows, found.theta, found.theta_rate, self._own) + local[2 * n :]
+        return self._read(rows, found.theta, found.theta_rate, self._params) + local[2 * n :]
 
     def motion(self, rows: slice, local: Array) -> Motion:
         """The simulated motion of some rows."""
@@ -205,19 +205,19 @@ class RunSimulation:
         slopes = found.slopes[-1, 2 * n :] - by_angles @ found.slopes[-1, :n] - by_unknowns
         return found.states[-1, 2 * n :] - self._at_rest(found.theta[-1], row), slopes
 
-    def _read(self, rows: slice, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]]) -> Array:
+    def _read(self, rows: slice, q: Array, w: Array, params: Mapping[str, Mapping[str, Array]]) -> Array:
         """Angles as the sensors read them but for their zeros, (rows, n) [rad]."""
-        return self._problem.structure.readings(self._run, q, w, own, rows)[:, : q.shape[1]]
+        return self._problem.structure.readings(self._run, q, w, params, rows)[:, : q.shape[1]]
 
 
 def extended_model(problem: Problem, state: State, run: int) -> Model:
     """The model with a state's values and the effects that it names but those on sensors, in one recording."""
     s, point = problem.structure, point_of(problem, state)
     base = with_vector(s.model, point.values_in(s, run))
-    named = {effect for values in (state.shared, *state.own) for effect, _, _ in values}
+    named = {effect for values in (state.shared, *state.per_run) for effect, _, _ in values}
     named |= {a.effect.name for a in s.given.effects}
     present = [a for a in base.effects if a.effect.name in named]
-    added = [ActiveEffect(s.stateful[name].effect, own) for name, own in point.stateful.items()]
+    added = [ActiveEffect(s.stateful[name].effect, params) for name, params in point.stateful.items()]
     given = [a for a in s.given.effects if a.effect.name in s.stateful and a.effect.name not in point.stateful]
     return replace(base, effects=(*present, *given, *added))
 

@@ -204,7 +204,7 @@ class OutputError:
         unknowns = Unknowns(self.problem, found, start)
         none = np.zeros(len(self.local_precision))
         common = np.array([one.start for one in unknowns.common])
-        values = Values(common, unknowns.own_start, tuple(local or (none for rows in self._cuts for _ in rows)))
+        values = Values(common, unknowns.per_run_start, tuple(local or (none for rows in self._cuts for _ in rows)))
         return _Iterate(unknowns, values, self.simulated(unknowns, values))
 
     def _optimum(self, here: _Iterate, iterations: int) -> _Iterate:
@@ -270,15 +270,15 @@ class OutputError:
 
     def _runs(self, unknowns: Unknowns, values: Values) -> Iterator[tuple[RunSimulation, Sequence[slice]]]:
         """Each recording with the rows of its segments."""
-        state = unknowns.state(values.common, values.own)
+        state = unknowns.state(values.common, values.per_run)
         for r, rows in enumerate(self._cuts):
-            yield RunSimulation(self._simulators, state, r, [*unknowns.common, *unknowns.own[r]]), rows
+            yield RunSimulation(self._simulators, state, r, [*unknowns.common, *unknowns.per_run[r]]), rows
 
     def _fitted(self, at: _Iterate) -> Fitted:
         unknowns, values = at.unknowns, at.values
-        state, k = unknowns.state(values.common, values.own), len(values.common)
+        state, k = unknowns.state(values.common, values.per_run), len(values.common)
         if not at.completed:
-            none = tuple(np.full(len(own), np.nan) for own in values.own)
+            none = tuple(np.full(len(per_run), np.nan) for per_run in values.per_run)
             failed = np.full(len(at.segments), np.nan)
             return Fitted(state, unknowns, values, np.full(k, np.nan), np.eye(k), none, failed, 0.0, 1.0, True)
         normal = self._normal(at)
@@ -289,6 +289,6 @@ class OutputError:
         agreement = left.probability([i for i, one in enumerate(unknowns.common) if one.hypothesis is not None])
         correlation = normal.covariance / np.outer(plain, plain)
         return Fitted(
-            state, unknowns, values, sd, correlation, normal.own_sd(), left.errors, scale.observations, agreement,
+            state, unknowns, values, sd, correlation, normal.per_run_sd(), left.errors, scale.observations, agreement,
             at.settled,
         )  # fmt: skip

@@ -92,7 +92,7 @@ def _estimates(problem: Problem, fit: Fitted, key: Key, model: Model, singly: Co
 
     def values(common: Array) -> Array:
         """All joints' values of the parameters, (n_parameters, n)."""
-        state = fit.unknowns.state(common, fit.values.own)
+        state = fit.unknowns.state(common, fit.values.per_run)
         found = model_of(problem, state, key, model).values()
         return np.stack([np.broadcast_to(found[name], (problem.structure.n,)) for name in THESIS_PARAMETERS])
 

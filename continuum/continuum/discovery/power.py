@@ -147,7 +147,7 @@ def powers(
     still = fit.unknowns.with_lists(
         [replace(one, mean=float(v)) for one, v in zip(fit.unknowns.common, fit.values.common, strict=True)],
         [[replace(one, mean=float(v)) for one, v in zip(those, values, strict=True)]
-         for those, values in zip(fit.unknowns.own, fit.values.own, strict=True)],
+         for those, values in zip(fit.unknowns.per_run, fit.values.per_run, strict=True)],
     )  # fmt: skip
     values = replace(fit.values, local=tuple(np.zeros_like(one) for one in fit.values.local))
 
@@ -171,7 +171,7 @@ def powers(
             return np.repeat(found[::every], every)[: len(found)]
 
         def made(tried: tuple[float, float], of_sizes: Sequence[Array]) -> Power:
-            count = h.local_sd.size * len(fit.values.own)
+            count = h.local_sd.size * len(fit.values.per_run)
             return Power(h, changes, tried, np.array(of_sizes), noise, judge.floor, fit.observations, count)
 
         typical = of_size(1.0)

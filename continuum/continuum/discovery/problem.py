@@ -54,7 +54,7 @@ class State:
 
     Attributes:
         shared: coefficients of the compiled model and the sensors, common to all recordings.
-        own: what each recording has for itself.
+        per_run: what each recording has for itself.
         active: values of effects with states, and of effects whose shape is fitted, that are in the model.
         held: coefficients of columns of torque that are in the nominal motion, by name.
         ratio: by which active values are changed for differences.
@@ -64,7 +64,7 @@ class State:
     """
 
     shared: Values
-    own: tuple[Values, ...]
+    per_run: tuple[Values, ...]
     active: Mapping[str, Mapping[str, Array]]
     held: Mapping[str, float]
     ratio: float
@@ -109,15 +109,15 @@ def point_of(problem: Problem, state: State) -> Point:
     values = problem.coordinates.values(base)
     _add(values, s, state.shared)
     by_run = []
-    for run, own in enumerate(state.own):
+    for run, per_run in enumerate(state.per_run):
         mine = sensors_at(problem, state, run)
-        for (effect, name, joint), value in own.items():
+        for (effect, name, joint), value in per_run.items():
             if (slot := s.slots.get(f"{effect}.{name}")) is not None:
                 now = values[slot].copy()
                 now[max(joint, 0)] += value
                 mine.setdefault(effect, {})[name] = now
         by_run.append(mine)
-    stateful = {name: own for name, own in state.active.items() if name in s.stateful}
+    stateful = {name: per_run for name, per_run in state.active.items() if name in s.stateful}
     return Point(values, stateful, tuple(by_run))
 
 
@@ -126,7 +126,7 @@ def sensors_at(problem: Problem, state: State, run: int) -> dict[str, dict[str, 
     s = problem.structure
     given = {a.effect.name: dict(a.values) for a in s.given.effects if a.effect in s.sensors}
     found = given | {e.name: absent_values(e, s.n) for e in s.sensors if e.name not in given}
-    for (effect, name, joint), value in (*state.shared.items(), *state.own[run].items()):
+    for (effect, name, joint), value in (*state.shared.items(), *state.per_run[run].items()):
         if effect in found:
             found[effect][name] = found[effect][name].copy()
             found[effect][name][max(joint, 0)] += value
@@ -162,7 +162,7 @@ def linearise(
         problem.coordinates.lacks_friction,
         {one.key: one.sd for one in problem.measured},
     )  # fmt: skip
-    theta = np.stack([_theta(library, state.shared, own, state.held) for own in state.own])
+    theta = np.stack([_theta(library, state.shared, per_run, state.held) for per_run in state.per_run])
     runs = []
     for r, (run, way, modes) in enumerate(zip(problem.runs, state.ways, state.modes, strict=True)):
         values = point.values_in(s, r)
@@ -205,10 +205,10 @@ def _likelihood(problem: Problem, run: Run, way: Trajectory, lin: _Run, theta: A
     return replace(found, e=found.e + found.L @ theta, energy=float(energy))
 
 
-def _theta(library: Library, shared: Values, own: Values, held: Mapping[str, float]) -> Array:
+def _theta(library: Library, shared: Values, per_run: Values, held: Mapping[str, float]) -> Array:
     """What of every column is in the nominal motion and readings of a run, (P,)."""
     theta = library.held_vector(held)
-    for key, value in (*shared.items(), *own.items()):
+    for key, value in (*shared.items(), *per_run.items()):
         if (column := library.at.get(key)) is not None:
             theta[column] += value
     return theta

@@ -75,18 +75,18 @@ def _log_error(residuals: Sequence[Array]) -> float:
 
 def _without(fit: Fitted, left: Hypothesis | None) -> tuple[Unknowns, Values]:
     """Unknowns and values of a fit but those of one hypothesis."""
-    lists, values = [fit.unknowns.common, *fit.unknowns.own], [fit.values.common, *fit.values.own]
+    lists, values = [fit.unknowns.common, *fit.unknowns.per_run], [fit.values.common, *fit.values.per_run]
     kept = [[k for k, one in enumerate(those) if left is None or one.hypothesis is not left] for those in lists]
-    common, *own = [[those[k] for k in ks] for those, ks in zip(lists, kept, strict=True)]
+    common, *per_run = [[those[k] for k in ks] for those, ks in zip(lists, kept, strict=True)]
     of_all, *of_runs = [x[ks] for x, ks in zip(values, kept, strict=True)]
-    return fit.unknowns.with_lists(common, own), Values(of_all, tuple(of_runs), fit.values.local)
+    return fit.unknowns.with_lists(common, per_run), Values(of_all, tuple(of_runs), fit.values.local)
 
 
 def _less(one: Segment, wide: Unknowns, fitted: Values, left: Hypothesis | None) -> Segment:
     """A segment with the residuals that stay where a hypothesis leaves the set."""
     if left is None:
         return one
-    filled, every = padded(fitted, wide), [*wide.common, *wide.own[one.run]]
-    values = np.concatenate([filled.common, filled.own[one.run]]) - [unknown.absent for unknown in every]
+    filled, every = padded(fitted, wide), [*wide.common, *wide.per_run[one.run]]
+    values = np.concatenate([filled.common, filled.per_run[one.run]]) - [unknown.absent for unknown in every]
     gone = [k for k, unknown in enumerate(every) if unknown.hypothesis is left]
     return one.with_residuals(one.residuals - one.jacobian[:, gone] @ values[gone])

@@ -62,7 +62,7 @@ class Found:
     def without(self, left: Hypothesis) -> Found:
         """A part of the set, about the same state without one effect."""
         state, rest = self.lin.state, tuple(h for h in self.chosen if h is not left)
-        active = {effect: own for effect, own in state.active.items() if effect in {h.effect for h in rest}}
+        active = {effect: params for effect, params in state.active.items() if effect in {h.effect for h in rest}}
         return Found(replace(self.lin, state=replace(state, active=active)), rest)
 
     @property

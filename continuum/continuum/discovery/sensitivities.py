@@ -13,7 +13,7 @@ from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values
 from continuum.discovery.output_error import DAMPING, OutputError
 from continuum.discovery.segment import Segment
-from continuum.discovery.unknowns import Unknown, Unknowns, linear_unknown, own_unknowns
+from continuum.discovery.unknowns import Unknown, Unknowns, linear_unknown, run_unknowns
 
 
 class Sensitivities:
@@ -31,15 +31,15 @@ class Sensitivities:
     """
 
     def __init__(self, judge: OutputError, fit: Fitted, library: Library) -> None:
-        self._judge, runs = judge, range(len(fit.values.own))
+        self._judge, runs = judge, range(len(fit.values.per_run))
         self.hypotheses = [h for h in library.hypotheses if is_linear(h)]
         common = [[linear_unknown(h, k, library) for k in range(len(h.coefficients))] for h in self.hypotheses]
-        own = [[own_unknowns(h, library, r, {}) for h in self.hypotheses] for r in runs]
-        added = zip(self.hypotheses, common, zip(*own, strict=True), strict=True)
+        per_run = [[run_unknowns(h, library, r, {}) for h in self.hypotheses] for r in runs]
+        added = zip(self.hypotheses, common, zip(*per_run, strict=True), strict=True)
         self._added = {h: (of_all, of_runs) for h, of_all, of_runs in added}
-        self.wide = _joined(fit.unknowns, _once(common), [_once(own[r]) for r in runs])
+        self.wide = _joined(fit.unknowns, _once(common), [_once(per_run[r]) for r in runs])
         self.segments = judge.simulated(self.wide, padded(fit.values, self.wide))
-        self._at = [{one.place: k for k, one in enumerate([*self.wide.common, *mine])} for mine in self.wide.own]
+        self._at = [{one.place: k for k, one in enumerate([*self.wide.common, *mine])} for mine in self.wide.per_run]
 
     @property
     def completed(self) -> bool:
@@ -79,23 +79,23 @@ class Sensitivities:
     def _by(self, one: Segment, unknowns: Unknowns, local: int) -> Segment:
         """A segment with the derivatives by some unknowns only, and by its own."""
         at, width = self._at[one.run], one.jacobian.shape[1]
-        some = [at[each.place] for each in (*unknowns.common, *unknowns.own[one.run])]
+        some = [at[each.place] for each in (*unknowns.common, *unknowns.per_run[one.run])]
         return one.with_unknowns([*some, *range(width - local, width)])
 
-    def changes(self, h: Hypothesis, sizes: Array, own_sizes: Array) -> list[Segment]:
+    def changes(self, h: Hypothesis, sizes: Array, per_run_sizes: Array) -> list[Segment]:
         """Segments whose residuals are what a hypothesis would leave if it were in the data.
 
         Args:
             h: one of the linear ones.
             sizes: of its unknowns that all recordings have in common, (k,).
-            own_sizes: of those that each recording has for itself, (m,), in turn with either sign.
+            per_run_sizes: of those that each recording has for itself, (m,), in turn with either sign.
         """
         of_all, of_runs = self._added[h]
         found = []
         for one in self.segments:
             at, sign = self._at[one.run], 1 - 2 * (one.run % 2)
             columns = [at[each.place] for each in (*of_all, *of_runs[one.run])]
-            found.append(one.with_residuals(-one.jacobian[:, columns] @ np.concatenate([sizes, sign * own_sizes])))
+            found.append(one.with_residuals(-one.jacobian[:, columns] @ np.concatenate([sizes, sign * per_run_sizes])))
         return found
 
 
@@ -107,13 +107,13 @@ def is_linear(h: Hypothesis) -> bool:
 def padded(values: Values, unknowns: Unknowns) -> Values:
     """The same values, and zero for further unknowns."""
     common = np.pad(values.common, (0, len(unknowns.common) - len(values.common)))
-    own = [np.pad(x, (0, len(those) - len(x))) for x, those in zip(values.own, unknowns.own, strict=True)]
-    return Values(common, tuple(own), values.local)
+    per_run = [np.pad(x, (0, len(those) - len(x))) for x, those in zip(values.per_run, unknowns.per_run, strict=True)]
+    return Values(common, tuple(per_run), values.local)
 
 
-def _joined(unknowns: Unknowns, more: Sequence[Unknown], more_own: Sequence[Sequence[Unknown]]) -> Unknowns:
-    own = [[*those, *new] for those, new in zip(unknowns.own, more_own, strict=True)]
-    return unknowns.with_lists([*unknowns.common, *more], own)
+def _joined(unknowns: Unknowns, more: Sequence[Unknown], more_per_run: Sequence[Sequence[Unknown]]) -> Unknowns:
+    per_run = [[*those, *new] for those, new in zip(unknowns.per_run, more_per_run, strict=True)]
+    return unknowns.with_lists([*unknowns.common, *more], per_run)
 
 
 def _once(unknowns: Sequence[Sequence[Unknown]]) -> list[Unknown]:

@@ -68,12 +68,12 @@ def shifted(state: State, unknown: Unknown, run: int, step: float = STEP) -> Sta
         for effect, name, joint in unknown.places:
             active[effect][name][max(joint, 0)] *= np.exp(step)
         return replace(state, active=active)
-    values = dict(state.shared if unknown.of_run is None else state.own[run])
+    values = dict(state.shared if unknown.of_run is None else state.per_run[run])
     for key, factor in unknown.places.items():
         values[key] = values.get(key, 0.0) + factor * step
     if unknown.of_run is None:
         return replace(state, shared=values)
-    return replace(state, own=(*state.own[:run], values, *state.own[run + 1 :]))
+    return replace(state, per_run=(*state.per_run[:run], values, *state.per_run[run + 1 :]))
 
 
 class Unknowns:
@@ -86,38 +86,38 @@ class Unknowns:
 
     Attributes:
         common: those of all recordings.
-        own: those of each recording.
+        per_run: those of each recording.
     """
 
     def __init__(self, problem: Problem, found: Found, start: Start) -> None:
         self._problem, self._found, self._state = problem, found, found.lin.state
         self.common = [*self._set(), *self._baseline()]
         self.common = [_beginning(one, start) for one in (*self.common, *self._ordinary())]
-        self.own = tuple([_beginning(one, start) for one in self._own(r)] for r in range(len(problem.runs)))
+        self.per_run = tuple([_beginning(one, start) for one in self._per_run(r)] for r in range(len(problem.runs)))
 
     @property
     def all(self) -> list[Unknown]:
         """Common ones, then each recording's."""
-        return [*self.common, *(one for those in self.own for one in those)]
+        return [*self.common, *(one for those in self.per_run for one in those)]
 
     @property
-    def own_start(self) -> tuple[Array, ...]:
+    def per_run_start(self) -> tuple[Array, ...]:
         """Where a fit of each recording's own begins."""
-        return tuple(np.array([one.start for one in mine]) for mine in self.own)
+        return tuple(np.array([one.start for one in mine]) for mine in self.per_run)
 
-    def with_lists(self, common: Sequence[Unknown], own: Sequence[Sequence[Unknown]]) -> Unknowns:
+    def with_lists(self, common: Sequence[Unknown], per_run: Sequence[Sequence[Unknown]]) -> Unknowns:
         """Other unknowns about the same state."""
         other = copy(self)
-        other.common, other.own = list(common), tuple(list(those) for those in own)
+        other.common, other.per_run = list(common), tuple(list(those) for those in per_run)
         return other
 
-    def about(self, state: State, common: Sequence[Unknown], own: Sequence[Sequence[Unknown]]) -> Unknowns:
+    def about(self, state: State, common: Sequence[Unknown], per_run: Sequence[Sequence[Unknown]]) -> Unknowns:
         """Other unknowns about another state of the same set."""
-        other = self.with_lists(common, own)
+        other = self.with_lists(common, per_run)
         other._state = state
         return other
 
-    def state(self, common: Array, own: tuple[Array, ...]) -> State:
+    def state(self, common: Array, per_run: tuple[Array, ...]) -> State:
         """The state with values at these coordinates, (k,) and (m,) for each recording."""
         free = {key for one in self.common for key in one.places}
         absent = {("", *one): value for one, value in self._problem.coordinates.without_friction.items()}
@@ -132,9 +132,9 @@ class Unknowns:
                     shared[key] = shared.get(key, 0.0) + factor * float(value)
         by_run = tuple(
             {key: float(value) for unknown, value in zip(mine, values, strict=True) for key in unknown.places}
-            for mine, values in zip(self.own, own, strict=True)
+            for mine, values in zip(self.per_run, per_run, strict=True)
         )
-        return replace(self._state, shared=shared, own=by_run, active=active, held={})
+        return replace(self._state, shared=shared, per_run=by_run, active=active, held={})
 
     def _set(self) -> list[Unknown]:
         found, at = [], 0
@@ -151,11 +151,11 @@ class Unknowns:
 
     def _logs(self, h: Hypothesis, name: str, joints: tuple[int, ...]) -> list[Unknown]:
         effect = next(e for e in self._problem.structure.offered if e.name == h.effect)
-        spec, own = effect.parameters[name], self._state.active[h.effect][name]
+        spec, per_run = effect.parameters[name], self._state.active[h.effect][name]
         where = joints if spec.per_joint else (-1,)
         found = []
         for j in where:
-            value = float(own[max(j, 0)])
+            value = float(per_run[max(j, 0)])
             usual = np.log(spec.typical or value)
             low, high = np.log(max(spec.lower, 1e-12)), np.log(spec.upper)
             found.append(Unknown({(h.effect, name, j): 1.0}, True, np.log(value), usual, np.log(PRIOR), low, high, h))
@@ -187,9 +187,9 @@ class Unknowns:
             found.append(Unknown({key: 1.0}, False, float(np.clip(start, -most, most)), 0.0, sd, -most, most))
         return found
 
-    def _own(self, run: int) -> list[Unknown]:
-        values, library = self._state.own[run], self._found.lin.library
-        return [one for h in self._found.chosen for one in own_unknowns(h, library, run, values)]
+    def _per_run(self, run: int) -> list[Unknown]:
+        values, library = self._state.per_run[run], self._found.lin.library
+        return [one for h in self._found.chosen for one in run_unknowns(h, library, run, values)]
 
 
 def linear_unknown(h: Hypothesis, k: int, library: Library, start: float = 0.0) -> Unknown:
@@ -201,7 +201,7 @@ def linear_unknown(h: Hypothesis, k: int, library: Library, start: float = 0.0) 
     return Unknown(places, False, max(start, low), 0.0, float(h.sd[k]), low, np.inf, h)
 
 
-def own_unknowns(h: Hypothesis, library: Library, run: int, values: Values) -> list[Unknown]:
+def run_unknowns(h: Hypothesis, library: Library, run: int, values: Values) -> list[Unknown]:
     """What a recording has for itself by a hypothesis, beginning at its values."""
     key_of = {column: key for key, column in library.at.items()}
     return [

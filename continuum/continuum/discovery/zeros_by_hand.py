@@ -29,8 +29,8 @@ def zeros_in(fit: Fitted, run: int) -> list[tuple[float, float, float]]:
     values = dict[ValueKey, float]()
     variances = dict[ValueKey, float]()
     common = zip(fit.unknowns.common, fit.values.common, fit.sd, strict=True)
-    own = zip(fit.unknowns.own[run], fit.values.own[run], fit.own_sd[run], strict=True)
-    for one, value, sd in (*common, *own):
+    per_run = zip(fit.unknowns.per_run[run], fit.values.per_run[run], fit.per_run_sd[run], strict=True)
+    for one, value, sd in (*common, *per_run):
         for key, factor in one.places.items():
             if key[0] and is_zero(effect_named(key[0]).parameters[key[1]]):
                 values[key] = values.get(key, 0.0) + factor * float(value)

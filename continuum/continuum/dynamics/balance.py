@@ -32,11 +32,11 @@ def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | N
     torque = torque_balance(now)
     for active, state, _ in parts:
         torque = torque + active.effect.torque(now, active.values, state)
-    own = [
+    params = [
         active.effect.state_balance(replace(now, u=told_it), active.values, state, rate)
         for (active, state, rate), told_it in zip(parts, told, strict=True)
     ]
-    return np.concatenate([torque, *own])
+    return np.concatenate([torque, *params])
 
 
 def joint_motion(model: Model, x: Numbers, v: Numbers) -> Motion:

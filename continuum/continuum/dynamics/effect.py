@@ -1,7 +1,7 @@
 """What a further physical effect is to the dynamic model: a few hooks, each of which by default changes nothing.
 
 An effect is one small file that defines one class and is found by the entry point group ``continuum.effects``; adding
-one touches no other file. Every hook is given the effect's own parameter values, ``own``, arrays by name, and where
+one touches no other file. Every hook is given the effect's own parameter values, ``params``, arrays by name, and where
 it has states of its own, their values; it is traced with symbols like the rest of Eq. 12.
 """
 
@@ -19,7 +19,7 @@ from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.planar.motion import Motion
 from continuum.dynamics.reading import Reading
 
-Own = Mapping[str, Numbers]
+EffectParams = Mapping[str, Numbers]
 
 
 class Effect:
@@ -87,38 +87,40 @@ class Effect:
         """Number of states that the effect adds."""
         return 0
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
         """Parameters of Eq. 12 as the effect makes them."""
         return p
 
-    def move_base(self, motion: Motion, own: Own, state: Numbers, state_rate: Numbers) -> Motion:
+    def move_base(self, motion: Motion, params: EffectParams, state: Numbers, state_rate: Numbers) -> Motion:
         """Motion with the base plate turned."""
         return motion
 
-    def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
+    def pull(self, u: Numbers, params: EffectParams, state: Numbers) -> Numbers:
         """Tensions of the cables at the base, (n_cables,) [N], of those commanded."""
         return u
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         """Added to the left side of Eq. 12, (n,) or (1,) [N m]: a torque that resists."""
         return np.zeros(1)
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
         """Zero when the effect's states obey their equations, (n_states,); ``now.u`` is what `pull` was given."""
         return state_rate
 
-    def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
+    def initial_state(self, theta: Array, u: Array, params: EffectParams, p: Parameters) -> Array:
         """The effect's states in an arm that rests, (n_states,).
 
         Args:
             theta: joint angles, (n,) [rad].
             u: commanded tension of each cable, (n_cables,) [N].
-            own: the effect's own parameters, numbers.
+            params: the effect's parameters, numbers.
             p: parameters of Eq. 12 as all effects make them, numbers.
         """
         return np.zeros(self.n_states(theta.size))
 
-    def torque_along(self, motion: Array, slip: Array, length: Array, own: Own, p: Parameters) -> Array | None:
+    def torque_along(
+        self, motion: Array, slip: Array, length: Array, params: EffectParams, p: Parameters
+    ) -> Array | None:
         """`torque` along a measured motion, (rows, n) [N m], of an effect whose states are too stiff for that.
 
         A measured motion errs by more than the width of a stop. Such an effect gives here what its equations tend to
@@ -128,15 +130,15 @@ class Effect:
             motion: angles, rates and accelerations, (rows, 3, n) [rad, rad/s, rad/s2].
             slip: rates that dry friction sees, (rows, n) [rad/s].
             length: of each row in time, (rows,) [s].
-            own: the effect's own parameters, numbers.
+            params: the effect's parameters, numbers.
             p: parameters of Eq. 12 as all effects make them, numbers.
         """
         return None
 
-    def measure(self, seen: Reading, own: Own) -> Reading:
+    def measure(self, seen: Reading, params: EffectParams) -> Reading:
         """What the sensors make of what they see, of every sample by itself; affine in the motion."""
         return seen
 
-    def late(self, own: Own) -> Numbers:
+    def late(self, params: EffectParams) -> Numbers:
         """By how much all sensors are late [s]: a reading that says t is of t less this."""
         return 0.0

@@ -72,8 +72,8 @@ def model_from_mapping(block: Mapping[str, object]) -> Model:
     for name in named:
         effect: Effect = effect_named(name)
         given = _mapping(named, name, "effects.")
-        own, own_sources = _values(given, effect.parameters, n, f"effects.{name}.")
-        effects.append(ActiveEffect(effect, own))
+        params, own_sources = _values(given, effect.parameters, n, f"effects.{name}.")
+        effects.append(ActiveEffect(effect, params))
         sources |= {f"{name}.{key}": source for key, source in own_sources.items()}
     inputs = _inputs(block.get("inputs"), values)
     try:

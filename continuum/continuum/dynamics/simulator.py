@@ -96,12 +96,12 @@ class Simulator:
 
     def _values(self, given: Array | None) -> Array:
         """Parameter values, (n_p,)."""
-        own = parameter_vector(self.model)
+        params = parameter_vector(self.model)
         if given is None:
-            return own
-        values = finite_array("values", given, f"{own.size} finite numbers")
-        if values.shape != own.shape:
-            raise InvalidValueError("values", given, f"{own.size} finite numbers")
+            return params
+        values = finite_array("values", given, f"{params.size} finite numbers")
+        if values.shape != params.shape:
+            raise InvalidValueError("values", given, f"{params.size} finite numbers")
         return values
 
     @staticmethod

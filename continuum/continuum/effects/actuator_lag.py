@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-from continuum.dynamics.effect import Own
+from continuum.dynamics.effect import EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.planar.instant import Instant
@@ -46,5 +46,5 @@ class ActuatorLag(CableStates):
     looks_like = "Every answer to a change of pull comes late by the same time; what moves freely is as it should be."
     experiment = "Step the command with the arm held still and record the tension at the base of the cable."
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        return (own["lag"] * led(now.u) + LEAST_LAG) * state_rate - (now.u - state)
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
+        return (params["lag"] * led(now.u) + LEAST_LAG) * state_rate - (now.u - state)

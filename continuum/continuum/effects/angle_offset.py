@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.reading import Reading
 
@@ -40,5 +40,5 @@ class AngleOffset(Effect):
         "A spring that rests elsewhere in every run looks nearly the same: measure the resting angles by other means."
     )
 
-    def measure(self, seen: Reading, own: Own) -> Reading:
-        return replace(seen, theta=seen.theta + own["offset"])
+    def measure(self, seen: Reading, params: EffectParams) -> Reading:
+        return replace(seen, theta=seen.theta + params["offset"])

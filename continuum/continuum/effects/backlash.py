@@ -21,7 +21,7 @@ from typing import ClassVar
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 from continuum.dynamics.planar.eq12_spring_torque import spring_torque
@@ -68,25 +68,25 @@ class Backlash(Effect):
         """y and dy/dt of each joint [rad, rad/s]."""
         return 2 * n_joints
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         """T in the place of spring and friction of Eq. 12, (n,) [N m]."""
         move, p = now.motion, now.p
         taken = spring_torque(move.theta, p) + joint_friction(move.theta_rate, p, move.slip_rate)
-        return _stops(*_play(state, p), own, p) - taken
+        return _stops(*_play(state, p), params, p) - taken
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
         move, p = now.motion, now.p
         (y, moving), (y_rate, speeding) = _play(state, p), _play(state_rate, p)
         held = _spring(move.theta - y, p) + joint_friction(move.theta_rate - moving, p)
-        ball = _BALL * (move.theta_acceleration - speeding) + held - _stops(y, moving, own, p)
+        ball = _BALL * (move.theta_acceleration - speeding) + held - _stops(y, moving, params, p)
         return np.concatenate([y_rate - moving, ball])
 
-    def torque_along(self, motion: Array, slip: Array, length: Array, own: Own, p: Parameters) -> Array:
+    def torque_along(self, motion: Array, slip: Array, length: Array, params: EffectParams, p: Parameters) -> Array:
         """With hard stops and a ball without inertia, T is that of spring and friction while a stop moves the ball.
 
         Between the stops the ball rests by its dry friction, or yields to its spring against the viscous one.
         """
-        theta, rate, gap = motion[:, 0], motion[:, 1], own["gap"]
+        theta, rate, gap = motion[:, 0], motion[:, 1], params["gap"]
         taken = spring_torque(theta, p) + joint_friction(rate, p, slip)
         friction, held = joint_friction(rate, p, slip), break_away_torque(p)
         yielding = -np.expm1(-np.outer(length, p.stiffness / np.maximum(p.viscous_friction, _LEAST_VISCOUS)))
@@ -101,12 +101,12 @@ class Backlash(Effect):
             T[k] = np.where(touching, spring_torque(ball, p) + friction[k], 0.0)
         return np.asarray(T - taken)
 
-    def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
+    def initial_state(self, theta: Array, u: Array, params: EffectParams, p: Parameters) -> Array:
         """The ball pulled against its stop by its spring, friction aside; by Newton's method from beyond that stop."""
         y = theta - p.rest_angle
         for _ in range(_NEWTON_STEPS):
-            pushed = (_STOP + p.stiffness) * _passed(y, own) - _spring(theta - y, p)
-            y = y - pushed / ((_STOP + p.stiffness) * _touching(y, own) + _ball_stiffness(p))
+            pushed = (_STOP + p.stiffness) * _passed(y, params) - _spring(theta - y, p)
+            y = y - pushed / ((_STOP + p.stiffness) * _touching(y, params) + _ball_stiffness(p))
         return np.concatenate([y, np.zeros(p.n_joints)])
 
 
@@ -125,17 +125,17 @@ def _ball_stiffness(p: Parameters) -> Numbers:
     return p.stiffness * (1 + p.stiffness / _STOP)
 
 
-def _stops(y: Numbers, y_rate: Numbers, own: Own, p: Parameters) -> Numbers:
+def _stops(y: Numbers, y_rate: Numbers, params: EffectParams, p: Parameters) -> Numbers:
     """T, (n,) [N m]."""
-    return (_STOP + p.stiffness) * _passed(y, own) + _STOP_DAMPING * _touching(y, own) * y_rate
+    return (_STOP + p.stiffness) * _passed(y, params) + _STOP_DAMPING * _touching(y, params) * y_rate
 
 
-def _passed(y: Numbers, own: Own) -> Numbers:
+def _passed(y: Numbers, params: EffectParams) -> Numbers:
     """z, (n,) [rad]: what of y is beyond the play."""
-    return y - (rounded_size(y + own["gap"], _CORNER) - rounded_size(y - own["gap"], _CORNER)) / 2
+    return y - (rounded_size(y + params["gap"], _CORNER) - rounded_size(y - params["gap"], _CORNER)) / 2
 
 
-def _touching(y: Numbers, own: Own) -> Numbers:
+def _touching(y: Numbers, params: EffectParams) -> Numbers:
     """z', (n,) [1]: 1 at the stops, 0 within the play."""
-    after, before = y + own["gap"], y - own["gap"]
+    after, before = y + params["gap"], y - params["gap"]
     return 1 - (after / rounded_size(after, _CORNER) - before / rounded_size(before, _CORNER)) / 2

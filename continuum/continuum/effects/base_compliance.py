@@ -23,7 +23,7 @@ from typing import ClassVar
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, suffix_sum
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.eq12_balance import link_torque
@@ -61,7 +61,7 @@ class BaseCompliance(Effect):
         """psi [rad] and its rate [rad/s]."""
         return 2
 
-    def move_base(self, motion: Motion, own: Own, state: Numbers, state_rate: Numbers) -> Motion:
+    def move_base(self, motion: Motion, params: EffectParams, state: Numbers, state_rate: Numbers) -> Motion:
         return replace(
             motion,
             theta=_first_less(motion.theta, state[:1]),
@@ -72,22 +72,22 @@ class BaseCompliance(Effect):
             base_acceleration=motion.base_acceleration + state_rate[1:],
         )
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         """Of the links' mass that joint 1, moved by the plate, drags along."""
         move, lean = now.motion, _lean(now.motion)
         pushed = np.cos(lean) * move.base_acceleration + np.sin(lean) * move.base_rate**2
         return suffix_sum(_lever(now.p) * mass_moments(now.p) * pushed)
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        angle, rate, w = state[:1], state[1:], own["frequency"]
-        moved = state_rate[1:] / w**2 + 2 * own["damping"] * rate / w + angle
-        moment = self._moment(now, own, state)
-        return np.concatenate([state_rate[:1] - rate, moved + own["compliance"] * moment])
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
+        angle, rate, w = state[:1], state[1:], params["frequency"]
+        moved = state_rate[1:] / w**2 + 2 * params["damping"] * rate / w + angle
+        moment = self._moment(now, params, state)
+        return np.concatenate([state_rate[:1] - rate, moved + params["compliance"] * moment])
 
-    def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
+    def initial_state(self, theta: Array, u: Array, params: EffectParams, p: Parameters) -> Array:
         """The plate turned by the resting arm's weight."""
         psi, of_links = 0.0, float(np.sum(link_gravity_torque(np.cumsum(theta), p)))
-        compliance, weight = own["compliance"].item(), (p.gravity * _first_moment(p)).item()
+        compliance, weight = params["compliance"].item(), (p.gravity * _first_moment(p)).item()
         for _ in range(20):  # Newton's method; the moment changes by less than its size when the plate turns a radian
             leaning = p.hang_angle.item() + psi
             slope = 1 + compliance * weight * np.cos(leaning)
@@ -97,12 +97,12 @@ class BaseCompliance(Effect):
                 break
         return np.append(psi, 0.0)
 
-    def _moment(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def _moment(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         """Q_0, (1,) [N m]."""
         move, p, lean = now.motion, now.p, _lean(now.motion)
         beyond = mass_moments(p) * (np.cos(lean) * move.link_acceleration - np.sin(lean) * move.link_rate**2)
         of_joint_1 = _first_moment(p) * move.base_acceleration + beyond.sum(keepdims=True)
-        on_joints = link_torque(now)[:1] + self.torque(now, own, state)[:1]
+        on_joints = link_torque(now)[:1] + self.torque(now, params, state)[:1]
         return on_joints + _lever(p) * of_joint_1 + _hanging(move.base_angle, p)
 
 

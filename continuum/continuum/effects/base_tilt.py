@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
@@ -42,5 +42,5 @@ class BaseTilt(Effect):
         "a tilt changes its side in the arm's own angles."
     )
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
-        return replace(p, hang_angle=p.hang_angle + own["angle"])
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
+        return replace(p, hang_angle=p.hang_angle + params["angle"])

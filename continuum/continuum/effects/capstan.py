@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
@@ -42,5 +42,5 @@ class Capstan(Effect):
     looks_like = "Under pull the joints near the tip bend less than those near the base, the more the arm is bent."
     experiment = "Pull slowly and let go slowly: the arm's bend at the same pull differs, most at the tip."
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
-        return replace(p, capstan_friction=p.capstan_friction + own["friction"])
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
+        return replace(p, capstan_friction=p.capstan_friction + params["friction"])

@@ -22,7 +22,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from continuum.dynamics.effect import Own
+from continuum.dynamics.effect import EffectParams
 from continuum.dynamics.expressions import Numbers, positive_part
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
@@ -54,8 +54,8 @@ class ElasticCable(CableStates):
         "Hold the arm still and step the command, then hold the command and push the arm; compare the tensions."
     )
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        lag = own["lag"] * led(now.u) + LEAST_LAG
-        stretched = own["stiffness"] * led(now.u) * lengthening_rate(now.motion, now.p)
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
+        lag = params["lag"] * led(now.u) + LEAST_LAG
+        stretched = params["stiffness"] * led(now.u) * lengthening_rate(now.motion, now.p)
         rising = now.u - state + lag * stretched
         return lag * state_rate - positive_part(rising) + positive_part(-rising) * np.tanh(state / _TAUT)

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.reading import Reading
 
@@ -27,6 +27,6 @@ class GyroDrift(Effect):
     looks_like = "The gap between measured and simulated angle grows in proportion to time, also where the arm rests."
     experiment = "Record the arm at rest for half a minute before and after each release."
 
-    def measure(self, seen: Reading, own: Own) -> Reading:
+    def measure(self, seen: Reading, params: EffectParams) -> Reading:
         passed = (seen.times - seen.begun)[:, None]
-        return replace(seen, theta=seen.theta + own["bias"] * passed, theta_rate=seen.theta_rate + own["bias"])
+        return replace(seen, theta=seen.theta + params["bias"] * passed, theta_rate=seen.theta_rate + params["bias"])

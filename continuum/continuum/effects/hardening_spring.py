@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
@@ -27,5 +27,5 @@ class HardeningSpring(Effect):
     looks_like = "Large swings are faster than small ones, and joints bend less than in proportion to a large load."
     experiment = "Hang growing weights on the tip and read the joints' angles at rest: the line bends upwards."
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
-        return own["cubic"] * (now.motion.theta - now.p.rest_angle) ** 3
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
+        return params["cubic"] * (now.motion.theta - now.p.rest_angle) ** 3

@@ -18,7 +18,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation
@@ -49,17 +49,17 @@ class HeldCable(Effect):
     experiment = "Take the cables off, or give them more slack, and release again."
     removal = "Take the cables off the arm."
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         """-J_s^T W B T, (n,) [N m]: not by way of the commanded tensions, whose corner at 0 is where k begins."""
         move, p = now.motion, now.p
-        local = tension_propagation(move.theta, move.slip_rate, p) * held_tension(now, own)
+        local = tension_propagation(move.theta, move.slip_rate, p) * held_tension(now, params)
         return -serial_jacobian_transposed_times(link_wrenches(local, move.theta, p), move.link_angle, p)
 
 
-def held_tension(now: Instant, own: Own) -> Numbers:
+def held_tension(now: Instant, params: EffectParams) -> Numbers:
     """T of each cable, (n_cables,) [N]."""
     rate = lengthening_rate(now.motion, now.p)
-    slack = np.concatenate([own["slack_1"], own["slack_2"]])
+    slack = np.concatenate([params["slack_1"], params["slack_2"]])
     stretch = rounded_part(lengthening(now.motion, now.p) - slack, _CORNER)
     lengthening_only = rate * (1 + np.tanh(rate / _ONSET)) / 2
-    return own["stiffness"] * stretch * (1 + _LOSS * lengthening_only) * (1 - driven(now.u))
+    return params["stiffness"] * stretch * (1 + _LOSS * lengthening_only) * (1 - driven(now.u))

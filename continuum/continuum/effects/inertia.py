@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
@@ -49,5 +49,5 @@ class Inertia(Effect):
     experiment = "Weigh each link without what hangs on it; add a known weight to one, release again and compare."
     beware = "Links that are longer or shorter than in the model look nearly the same: measure their lengths as well."
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
-        return replace(p, mass=p.mass * (1 + own["mass"]), inertia=p.inertia * (1 + own["inertia"]))
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
+        return replace(p, mass=p.mass * (1 + params["mass"]), inertia=p.inertia * (1 + params["inertia"]))

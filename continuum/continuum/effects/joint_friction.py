@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import Parameter, Parameters
 
 
@@ -34,9 +34,9 @@ class JointFriction(Effect):
     looks_like = "The joint's motion dies out sooner or later than its neighbours', and it sticks elsewhere."
     experiment = "Move each joint alone by hand at a steady speed, both ways, with a force gauge."
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
         return replace(
             p,
-            viscous_friction=p.viscous_friction * (1 + own["viscous"]),
-            coulomb_friction=p.coulomb_friction * (1 + own["coulomb"]),
+            viscous_friction=p.viscous_friction * (1 + params["viscous"]),
+            coulomb_friction=p.coulomb_friction * (1 + params["coulomb"]),
         )

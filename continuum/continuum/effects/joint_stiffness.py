@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import Parameter, Parameters
 
 
@@ -32,5 +32,5 @@ class JointStiffness(Effect):
         "A spring that creeps is stiffer in fast motions than in slow ones: hold the joint bent and watch its torque."
     )
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
-        return replace(p, stiffness=p.stiffness * (1 + own["excess"]))
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
+        return replace(p, stiffness=p.stiffness * (1 + params["excess"]))

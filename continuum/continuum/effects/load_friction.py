@@ -18,7 +18,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, smooth_sign
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.eq13_joint_friction import dry_friction
@@ -46,9 +46,9 @@ class LoadFriction(Effect):
     looks_like = "Joints near the base stick more than those near the tip, and all stick more when cables pull."
     experiment = "Release the arm with and without a weight on its tip, or pull both cables alike while it swings."
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         w, p = now.motion.slip_rate, now.p
         force = joint_force(now)
         size = np.sqrt((force * force).sum(axis=1) + _LEAST_FORCE**2)
-        rubbing = replace(p, coulomb_friction=own["radius"] * size, stribeck_gain=own["stribeck"])
+        rubbing = replace(p, coulomb_friction=params["radius"] * size, stribeck_gain=params["stribeck"])
         return dry_friction(w, rubbing) * smooth_sign(w, p.friction_slope)

@@ -34,7 +34,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, positive_part, smooth_sign
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.eq13_joint_friction import dry_friction
@@ -70,28 +70,28 @@ class Presliding(Effect):
         """s of each joint's first element, then of the others [1]."""
         return _PLACES.size * n_joints
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         """The dry friction with memory less the one without, (n,) [N m]."""
         w, p = now.motion.slip_rate, now.p
         s = _by_element(state)
         bent = positive_part(1 - (s / _stribeck(w, p)) ** 2) ** 2
-        lost = _LOSS_TIME * w * bent / (_PLACES.size * (own["angle"] + _LEAST_ANGLE))
-        held = (_shares(own) * s + lost).sum(axis=0)
+        lost = _LOSS_TIME * w * bent / (_PLACES.size * (params["angle"] + _LEAST_ANGLE))
+        held = (_shares(params) * s + lost).sum(axis=0)
         return p.coulomb_friction * held - dry_friction(w, p) * smooth_sign(w, p.friction_slope)
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
         w, p = now.motion.theta_rate, now.p
         slid = rounded_size(p.friction_slope * w, _NEAR_ZERO)
         speed = slid / np.tanh(slid) / p.friction_slope
         x = _by_element(state) / _stribeck(w, p)
         slip = (speed + w) / 2 * _slipping(x) - (speed - w) / 2 * _slipping(-x)
-        angles = (own["angle"] + _LEAST_ANGLE) * _PLACES.size * _shares(own)
+        angles = (params["angle"] + _LEAST_ANGLE) * _PLACES.size * _shares(params)
         return (angles * _by_element(state_rate) - w + slip).reshape(-1)
 
 
-def _shares(own: Own) -> Numbers:
+def _shares(params: EffectParams) -> Numbers:
     """sigma_j / (3 sigma), (3, 1) [1]."""
-    return (1 + own["spread"] * _PLACES) / _PLACES.size
+    return (1 + params["spread"] * _PLACES) / _PLACES.size
 
 
 def _by_element(state: Numbers) -> Numbers:

@@ -14,7 +14,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.eq17_serial_jacobian import serial_jacobian_transposed_times
@@ -38,9 +38,9 @@ class QuadraticDrag(Effect):
     looks_like = "Fast swings, above all of the tip, lose more than the model says, and slow ones nothing."
     experiment = "Release from a large and from a small angle and compare what each swing keeps of the one before."
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         v = speed_across(now.motion, now.p)
-        force, none = own["drag"] * rounded_size(v, _STILL) * v, np.zeros(now.p.n_joints)
+        force, none = params["drag"] * rounded_size(v, _STILL) * v, np.zeros(now.p.n_joints)
         return serial_jacobian_transposed_times(np.stack([force, none, none], axis=1), now.motion.link_angle, now.p)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
@@ -42,5 +42,5 @@ class RestAngle(Effect):
         "a tilt of the base does not; a sensor's offset changes with every start of the sensor."
     )
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
-        return replace(p, rest_angle=p.rest_angle + own["angle"])
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
+        return replace(p, rest_angle=p.rest_angle + params["angle"])

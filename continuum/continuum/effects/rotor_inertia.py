@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
@@ -43,6 +43,6 @@ class RotorInertia(Effect):
     beware = "At the first joint a rotor and more inertia of the link are the same: its data sheet tells."
     uses_drives = True
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
         of_link = p.inertia + p.mass * p.center_of_mass**2
-        return replace(p, rotor_inertia=p.rotor_inertia + own["ratio"] * of_link)
+        return replace(p, rotor_inertia=p.rotor_inertia + params["ratio"] * of_link)

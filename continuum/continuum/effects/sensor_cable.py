@@ -19,7 +19,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, smooth_sign
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
@@ -47,10 +47,10 @@ class SensorCable(Effect):
         "Whatever else pushes or rubs at the first joint looks nearly the same, a pad that it leans on, for instance."
     )
 
-    def torque(self, now: Instant, own: Own, state: Numbers) -> Numbers:
+    def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         theta, w = now.motion.theta[:1], now.motion.theta_rate[:1]
-        way, lever = theta + own["lever"] * theta**2 / 2, 1 + own["lever"] * theta
+        way, lever = theta + params["lever"] * theta**2 / 2, 1 + params["lever"] * theta
         drawn = lever * w
-        force = own["preload"] + own["stiffness"] * way + own["viscous"] * drawn
-        rubbing = own["dry"] * smooth_sign(lever * now.motion.slip_rate[:1], now.p.friction_slope)
+        force = params["preload"] + params["stiffness"] * way + params["viscous"] * drawn
+        rubbing = params["dry"] * smooth_sign(lever * now.motion.slip_rate[:1], now.p.friction_slope)
         return np.concatenate([lever * (force + rubbing), np.zeros(now.p.n_joints - 1)])

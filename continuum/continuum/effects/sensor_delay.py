@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import ClassVar
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.reading import Reading
@@ -56,8 +56,8 @@ class SensorDelay(Effect):
         "Film the release with a lamp that the recording switches on, or tap the arm and compare with a contact."
     )
 
-    def late(self, own: Own) -> Numbers:
-        return own["delay"]
+    def late(self, params: EffectParams) -> Numbers:
+        return params["delay"]
 
-    def measure(self, seen: Reading, own: Own) -> Reading:
-        return replace(seen, theta=seen.theta - own["lag"] * seen.theta_rate)
+    def measure(self, seen: Reading, params: EffectParams) -> Reading:
+        return replace(seen, theta=seen.theta - params["lag"] * seen.theta_rate)

@@ -19,7 +19,7 @@ from typing import ClassVar
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.reading import Reading
 
@@ -51,9 +51,9 @@ class SensorScale(Effect):
     experiment = "Turn the link by a known angle, against a stop, and compare."
     beware = "Links that are longer or shorter than in the model look nearly the same: measure their lengths as well."
 
-    def measure(self, seen: Reading, own: Own) -> Reading:
+    def measure(self, seen: Reading, params: EffectParams) -> Reading:
         def spoiled(joints: Array) -> Array:
-            wrong = own["gain"] * np.cumsum(joints, axis=1)
+            wrong = params["gain"] * np.cumsum(joints, axis=1)
             return np.asarray(joints + np.diff(wrong, axis=1, prepend=0.0))
 
         return replace(seen, theta=spoiled(seen.theta), theta_rate=spoiled(seen.theta_rate))

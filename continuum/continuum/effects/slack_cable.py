@@ -21,7 +21,7 @@ from typing import ClassVar
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, positive_part, where_positive
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.cables import SIDES
@@ -56,18 +56,18 @@ class SlackCable(Effect):
         """g of each cable [m]."""
         return len(SIDES)
 
-    def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
-        pulling = u * np.exp(-((state / own["taut"]) ** 2))
+    def pull(self, u: Numbers, params: EffectParams, state: Numbers) -> Numbers:
+        pulling = u * np.exp(-((state / params["taut"]) ** 2))
         return where_positive(-u, u, pulling)  # one that was let go is, however loose
 
-    def state_balance(self, now: Instant, own: Own, state: Numbers, state_rate: Numbers) -> Numbers:
-        winding = np.tanh((now.u / own["least"] - 1) / own["blur"])
-        rate = -lengthening_rate(now.motion, now.p) - own["speed"] * winding
-        until_loose, until_taut = own["slack"] - state, state
-        loosening = positive_part(rate) * np.tanh(_ENDS * until_loose / own["taut"])
-        tightening = positive_part(-rate) * np.tanh(_ENDS * until_taut / own["taut"])
+    def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
+        winding = np.tanh((now.u / params["least"] - 1) / params["blur"])
+        rate = -lengthening_rate(now.motion, now.p) - params["speed"] * winding
+        until_loose, until_taut = params["slack"] - state, state
+        loosening = positive_part(rate) * np.tanh(_ENDS * until_loose / params["taut"])
+        tightening = positive_part(-rate) * np.tanh(_ENDS * until_taut / params["taut"])
         return state_rate - loosening + tightening
 
-    def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
+    def initial_state(self, theta: Array, u: Array, params: EffectParams, p: Parameters) -> Array:
         """Wound up where the motor pulls."""
-        return np.asarray(np.where(u > own["least"], 0.0, own["slack"]))
+        return np.asarray(np.where(u > params["least"], 0.0, params["slack"]))

@@ -14,7 +14,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import ByHand, Parameter
 
@@ -62,5 +62,5 @@ class TensionScale(Effect):
         "length nearly so: measure both."
     )
 
-    def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
-        return u / (1 + np.concatenate([own["gain_1"], own["gain_2"]]))
+    def pull(self, u: Numbers, params: EffectParams, state: Numbers) -> Numbers:
+        return u / (1 + np.concatenate([params["gain_1"], params["gain_2"]]))

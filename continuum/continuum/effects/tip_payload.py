@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
@@ -39,12 +39,12 @@ class TipPayload(Effect):
     looks_like = "All joints swing slower and return further towards the plumb line, those near the base most."
     experiment = "Take off what hangs on the tip, weigh it, and weigh the last link without it."
 
-    def change_parameters(self, p: Parameters, own: Own) -> Parameters:
+    def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
         m, c, beyond = p.mass[-1:], p.center_of_mass[-1:], p.tip - p.center_of_mass[-1:]
-        share = own["mass"] / (m + own["mass"])
+        share = params["mass"] / (m + params["mass"])
         return replace(
             p,
-            mass=_with_last(p.mass, m + own["mass"]),
+            mass=_with_last(p.mass, m + params["mass"]),
             center_of_mass=_with_last(p.center_of_mass, c + beyond * share),
             inertia=_with_last(p.inertia, p.inertia[-1:] + m * share * beyond**2),
         )

@@ -138,12 +138,12 @@ class StatefulTorque:
 
     Attributes:
         effect: by name.
-        own: its values, (n,) or (1,) each.
+        params: its values, (n,) or (1,) each.
         joints: whose rows make a column each; all rows one column without.
     """
 
     effect: str
-    own: Mapping[str, Array]
+    params: Mapping[str, Array]
     joints: tuple[int, ...] = ()
 
     @property
@@ -151,7 +151,7 @@ class StatefulTorque:
         return max(len(self.joints), 1)
 
     def torque(self, scene: Scene) -> Array | None:
-        added = stateful_torque(scene, self.effect, self.own)
+        added = stateful_torque(scene, self.effect, self.params)
         if not self.joints:
             return added[:, :, None]
         out = np.zeros((*added.shape, len(self.joints)))
@@ -163,11 +163,11 @@ class StatefulTorque:
         return None
 
 
-def stateful_torque(scene: Scene, effect: str, own: Mapping[str, Array]) -> Array:
+def stateful_torque(scene: Scene, effect: str, params: Mapping[str, Array]) -> Array:
     """What an effect with states adds along the scene's motion, (rows, n) [N m]."""
-    key = (effect, *((name, value.tobytes()) for name, value in own.items()))
+    key = (effect, *((name, value.tobytes()) for name, value in params.items()))
     if key not in scene.cache:
-        scene.cache[key] = scene.structure.stateful[effect].torque(scene.along, scene.values(), own, scene.nominal())
+        scene.cache[key] = scene.structure.stateful[effect].torque(scene.along, scene.values(), params, scene.nominal())
     return scene.cache[key]
 
 
@@ -229,11 +229,11 @@ class SensorSlope:
         return None
 
     def reading(self, scene: Scene) -> Array | None:
-        own, s = scene.point.by_run[scene.number], scene.structure
-        here = s.readings(scene.run, scene.way.q, scene.way.w, own)
+        params, s = scene.point.by_run[scene.number], scene.structure
+        here = s.readings(scene.run, scene.way.q, scene.way.w, params)
         out = np.empty((*here.shape, self.size))
         for j in range(self.size):
-            moved = {name: dict(values) for name, values in own.items()}
+            moved = {name: dict(values) for name, values in params.items()}
             moved[self.effect][self.parameter] = moved[self.effect][self.parameter].copy()
             moved[self.effect][self.parameter][j] += _DIFFERENCE
             out[:, :, j] = (s.readings(scene.run, scene.way.q, scene.way.w, moved) - here) / _DIFFERENCE

@@ -64,21 +64,21 @@ class EffectAlongMotion:
         """Make the machine code, or find it in its cache."""
         _ = self._with.state_step, self._with.torque
 
-    def torque(self, along: SubstepMotion, p: Array, own: Mapping[str, Array], without: Array) -> Array:
+    def torque(self, along: SubstepMotion, p: Array, params: Mapping[str, Array], without: Array) -> Array:
         """What the effect adds to the joints' torques, (rows, n) [N m].
 
         Args:
             along: the motion.
             p: values of the model's parameters without the effect, (n_p,).
-            own: the effect's values, (n,) or (1,) each.
+            params: the effect's values, (n,) or (1,) each.
             without: what Eq. 12 misses without the effect, (rows, n) [N m].
         """
         n, parameters = self._base.n_joints, with_vector(self._base, p).changed_parameters
-        quasi_static = self.effect.torque_along(along.motion, along.slip, along.length, own, parameters)
+        quasi_static = self.effect.torque_along(along.motion, along.slip, along.length, params, parameters)
         if quasi_static is not None:
             return -quasi_static
-        z0 = np.asarray(self.effect.initial_state(along.motion[0, 0], along.u[0], own, parameters), dtype=float)
-        extended = np.concatenate([p, *(np.asarray(own[name], dtype=float) for name in self.effect.parameters)])
+        z0 = np.asarray(self.effect.initial_state(along.motion[0, 0], along.u[0], params, parameters), dtype=float)
+        extended = np.concatenate([p, *(np.asarray(params[name], dtype=float) for name in self.effect.parameters)])
         nothing = np.zeros((len(along.motion), z0.size))
         rows = packed(along.motion, along.u, along.slip, extended, nothing, nothing)
         z, rate = _states(address_of(self._with.state_step), rows, along.length, z0, n)

@@ -111,39 +111,39 @@ class Structure:
         """Parameter values of the compiled model as given, (n_p,)."""
         return parameter_vector(self.model)
 
-    def measurement(self, run: Run, way: Trajectory, own: Mapping[str, Mapping[str, Array]]) -> Measurement:
+    def measurement(self, run: Run, way: Trajectory, params: Mapping[str, Mapping[str, Array]]) -> Measurement:
         """Readings of a trajectory, and their derivative by it.
 
         Args:
             run, way: rows and trajectory.
-            own: values of the effects on sensors, by effect and parameter.
+            params: values of the effects on sensors, by effect and parameter.
         """
-        expected, H = self.readings(run, way.q, way.w, own), self.reading_slopes(run, own)
+        expected, H = self.readings(run, way.q, way.w, params), self.reading_slopes(run, params)
         return Measurement(expected, np.ascontiguousarray(H if run.has_rates else H[: self.n]))
 
-    def reading_slopes(self, run: Run, own: Mapping[str, Mapping[str, Array]]) -> Array:
+    def reading_slopes(self, run: Run, params: Mapping[str, Mapping[str, Array]]) -> Array:
         """Derivatives of angles and rates as they are read by those that are, the same in every row, (2 n, 2 n)."""
         n, unit = self.n, np.eye(self.n)
         still = np.zeros((n + 1, n))
         at = run.times[: n + 1]
         moved = np.concatenate([unit, np.zeros((1, n))])
-        by_angle = self._read(at, moved, still, own, run.times[0])
-        by_rate = self._read(at, still, moved, own, run.times[0])
-        nothing = self._read(at, still, still, own, run.times[0])
+        by_angle = self._read(at, moved, still, params, run.times[0])
+        by_rate = self._read(at, still, moved, params, run.times[0])
+        nothing = self._read(at, still, still, params, run.times[0])
         return np.hstack([(by_angle - nothing)[:n].T, (by_rate - nothing)[:n].T])
 
     def readings(
-        self, run: Run, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]], rows: slice = _ALL
+        self, run: Run, q: Array, w: Array, params: Mapping[str, Mapping[str, Array]], rows: slice = _ALL
     ) -> Array:
         """What the sensors read of a motion in some rows of a run, (n_times, n_readings)."""
-        both = self._read(run.times[rows], q, w, own, run.times[0])
+        both = self._read(run.times[rows], q, w, params, run.times[0])
         return both if run.has_rates else both[:, : self.n]
 
-    def _read(self, times: Array, q: Array, w: Array, own: Mapping[str, Mapping[str, Array]], begun: float) -> Array:
+    def _read(self, times: Array, q: Array, w: Array, params: Mapping[str, Mapping[str, Array]], begun: float) -> Array:
         seen = Reading(times, q, w, float(begun))
         for effect in self.sensors:
-            if effect.name in own:
-                seen = effect.measure(seen, own[effect.name])
+            if effect.name in params:
+                seen = effect.measure(seen, params[effect.name])
         return np.hstack([seen.theta, seen.theta_rate])
 
 
@@ -164,8 +164,8 @@ class Point:
     def values_in(self, structure: Structure, run: int) -> Array:
         """Values of the compiled model in one recording, (n_p,)."""
         values = self.values.copy()
-        for effect, own in self.by_run[run].items():
-            for name, value in own.items():
+        for effect, params in self.by_run[run].items():
+            for name, value in params.items():
                 if (slot := structure.slots.get(f"{effect}.{name}")) is not None:
                     values[slot] = value
         return values

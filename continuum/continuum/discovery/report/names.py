@@ -78,8 +78,8 @@ def sets_in_words(sets: Sequence[Sequence[str]], n_joints: int | None = None) ->
     common = [label for label in sets[0] if len(sets) > 1 and all(label in one for one in sets)] if sets else []
     if any(len(one) == len(common) for one in sets):
         common = []
-    own = [[label for label in one if label not in common] for one in sets]
-    together = [" with ".join(label_in_words(label, n_joints) for label in one) or "nothing" for one in own]
+    params = [[label for label in one if label not in common] for one in sets]
+    together = [" with ".join(label_in_words(label, n_joints) for label in one) or "nothing" for one in params]
     return together, listed([label_in_words(label, n_joints) for label in common])
 
 

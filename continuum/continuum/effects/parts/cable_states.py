@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from continuum.arrays import Array
-from continuum.dynamics.effect import Effect, Own
+from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.planar.cables import SIDES
@@ -18,8 +18,8 @@ class CableStates(Effect):
     def n_states(self, n_joints: int) -> int:
         return len(SIDES)
 
-    def pull(self, u: Numbers, own: Own, state: Numbers) -> Numbers:
+    def pull(self, u: Numbers, params: EffectParams, state: Numbers) -> Numbers:
         return state
 
-    def initial_state(self, theta: Array, u: Array, own: Own, p: Parameters) -> Array:
+    def initial_state(self, theta: Array, u: Array, params: EffectParams, p: Parameters) -> Array:
         return u.copy()
