@@ -84,12 +84,12 @@ def test_bend_limit_beyond_contact_is_refused_with_the_largest_that_is_allowed()
 
 def test_a_default_that_the_section_does_not_allow_is_told_to_be_one() -> None:
     short = {"n_joints": 2, "b": 0.01, "a": 0.02}
-    told = "it was left out, and this is its default: set it"
-    with pytest.raises(InvalidValueError, match=rf"^arm\.s\.bend_limit is 3\.14.* rad, .*; {told}$"):
+    output = "it was left out, and this is its default: set it"
+    with pytest.raises(InvalidValueError, match=rf"^arm\.s\.bend_limit is 3\.14.* rad, .*; {output}$"):
         arm_from_mapping({"sections": ["s"], "s": short})
     with pytest.raises(InvalidValueError) as caught:
         arm_from_mapping({"sections": ["s"], "s": {**short, "bend_limit": math.pi}})
-    assert told not in str(caught.value)
+    assert output not in str(caught.value)
 
 
 @pytest.mark.parametrize(

@@ -174,15 +174,15 @@ def test_report_tells_figures_and_losses(capsys: Captured, recording: str, arm: 
     output = capsys.readouterr().out
     assert max(map(len, output.splitlines()[:-1])) <= 80
     n = len(tips())
-    told = dict(re.findall(r"^(\S.*?\S) {2,}(\S.*?) *$", output, re.MULTILINE))
-    assert told["poses"] == f"{n} at 100.0 Hz over {(n - 1) / 100:.1f} s"
-    assert told["poses reached"] == str(n)
-    errors = re.fullmatch(r"median (\S+) mm, max (\S+) mm", told["tip error of the reached poses"])
+    output = dict(re.findall(r"^(\S.*?\S) {2,}(\S.*?) *$", output, re.MULTILINE))
+    assert output["poses"] == f"{n} at 100.0 Hz over {(n - 1) / 100:.1f} s"
+    assert output["poses reached"] == str(n)
+    errors = re.fullmatch(r"median (\S+) mm, max (\S+) mm", output["tip error of the reached poses"])
     assert errors is not None
     assert 0.0 <= float(errors[1]) <= float(errors[2]) < 1e-6
-    assert told["cable rate against slope of length"].endswith(" mm/s at worst,")
-    assert told["messages lost"] == "3"
-    assert {name: count for name, count in told.items() if name.startswith("lost on")} == {
+    assert output["cable rate against slope of length"].endswith(" mm/s at worst,")
+    assert output["messages lost"] == "3"
+    assert {name: count for name, count in output.items() if name.startswith("lost on")} == {
         "lost on /cable_states": "1",
         "lost on /section_config_states of section 1": "1",
         "lost on /section_config_states of section 2": "1",
@@ -218,10 +218,10 @@ def test_an_arm_of_which_a_recording_is_not_is_refused(
 ) -> None:
     """Fewer sections, more sections, and sections of other lengths."""
     of_both = [f"{section.name} ({section.n_joints} joints)" for section in ARM.sections]
-    told = f"{recording}: is of another arm: it has {', '.join(of_both)}; the arm file "
+    output = f"{recording}: is of another arm: it has {', '.join(of_both)}; the arm file "
     shorter, first = tmp_path / "arm.yaml", ARM.sections[0]
     for sections in ((first,), (first, replace(ARM.sections[1], n_joints=4))):
         shorter.write_text(yaml.safe_dump({"arm": arm_to_mapping(Arm(sections))}), encoding="utf-8")
         words = ", ".join(f"{section.name} ({section.n_joints} joints)" for section in sections)
-        assert refused(capsys, command, recording, "--arm", shorter) == f"{told}{words}\n"
-    assert refused(capsys, command, recording, "--arm", THREE).startswith(told)
+        assert refused(capsys, command, recording, "--arm", shorter) == f"{output}{words}\n"
+    assert refused(capsys, command, recording, "--arm", THREE).startswith(output)

@@ -69,9 +69,9 @@ def test_solve_answers_a_file_of_targets(capsys: Captured, tmp_path: Path) -> No
     answers = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert [answer["status"] for answer in answers] == ["SOLVED", "UNREACHABLE"]
     assert code("solve", THREE, "--targets", file) == 1
-    told = capsys.readouterr().out
-    assert "target 1 of 2, 0.1 0 0.4 m:\nreached;" in told
-    assert "target 2 of 2, 0 0 3 m:\nnot reached: out of reach;" in told
+    output = capsys.readouterr().out
+    assert "target 1 of 2, 0.1 0 0.4 m:\nreached;" in output
+    assert "target 2 of 2, 0 0 3 m:\nnot reached: out of reach;" in output
     file.write_text("0.1 0 0.4 0 0 1\n")
     assert code("solve", THREE, "--targets", file) == 0
     assert "degrees off its direction" in capsys.readouterr().out

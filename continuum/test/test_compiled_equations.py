@@ -58,9 +58,9 @@ def test_the_task_tells_distance_and_angle_and_the_descent_of_its_squared_error(
             return np.array(squares).reshape(x.shape[:-1])
 
         error, jacobian = np.empty(kind), np.empty((6, 6))
-        told = evaluate(arm_arrays(arm), target, w.reshape(-1), error, jacobian)
-        assert told == pytest.approx((distances[k], angles[k]), rel=1e-9)
-        assert np.linalg.norm(error) == pytest.approx(np.hypot(told[0], weight * told[1]), rel=1e-9)
+        output = evaluate(arm_arrays(arm), target, w.reshape(-1), error, jacobian)
+        assert output == pytest.approx((distances[k], angles[k]), rel=1e-9)
+        assert np.linalg.norm(error) == pytest.approx(np.hypot(output[0], weight * output[1]), rel=1e-9)
         slope = differences(half_square, w.reshape(-1), step=0.01)
         assert_same_slopes((-jacobian[:kind].T @ error)[None], slope[None], relative=1e-7)
 

@@ -61,11 +61,11 @@ def values(distance: Distance) -> tuple[float, float]:
 
 
 def test_what_the_measurement_does_not_resolve_is_not_told() -> None:
-    assert of(BETWEEN).nearer is Nearer.UNREPORTED
-    assert of(HELD, np.radians(6.0)).nearer is of(EVEN, np.radians(6.0)).nearer is Nearer.UNREPORTED
+    assert of(BETWEEN).nearer is Nearer.UNDECIDED
+    assert of(HELD, np.radians(6.0)).nearer is of(EVEN, np.radians(6.0)).nearer is Nearer.UNDECIDED
     for total in np.radians([0.0, 1.0, -2.0]):  # nearly straight, both models are the same
         rest = held_posture(ARM, float(total), None, 1).theta
-        assert of(rest).nearer is of(np.full(N, total / N)).nearer is Nearer.UNREPORTED
+        assert of(rest).nearer is of(np.full(N, total / N)).nearer is Nearer.UNDECIDED
 
 
 def test_models_that_the_measurement_does_not_tell_apart_are_not_told_apart_by_an_arm_far_from_both() -> None:
@@ -74,7 +74,7 @@ def test_models_that_the_measurement_does_not_tell_apart_are_not_told_apart_by_a
     far = even + 20 * (rest - even)
     s, slopes = of(far).difference
     assert abs(s) > 5 * np.sqrt(slopes @ of(far).covariance @ slopes)
-    assert of(far).nearer is Nearer.UNREPORTED
+    assert of(far).nearer is Nearer.UNDECIDED
 
 
 @pytest.mark.parametrize("share", [0.0, 0.4, 0.5, 0.6, 1.0])
@@ -90,7 +90,7 @@ def test_intervals_hold_the_true_differences_and_no_more_than_chance_is_wrong(sh
     wrong = Nearer.CONSTANT if truly < 0 else Nearer.DYNAMIC
     assert np.mean([one.nearer is wrong for one in found]) < 0.04
     if share in (0.0, 1.0):
-        assert np.mean([one.nearer is not Nearer.UNREPORTED for one in found]) > 0.95
+        assert np.mean([one.nearer is not Nearer.UNDECIDED for one in found]) > 0.95
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -129,20 +129,20 @@ def test_one_hold_again_and_again_is_answered_as_the_one() -> None:
     several = overall([one] * 4, MedianErrors(np.zeros((4, N, N)), shared))
     assert several.nearer is one.nearer is Nearer.DYNAMIC
     np.testing.assert_allclose(values(several.closer_by), values(one.closer_by), rtol=1e-9)
-    assert several.counts == {Nearer.DYNAMIC: 4, Nearer.CONSTANT: 0, Nearer.UNREPORTED: 0}
+    assert several.counts == {Nearer.DYNAMIC: 4, Nearer.CONSTANT: 0, Nearer.UNDECIDED: 0}
 
 
 def test_independent_holds_are_more_certain_together_and_contradicting_ones_tell_nothing() -> None:
     one = of(0.6 * HELD + 0.4 * EVEN, np.radians(0.8))
     four = overall([one] * 4, errors_of(*[one.covariance] * 4))
-    assert one.nearer is Nearer.UNREPORTED
+    assert one.nearer is Nearer.UNDECIDED
     assert four.nearer is Nearer.DYNAMIC
     assert four.closer_by.sd == pytest.approx(one.closer_by.sd / 2)
     dynamic, constant = of(HELD), of(0.3 * HELD + 0.7 * EVEN)
     assert constant.nearer is Nearer.CONSTANT
     both = overall([dynamic, constant], errors_of(dynamic.covariance, constant.covariance))
     assert both.to_dynamic + 2 * both.closer_by.sd < both.to_constant
-    assert both.nearer is Nearer.UNREPORTED
+    assert both.nearer is Nearer.UNDECIDED
 
 
 def test_joints_that_friction_cannot_hold_are_named() -> None:

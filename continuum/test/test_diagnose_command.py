@@ -13,7 +13,7 @@ from identification_laws import BENDS, FINE, N, recorded
 
 from continuum.cli import main
 from continuum.cli.diagnose import EXIT_CODES
-from continuum.cli.progress import told as progress
+from continuum.cli.progress import progress_bar as progress
 from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.simulator import Simulator
 from continuum.recordings.motion_table import write_measured_motion
@@ -27,9 +27,9 @@ def test_bad_data_are_refused_in_one_line(tmp_path: Path, capsys: Captured) -> N
     table = tmp_path / "run.csv"
     table.write_text("t_s,q1_deg\n0,1\n")
     assert main(["diagnose", str(table), "--json", str(tmp_path / "out.json")]) == 2
-    told = capsys.readouterr().err
-    assert "run.csv: has 1 usable rows" in told
-    assert told.count("\n") == 1
+    output = capsys.readouterr().err
+    assert "run.csv: has 1 usable rows" in output
+    assert output.count("\n") == 1
     assert not (tmp_path / "out.json").exists()
 
 
@@ -74,10 +74,10 @@ def test_a_diagnosis_is_told_and_written(tmp_path: Path, model: Path, capsys: Ca
     out = {name: tmp_path / f"out.{name}" for name in ("json", "html", "yaml")}
     words = ["--json", str(out["json"]), "--report", str(out["html"]), "--extended", str(out["yaml"])]
     code = main(["diagnose", *files, "--model", str(model), *words])
-    told = json.loads(out["json"].read_text(encoding="utf-8"))
-    assert code == EXIT_CODES[told["verdict"]]
-    assert capsys.readouterr().out.startswith(told["verdict"].upper() + "\n")
-    made = told["made"]
+    output = json.loads(out["json"].read_text(encoding="utf-8"))
+    assert code == EXIT_CODES[output["verdict"]]
+    assert capsys.readouterr().out.startswith(output["verdict"].upper() + "\n")
+    made = output["made"]
     assert (made["recordings"], made["model"]) == (["run_1.csv", "run_2.csv"], "small.yaml")
     page = unescape(out["html"].read_text(encoding="utf-8"))
     assert "of run_1.csv, run_2.csv; model small.yaml." in page
@@ -121,18 +121,18 @@ def test_what_cannot_be_known_is_refused_in_one_line(
 
 def test_an_arm_of_another_number_of_joints_is_refused(tmp_path: Path, capsys: Captured) -> None:
     assert main(["diagnose", *releases(tmp_path)]) == 2
-    told = capsys.readouterr().err
-    assert "run_1: number of joints is 2; allowed: 5" in told
-    assert "--model" in told
+    output = capsys.readouterr().err
+    assert "run_1: number of joints is 2; allowed: 5" in output
+    assert "--model" in output
 
 
 @pytest.mark.parametrize("option", ["--json", "--report", "--extended"])
 def test_what_cannot_be_written_is_refused_before_the_search(tmp_path: Path, capsys: Captured, option: str) -> None:
     words = [option, str(tmp_path / "nowhere" / "out")]
     assert main(["diagnose", *releases(tmp_path), *words]) == 2
-    told = capsys.readouterr().err
-    assert "cannot be written" in told
-    assert told.count("\n") == 1
+    output = capsys.readouterr().err
+    assert "cannot be written" in output
+    assert output.count("\n") == 1
 
 
 def test_each_stage_is_one_line_where_standard_error_is_no_terminal(capsys: Captured) -> None:

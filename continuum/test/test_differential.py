@@ -37,11 +37,11 @@ def regular_postures(n_sections: int, kind: int) -> tuple[Arm, list[np.ndarray]]
     return arm, kept
 
 
-def assert_true(told: TipRate, w: np.ndarray, arm: Arm) -> None:
+def assert_true(output: TipRate, w: np.ndarray, arm: Arm) -> None:
     """Velocity and spin are what the rate does to the tip."""
-    moved = arm_jacobian(w, arm) @ told.rate.reshape(-1)
-    np.testing.assert_allclose(told.velocity, moved[:3], rtol=0, atol=1e-12)
-    np.testing.assert_allclose(told.spin, moved[3:], rtol=0, atol=1e-12)
+    moved = arm_jacobian(w, arm) @ output.rate.reshape(-1)
+    np.testing.assert_allclose(output.velocity, moved[:3], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(output.spin, moved[3:], rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize(("n_sections", "kind"), EVERY_KIND[:-1])
@@ -51,11 +51,11 @@ def test_the_tip_moves_as_asked(n_sections: int, kind: int, wish_gain: float | N
     assert len(postures) > 3
     for w in postures:
         wish = None if wish_gain is None else least_bending(w, wish_gain)
-        told = DifferentialKinematics(arm, kind).rate(w, VELOCITY, SPIN, wish)
-        assert_true(told, w, arm)
-        assert not told.held
-        np.testing.assert_allclose(told.velocity, VELOCITY, rtol=0, atol=1e-9)
-        local = arm_pose(w, arm)[:3, :3].T @ (told.spin - SPIN)
+        output = DifferentialKinematics(arm, kind).rate(w, VELOCITY, SPIN, wish)
+        assert_true(output, w, arm)
+        assert not output.held
+        np.testing.assert_allclose(output.velocity, VELOCITY, rtol=0, atol=1e-9)
+        local = arm_pose(w, arm)[:3, :3].T @ (output.spin - SPIN)
         np.testing.assert_allclose(local[: kind - 3], 0.0, rtol=0, atol=1e-9)
 
 
@@ -83,17 +83,17 @@ def test_one_section_follows_eq_22(twist: float) -> None:
         for velocity in (arm_jacobian(w, arm)[:3] @ [0.4, -0.2], VELOCITY):
             seen = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) @ velocity
             eq_22 = configuration_from_point_jacobian(section_position(w, arm.sections[0]))[0] @ seen
-            told = DifferentialKinematics(arm).rate(w, velocity)
-            assert_true(told, w, arm)
-            np.testing.assert_allclose(told.rate[0], eq_22, rtol=0, atol=1e-9)
+            output = DifferentialKinematics(arm).rate(w, velocity)
+            assert_true(output, w, arm)
+            np.testing.assert_allclose(output.rate[0], eq_22, rtol=0, atol=1e-9)
 
 
 def test_one_section_at_its_limit_is_held() -> None:
     arm, w = arm_of(1, 1.0), np.array([[0.6, 0.8]])
     tip = section_position(w[0], arm.sections[0])
-    told = DifferentialKinematics(arm).rate(w, tip * [1.0, 1.0, -1.0])
-    assert told.held
-    assert abs(told.rate[0] @ w[0]) <= 1e-12
+    output = DifferentialKinematics(arm).rate(w, tip * [1.0, 1.0, -1.0])
+    assert output.held
+    assert abs(output.rate[0] @ w[0]) <= 1e-12
     back = DifferentialKinematics(arm).rate(w, -tip * [1.0, 1.0, -1.0])
     assert not back.held
     assert back.rate[0] @ w[0] < -0.1
@@ -104,11 +104,11 @@ def test_near_the_straight_arm_the_rate_stays_small_and_the_lack_is_told(bend_of
     """The straight arm cannot move along its axis; asked to, it neither jumps nor fails."""
     arm = arm_of(3)
     w = np.full((3, 2), bend_of_all)
-    told = DifferentialKinematics(arm).rate(w, np.array([0.03, 0.0, -0.1]))
-    assert_true(told, w, arm)
-    assert np.max(np.abs(told.rate)) < 20.0
+    output = DifferentialKinematics(arm).rate(w, np.array([0.03, 0.0, -0.1]))
+    assert_true(output, w, arm)
+    assert np.max(np.abs(output.rate)) < 20.0
     if bend_of_all < 1e-5:
-        np.testing.assert_allclose(told.velocity, [0.03, 0.0, 0.0], rtol=0, atol=1e-3)
+        np.testing.assert_allclose(output.velocity, [0.03, 0.0, 0.0], rtol=0, atol=1e-3)
 
 
 def test_damping_sets_in_smoothly() -> None:
@@ -128,15 +128,15 @@ def test_sections_at_their_limit_are_held_and_the_tip_still_moves_as_asked(wish_
     for w in random_postures(arm, 60, seed=3, largest=0.9):
         for i in at_limit:
             w[i] *= 1.0 / bend(w[i])
-        told = DifferentialKinematics(arm).rate(w, 5 * VELOCITY, wish=least_bending(w, wish_gain))
-        assert_true(told, w, arm)
-        outward = np.array([told.rate[i] @ w[i] for i in at_limit])
+        output = DifferentialKinematics(arm).rate(w, 5 * VELOCITY, wish=least_bending(w, wish_gain))
+        assert_true(output, w, arm)
+        outward = np.array([output.rate[i] @ w[i] for i in at_limit])
         assert np.all(outward <= 1e-12)
         stopped = np.abs(outward) <= 1e-12
-        assert told.held == np.any(stopped)
-        n_free += not told.held
+        assert output.held == np.any(stopped)
+        n_free += not output.held
         n_held += np.all(stopped)
-        np.testing.assert_allclose(told.velocity, 5 * VELOCITY, rtol=0, atol=1e-9)
+        np.testing.assert_allclose(output.velocity, 5 * VELOCITY, rtol=0, atol=1e-9)
     assert n_free > 1
     assert n_held > 1 or wish_gain == 1.0  # so strong a wish unbends one of two
 
@@ -145,9 +145,9 @@ def test_what_is_held_gives_way_to_no_wish() -> None:
     """All sections at their limit and a wish to bend on: no rate goes outward."""
     arm = limited(arm_of(3), (0.4, 0.4, 0.4))
     w = np.array([[0.4, 0.0], [0.0, 0.4], [-0.4, 0.0]])
-    told = DifferentialKinematics(arm).rate(w, (0.0, 0.0, 0.0), wish=5.0 * w)
-    assert told.held
-    assert np.all(np.sum(told.rate * w, axis=-1) <= 1e-12)
+    output = DifferentialKinematics(arm).rate(w, (0.0, 0.0, 0.0), wish=5.0 * w)
+    assert output.held
+    assert np.all(np.sum(output.rate * w, axis=-1) <= 1e-12)
 
 
 def test_advance_keeps_the_limits_and_else_adds() -> None:

@@ -166,6 +166,6 @@ def left_out(seed: int, shift: float, unequal: float = 0.0) -> WithoutEach:
 @pytest.mark.parametrize("unequal", [0.0, 1.0])
 def test_segments_of_a_right_model_disagree_by_chance_only(unequal: float) -> None:
     """Also where few of them tell of a size: as often as the probability says."""
-    told = np.array([left_out(seed, 0.0, unequal).probability(range(COMMON)) for seed in range(400)])
-    assert np.mean(told < 0.05) < 0.09
+    output = np.array([left_out(seed, 0.0, unequal).probability(range(COMMON)) for seed in range(400)])
+    assert np.mean(output < 0.05) < 0.09
     assert left_out(0, FLOOR, unequal).probability(range(COMMON)) < 1e-3

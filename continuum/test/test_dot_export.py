@@ -104,7 +104,7 @@ def test_empty_and_repeated_rows_are_left_out_and_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "output"),
     [
         ("", "is empty"),
         (HEAD + COLUMNS.replace("Gyr_Y", "Mag_Y"), "has no column Gyr_Y: choose them at the export"),
@@ -121,8 +121,8 @@ def test_empty_and_repeated_rows_are_left_out_and_told(tmp_path: Path) -> None:
         (f"{COLUMNS}\n1,9,3,4,5,6,7,8\n\n3,\"", "no number|cells|cannot be read"),
     ],
 )  # fmt: skip
-def test_damaged_files_are_refused_by_row(tmp_path: Path, text: str, told: str) -> None:
-    with pytest.raises(FileError, match=told):
+def test_damaged_files_are_refused_by_row(tmp_path: Path, text: str, output: str) -> None:
+    with pytest.raises(FileError, match=output):
         parsed(tmp_path, text)
 
 

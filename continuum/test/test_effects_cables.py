@@ -80,8 +80,8 @@ def test_an_elastic_cable_of_an_arm_that_is_held_is_a_lag_and_of_a_motor_that_is
 def test_a_cable_that_would_push_stays_loose_and_one_that_is_told_nothing_resists() -> None:
     """Both while an arm that was bent to cable 1 swings back: that is drawn off its drum, the other comes loose."""
     model, times = extended(prototype_model(N), "elastic_cable", {"lag": 0.05, "stiffness": 500.0}), np.linspace(0, 0.1)
-    told = Tensions([0.0], [[0.0, 0.0]])
-    run = simulator("elastic_cable").around(model).run(resting_state(model, RELEASED, LOOSE), times, told)
+    output = Tensions([0.0], [[0.0, 0.0]])
+    run = simulator("elastic_cable").around(model).run(resting_state(model, RELEASED, LOOSE), times, output)
     tension = run.states[:, 2 * N :]
     assert tension.min() > -1e-4
     assert tension[:, 0].max() > 0.5
@@ -173,12 +173,12 @@ def test_load_cells_that_are_both_off_are_an_arm_whose_torques_are_all_scaled() 
     scaled = ("mass", "inertia", "stiffness", "viscous_friction", "coulomb_friction")
     heavier = Model(replace(p, **{name: (1 + gain) * getattr(p, name) for name in scaled}))
     shown = extended(Model(p), "tension_scale", {"gain_1": gain, "gain_2": gain})
-    times, told = np.linspace(0, 0.4, 9), Tensions([0.0, 0.2, 0.4], [[0.0, 2.0], [5.0, 1.0], [0.0, 6.0]])
+    times, output = np.linspace(0, 0.4, 9), Tensions([0.0, 0.2, 0.4], [[0.0, 2.0], [5.0, 1.0], [0.0, 6.0]])
     plain = Simulator(Model(p)), simulator("tension_scale")
     seen, same = (
-        one.around(model).run(resting_state(model, RELEASED, LOOSE), times, told).theta
+        one.around(model).run(resting_state(model, RELEASED, LOOSE), times, output).theta
         for one, model in zip(plain, (heavier, shown), strict=True)
     )
     np.testing.assert_allclose(seen, same, atol=2e-4)
-    other = plain[0].run(resting_state(Model(p), RELEASED, LOOSE), times, told).theta
+    other = plain[0].run(resting_state(Model(p), RELEASED, LOOSE), times, output).theta
     assert np.abs(seen - other).max() > 0.01

@@ -60,10 +60,10 @@ def simulated(name: str, params: dict[str, np.ndarray], values: np.ndarray, step
     middle = np.arange(step / 2, DURATION, step)
     times = (middle[:, None] + np.array([-AROUND, 0.0, AROUND])).ravel()
     x = np.concatenate([RELEASED, np.zeros(N), np.asarray(first, dtype=float)])
-    told = simulator(name).around(model).run(x, np.concatenate([[0.0], times]), PULLS)
-    assert told.status is SimulationStatus.COMPLETE
-    theta, rate = told.theta[2::3], told.theta_rate[2::3]
-    acceleration = (told.theta_rate[3::3] - told.theta_rate[1::3]) / (2 * AROUND)
+    output = simulator(name).around(model).run(x, np.concatenate([[0.0], times]), PULLS)
+    assert output.status is SimulationStatus.COMPLETE
+    theta, rate = output.theta[2::3], output.theta_rate[2::3]
+    acceleration = (output.theta_rate[3::3] - output.theta_rate[1::3]) / (2 * AROUND)
     run = replace(run_over(step * np.arange(middle.size + 1)), signal=(PULLS.times, PULLS.values), held=False)
     motion = np.stack([theta, rate, acceleration], axis=1)
     return SubstepMotion(motion, rate.copy(), run.inputs, np.full(middle.size, step))

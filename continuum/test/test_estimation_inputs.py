@@ -36,15 +36,15 @@ def edges(run: Run) -> np.ndarray:
 def test_inputs_are_means_over_the_substeps(seed: int, delay: float, held: bool) -> None:
     """Of what the simulator is told, summed up over many moments between the breaks."""
     run = drawn(seed, held)
-    told, ends = Tensions(run.signal[0] + delay, run.signal[1], held), edges(run)
+    output, ends = Tensions(run.signal[0] + delay, run.signal[1], held), edges(run)
     found = run.inputs_later(delay)
     for k, (begin, end) in enumerate(pairwise(ends)):
-        inside = told.times[(told.times > begin) & (told.times < end)]
+        inside = output.times[(output.times > begin) & (output.times < end)]
         pieces = np.concatenate([[begin], inside, [end]])
         total = np.zeros(2)
         for a, b in pairwise(pieces):
             moments = a + (b - a) * (np.arange(20) + 0.5) / 20  # the middles of parts: exact for a straight line
-            total += (b - a) * told.over(moments).mean(axis=0)
+            total += (b - a) * output.over(moments).mean(axis=0)
         np.testing.assert_allclose(found[k], total / (end - begin), rtol=1e-7, atol=1e-7)
 
 

@@ -36,8 +36,8 @@ def missed_by_simulation(arm: Arm, rows: int) -> tuple[float, float]:
     """By how much ends and derivatives of a few intervals miss exact simulations, relative to what changes."""
     times = np.linspace(0.0, 0.008, rows + 1)
     tensions, still = Tensions(np.zeros(1), arm.u[None]), np.zeros((rows + 1, N))
-    told = exact().run(arm.x, times, tensions, arm.values)
-    run, way = run_over(times, arm.u), Trajectory(told.theta, told.theta_rate, still, still)
+    output = exact().run(arm.x, times, tensions, arm.values)
+    run, way = run_over(times, arm.u), Trajectory(output.theta, output.theta_rate, still, still)
     modes = slipping(np.tile(np.sign(arm.x[N:]), (rows, 1)))
     found = transition(
         structure().equations, run, way, modes, arm.values, arm.values, np.zeros((int(run.first[-1]), N))
@@ -45,7 +45,7 @@ def missed_by_simulation(arm: Arm, rows: int) -> tuple[float, float]:
     nothing = np.zeros((arm.values.size, 2 * N))
     one = exact().run(arm.x, times[:2], tensions, arm.values, nothing, np.eye(2 * N))
     return (
-        relative(found.end, told.states[1:], np.ptp(told.theta_rate)) * rows,
+        relative(found.end, output.states[1:], np.ptp(output.theta_rate)) * rows,
         relative(found.F[0], one.slopes[-1], one.slopes[-1] - np.eye(2 * N)),
     )
 

@@ -130,7 +130,7 @@ def test_what_diagnose_would_refuse_is_said(files: list[Path], tmp_path: Path, c
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "output"),
     [
         (("--first-turn", "1"), "the zero of the sensors is not known: give --zero"),
         (("--first-turn", "1", "--posture", "0,0,0,0,0"), "--posture is '0,0,0,0,0'; allowed: only with --zero"),
@@ -145,10 +145,10 @@ def test_what_diagnose_would_refuse_is_said(files: list[Path], tmp_path: Path, c
     ],
 )
 def test_what_cannot_be_done_is_refused(
-    files: list[Path], tmp_path: Path, capsys: Captured, words: tuple[str, ...], told: str
+    files: list[Path], tmp_path: Path, capsys: Captured, words: tuple[str, ...], output: str
 ) -> None:
     assert code("import-dot", *files, *words, "--out", tmp_path / "run.csv") == 2
-    assert told in capsys.readouterr().err.splitlines()[-1]
+    assert output in capsys.readouterr().err.splitlines()[-1]
     assert not (tmp_path / "run.csv").exists()
 
 

@@ -51,7 +51,7 @@ def test_bias_is_what_was_put_in(rest: ImuRecording) -> None:
 
 
 @pytest.mark.parametrize(
-    ("what", "told"),
+    ("what", "output"),
     [
         ("swing", "sensor 3 swings: its rate changes by"),
         ("slow turn", "sensor 3 turns slowly, by"),
@@ -60,7 +60,7 @@ def test_bias_is_what_was_put_in(rest: ImuRecording) -> None:
         ("missing", "sensor 3 was heard only 10 times"),
     ],
 )
-def test_a_moving_sensor_is_named_and_no_other(rest: ImuRecording, what: str, told: str) -> None:
+def test_a_moving_sensor_is_named_and_no_other(rest: ImuRecording, what: str, output: str) -> None:
     t, rates, forces, valid = rest.times - rest.times[0], rest.rates.copy(), rest.forces.copy(), rest.valid.copy()
     if what == "swing":
         rates[:, 2, 0] += 2 * DEG * np.sin(9 * t)
@@ -75,7 +75,7 @@ def test_a_moving_sensor_is_named_and_no_other(rest: ImuRecording, what: str, to
         valid[10:, 2] = False
     moved = replace(rest, rates=rates, forces=forces, valid=valid)
     assert len(unrest(moved)) == 1
-    with pytest.raises(MeasurementError, match=told):
+    with pytest.raises(MeasurementError, match=output):
         bias_at_rest(moved)
 
 
@@ -179,7 +179,7 @@ ONE = "{bias: [0.0, 0.0, 0.0], axis: [0.0, 1.0, 0.0], zero: [0.0, 0.0, -9.8], so
 
 
 @pytest.mark.parametrize(
-    ("was", "becomes", "told"),
+    ("was", "becomes", "output"),
     [
         ("axis: [0.0, 1.0, 0.0]", "axis: [0.0, 1.0]", "axis"),
         ("axis: [0.0, 1.0, 0.0]", "axis: [0.0, 0.9, 0.0]", "axis of sensor 1 .* a unit vector"),
@@ -193,12 +193,12 @@ ONE = "{bias: [0.0, 0.0, 0.0], axis: [0.0, 1.0, 0.0], zero: [0.0, 0.0, -9.8], so
         (ONE, "7", "sensor 1 has to have"),
     ],
 )
-def test_a_damaged_file_is_refused_by_name(tmp_path: Path, was: str, becomes: str, told: str) -> None:
+def test_a_damaged_file_is_refused_by_name(tmp_path: Path, was: str, becomes: str, output: str) -> None:
     path = tmp_path / "sensors.yaml"
     good = f"sensors: [{ONE}]\n"
     path.write_text(good)
     assert isinstance(load_calibration(path), Calibration)
     assert was in good
     path.write_text(good.replace(was, becomes))
-    with pytest.raises((FileError, InvalidValueError), match=f"sensors.yaml: .*{told}"):
+    with pytest.raises((FileError, InvalidValueError), match=f"sensors.yaml: .*{output}"):
         load_calibration(path)

@@ -149,14 +149,14 @@ BAD: dict[str, tuple[Change, str]] = {
 @pytest.mark.usefixtures("installed")
 @pytest.mark.parametrize("case", BAD)
 def test_a_bad_model_is_one_clear_error(case: str) -> None:
-    change, told = BAD[case]
+    change, output = BAD[case]
     block = copy.deepcopy(content())
     change(block)
     with pytest.raises(InvalidValueError) as caught:
         model_from_mapping(block)
-    assert told in str(caught.value)
+    assert output in str(caught.value)
     assert "\n" not in str(caught.value)
-    assert caught.value.name.startswith(told) or told == "ghost"
+    assert caught.value.name.startswith(output) or output == "ghost"
 
 
 @pytest.mark.parametrize(

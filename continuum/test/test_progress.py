@@ -18,8 +18,8 @@ def seconds(text: str) -> float:
 
 @given(st.floats(0, 1), st.floats(0, 1e4))
 def test_what_is_left_takes_as_long_as_what_is_over(part: float, elapsed: float) -> None:
-    told = seconds(left_in_words(part, elapsed))
+    output = seconds(left_in_words(part, elapsed))
     if part <= 0.1:
-        assert told == 0
+        assert output == 0
     else:
-        assert 0 <= elapsed * (1 - part) / part - told < 1
+        assert 0 <= elapsed * (1 - part) / part - output < 1

@@ -123,7 +123,7 @@ def silent(topics: Topics) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "output"),
     [
         (other_name, "holds no section_1_theta_2"),
         (other_cable, "holds no section_1_cable_1"),
@@ -135,10 +135,10 @@ def silent(topics: Topics) -> None:
         (silent, "has no message on /joint_states"),
     ],
 )
-def test_what_cannot_be_repaired_is_refused(tmp_path: Path, change: Callable[[Topics], None], told: str) -> None:
+def test_what_cannot_be_repaired_is_refused(tmp_path: Path, change: Callable[[Topics], None], output: str) -> None:
     topics = swing()
     change(topics)
-    with pytest.raises(FileError, match=f"swing: .*{told}"):
+    with pytest.raises(FileError, match=f"swing: .*{output}"):
         read_recording_bag(write(tmp_path / "swing", topics))
 
 

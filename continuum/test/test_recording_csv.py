@@ -115,8 +115,8 @@ def test_rates_at_the_end_of_their_range_are_left_out_and_told(tmp_path: Path) -
     clipped = np.flatnonzero(RATES[:, 0] < -1.75)
     assert 3 <= clipped.size <= ROWS / 10
     found = read_recording_csv(write(tmp_path, table))
-    told = ", ".join(str(row + 2) for row in clipped[:8]) + (", .." if clipped.size > 8 else "")
-    assert found.notes == (f"rows {told} with a clipped rate, left out",)
+    output = ", ".join(str(row + 2) for row in clipped[:8]) + (", .." if clipped.size > 8 else "")
+    assert found.notes == (f"rows {output} with a clipped rate, left out",)
     np.testing.assert_array_equal(found.times, np.delete(T, clipped))
 
 

@@ -44,8 +44,8 @@ def test_a_clock_or_a_gain_that_is_off_is_told(fault: Callable[[Recording, float
     ratio, deviation = rate_ratio(spoiled)
     assert ratio * by == pytest.approx(1.0, abs=0.015)
     assert deviation < 0.01
-    (told,) = odd_rates(spoiled)
-    assert f"{ratio:.2f} times" in told
+    (output,) = odd_rates(spoiled)
+    assert f"{ratio:.2f} times" in output
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -102,13 +102,13 @@ def test_slips_between_samples_make_it_less_sure() -> None:
 
 def test_one_recording_and_one_joint_that_are_off_are_named() -> None:
     sound = runs(count=8)
-    (told,) = odd_rates([*sound[:7], slow_clock(sound[7], 0.9)])
-    assert told.startswith("r7: angles change 1.1")
+    (output,) = odd_rates([*sound[:7], slow_clock(sound[7], 0.9)])
+    assert output.startswith("r7: angles change 1.1")
     one_loud = [replace(run, theta_rate=run.theta_rate * [1.0, 1.5]) for run in sound if run.theta_rate is not None]
     assert rate_ratio(one_loud, 0) == rate_ratio(sound, 0)
     assert rate_ratio(one_loud, 1)[0] == pytest.approx(1 / 1.5, abs=0.02)
     assert odd_rates(one_loud)
     outer = [replace(run, theta=run.theta * [1.0, 0.2], theta_rate=run.theta_rate * [1.0, 0.25])
              for run in sound if run.theta_rate is not None]  # fmt: skip
-    (told,) = odd_rates(outer)  # one that moves little says little of all
-    assert told.startswith("joint 2: angles change 0.8")
+    (output,) = odd_rates(outer)  # one that moves little says little of all
+    assert output.startswith("joint 2: angles change 0.8")

@@ -52,7 +52,7 @@ def test_a_simulated_motion_is_read_as_written(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "output"),
     [
         (lambda table: table | sway(), "has tensions, u1_N .., and torques, tau1_Nm ..: one or the other"),
         (lambda table: without(table, "tau2_Nm"), "has 2 joint angles but 1 joint torques"),
@@ -62,9 +62,9 @@ def test_a_simulated_motion_is_read_as_written(tmp_path: Path) -> None:
     ],
 )
 def test_torques_that_cannot_be_are_refused(
-    tmp_path: Path, change: Callable[[dict[str, list[str]]], dict[str, list[str]]], told: str
+    tmp_path: Path, change: Callable[[dict[str, list[str]]], dict[str, list[str]]], output: str
 ) -> None:
-    with pytest.raises(FileError, match=told):
+    with pytest.raises(FileError, match=output):
         read_recording_csv(write(tmp_path, change(driven())))
 
 

@@ -202,9 +202,9 @@ def test_recordings_that_contradict_themselves_are_warned_of(tmp_path: Path) -> 
     rates = [np.gradient(run.theta, run.times, axis=0) for run in result.recordings]
     for factor, warned in ((1.0, False), (1.3, True)):
         runs = [replace(run, theta_rate=factor * rate) for run, rate in zip(result.recordings, rates, strict=True)]
-        told = replace(result, recordings=tuple(runs))
-        assert bool(warnings_of(told, tmp_path)) is warned
-        assert ("no effect of the library" in page_of(told, tmp_path).text("main.first")) is not warned
+        output = replace(result, recordings=tuple(runs))
+        assert bool(warnings_of(output, tmp_path)) is warned
+        assert ("no effect of the library" in page_of(output, tmp_path).text("main.first")) is not warned
 
 
 def test_a_rise_within_the_sensors_noise_is_no_warning(tmp_path: Path) -> None:

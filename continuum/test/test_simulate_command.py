@@ -140,8 +140,8 @@ def test_a_posture_that_a_cable_holds_is_one_where_it_stays(tmp_path, capsys):
     """Held by the tension that is told, the arm hardly moves from where its release begins; cut, it does."""
     out = tmp_path / "cut.csv"
     assert main(["simulate", "--release", "-90", "--pulled", "--csv", str(out)]) == 0
-    told = capsys.readouterr().out
-    tension = re.search(r"held by +([\d.]+) N", told)[1]
+    output = capsys.readouterr().out
+    tension = re.search(r"held by +([\d.]+) N", output)[1]
     first, last = table(out)[1][[0, -1]]
     assert first[1:6].sum() == pytest.approx(-90, abs=1e-6)
     assert abs(last[1:6].sum()) < 10

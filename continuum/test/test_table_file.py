@@ -112,7 +112,7 @@ READERS = (read_recording_csv, read_tension_table, read_dot_export)
 
 @pytest.mark.parametrize("read", READERS)
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "output"),
     [
         ("KEY u1_N\n0 1\n", "row 1 is 'KEY u1_N'; commas, semicolons or tabs"),
         ("KEY|u1_N\n0|1\n", "row 1 is 'KEY|u1_N'; commas, semicolons or tabs"),
@@ -127,12 +127,12 @@ READERS = (read_recording_csv, read_tension_table, read_dot_export)
     ],
 )
 def test_what_is_no_table_is_refused_alike_by_all_readers(
-    tmp_path: Path, read: Callable[[Path], object], text: str, told: str
+    tmp_path: Path, read: Callable[[Path], object], text: str, output: str
 ) -> None:
     key = "SampleTimeFine" if read is read_dot_export else "t_s"
     path = tmp_path / "other.csv"
     path.write_text(text.replace("KEY", key))
-    with pytest.raises(FileError, match=told.replace("KEY", key).replace("|", r"\|")):
+    with pytest.raises(FileError, match=output.replace("KEY", key).replace("|", r"\|")):
         read(path)
 
 

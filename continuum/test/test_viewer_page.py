@@ -100,10 +100,10 @@ def test_measured_arm_is_the_ghost_of_the_simulated_one(opened):
     remote = RemoteArm(ARM, 30.0)
     page = opened(remote)
     simulated, measured = np.array([[0.1, 0.2], [-0.3, 0.1]]), np.array([[0.2, 0.2], [-0.3, 0.2]])
-    for told in (joints_of(simulated, ARM), {}, joints_of(simulated, ARM)):
-        remote.tell(joints=joints_of(measured, ARM), simulated=told)
+    for output in (joints_of(simulated, ARM), {}, joints_of(simulated, ARM)):
+        remote.tell(joints=joints_of(measured, ARM), simulated=output)
         page.draw()
-        assert page._ghost.visible == bool(told)
+        assert page._ghost.visible == bool(output)
     np.testing.assert_allclose(page._scene.tip, arm_pose(simulated, ARM)[:3, 3], atol=1e-9)
     np.testing.assert_allclose(page._ghost.poses[-1, :3, 3], arm_pose(measured, ARM)[:3, 3], atol=1e-9)
 

@@ -79,7 +79,7 @@ def test_help_says_every_unit(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "told"),
+    ("wrong", "output"),
     [
         (["--a", "-0.032"], "section_1.a is -0.032"),
         (["--b", "wide"], "--b"),
@@ -92,10 +92,10 @@ def test_help_says_every_unit(capsys: pytest.CaptureFixture[str]) -> None:
         (["--length", "3"], "--length"),
     ],
 )
-def test_segment_refuses_in_one_line(capsys: pytest.CaptureFixture[str], wrong: list[str], told: str) -> None:
+def test_segment_refuses_in_one_line(capsys: pytest.CaptureFixture[str], wrong: list[str], output: str) -> None:
     line = refusal(capsys, create_continuum_segment, [*MODULE, *wrong])
     assert line.startswith("create_continuum_segment: ")
-    assert told in line
+    assert output in line
 
 
 def test_robot_refuses_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -97,8 +97,10 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         for name, carry_out in services.items():
             self.create_service(Trigger, f"~/{name}", partial(self._serve, carry_out))
         name = self.get_fully_qualified_name().lstrip("/")
-        told = BenchDiagnostics(name, self._streams, self._commander, str(self.values["port"]), self._n_joints)
-        self.diagnostics.subjects += told.subjects()
+        bench_diagnostics = BenchDiagnostics(
+            name, self._streams, self._commander, str(self.values["port"]), self._n_joints
+        )
+        self.diagnostics.subjects += bench_diagnostics.subjects()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = self.create_timer(1.0 / self.values["command_rate"], self._tick, clock=steady)
 

@@ -66,8 +66,8 @@ class BenchCommander:
 
     def problem(self) -> str:
         """What keeps tension from going through to a bench that is claimed; empty if nothing does."""
-        told = self.line_problem() or (STOPPED if self.gate.stopped else "")
-        return told or ("" if self.client.commands else "this node is no longer the bench's commander")
+        problem = self.line_problem() or (STOPPED if self.gate.stopped else "")
+        return problem or ("" if self.client.commands else "this node is no longer the bench's commander")
 
     def begin(self) -> str:
         """Claim the bench, waiting for slack cables, and open the gate; why that did not work, empty if it did."""

@@ -212,12 +212,12 @@ class BenchDiagnostics:
         self, subject: str, complaints: Iterable[Complaint], values: dict[str, object], well: str = ""
     ) -> DiagnosticStatus:
         """The worst of the complaints gives the level, and stands first."""
-        told = sorted(complaints, key=lambda complaint: -_WEIGHT.index(complaint[0]))
+        ordered = sorted(complaints, key=lambda complaint: -_WEIGHT.index(complaint[0]))
         return DiagnosticStatus(
-            level=told[0][0] if told else OK,
+            level=ordered[0][0] if ordered else OK,
             name=f"{self._prefix}: {subject}",
             hardware_id=self._port,
-            message="; ".join(text for _, text in told) or well,
+            message="; ".join(text for _, text in ordered) or well,
             values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
         )
 

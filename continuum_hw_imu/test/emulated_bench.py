@@ -152,13 +152,13 @@ class Bridge:
     def wait_for_state(self, label: str) -> None:
         self.probe.wait_until(lambda: self.state == label, lambda: f"{label}; {self.node.stderr}")
 
-    def told(self, subject: str) -> dict[str, str]:
+    def diagnostic(self, subject: str) -> dict[str, str]:
         return self.probe.report(f"{self.name}: {subject}")
 
     def wait_for_level(self, subject: str, level: str, words: str = "") -> None:
         self.probe.wait_until(
-            lambda: self.told(subject).get("level") == level and words in self.told(subject)["message"],
-            lambda: f"{level} {words!r} of {subject}, which tells {self.told(subject)}",
+            lambda: self.diagnostic(subject).get("level") == level and words in self.diagnostic(subject)["message"],
+            lambda: f"{level} {words!r} of {subject}, which tells {self.diagnostic(subject)}",
         )
 
     def command(self, effort, age: float = 0.0) -> None:

@@ -68,7 +68,7 @@ def pulling(domain, latency_probe, probe, bench, calibration):
         latency_probe, bench, domain, calibration=calibration, keep_bias=True, autostart="activate"
     ) as bridge:
         bridge.wait_for_state("active")
-        probe.wait_until(lambda: len(bridge.joints) > 5, lambda: f"joint states; {bridge.told('angles')}")
+        probe.wait_until(lambda: len(bridge.joints) > 5, lambda: f"joint states; {bridge.diagnostic('angles')}")
         pull(bridge)
         yield bridge
     bench.tell("clear")
@@ -138,7 +138,7 @@ def test_a_bench_that_begins_anew_is_greeted_anew(pulling):
     bench.tell("reboot")
     pulling.node.wait_for_line("fell back to inactive, cables slack")
     pulling.joints.clear()
-    probe.wait_until(lambda: len(pulling.joints) > 5, lambda: f"joint states; {pulling.told('angles')}")
+    probe.wait_until(lambda: len(pulling.joints) > 5, lambda: f"joint states; {pulling.diagnostic('angles')}")
     assert_no_wrong_angle(pulling, pulling.joints)
     assert not any(bench.status["set_points"])
     assert pulling.change("activate"), pulling.node.stderr
@@ -157,13 +157,15 @@ def test_a_bad_line_is_told_and_survived(pulling, order):
     pulling.bench.tell(order)
     go_on(pulling, 1.5)
     key = LINE_FAULTS[order]
-    pulling.probe.wait_until(lambda: int(pulling.told("link").get(key, 0)) > 0, lambda: pulling.told("link"))
-    assert pulling.told("link")["level"] in ("WARN", "ERROR")
+    pulling.probe.wait_until(
+        lambda: int(pulling.diagnostic("link").get(key, 0)) > 0, lambda: pulling.diagnostic("link")
+    )
+    assert pulling.diagnostic("link")["level"] in ("WARN", "ERROR")
     if pulling.state != "active":  # a stretch without any good frame
         assert pulling.change("activate"), pulling.node.stderr
     pull(pulling)
     before = len(pulling.joints)
-    pulling.probe.wait_until(lambda: len(pulling.joints) > before + 5, lambda: pulling.told("angles"))
+    pulling.probe.wait_until(lambda: len(pulling.joints) > before + 5, lambda: pulling.diagnostic("angles"))
     assert_no_wrong_angle(pulling, pulling.joints)
     assert pulling.bench.status["largest_set_point"] < 8.01  # what is pulled here
 
@@ -217,7 +219,7 @@ def test_the_bias_of_a_file_is_of_another_day(domain, latency_probe, probe, benc
         assert not bridge.since(known, bridge.joints)
         bridge.wait_for_success("calibrate_bias")
         probe.wait_until(
-            lambda: len(bridge.since(known, bridge.joints)) > 5, lambda: f"joint states; {bridge.told('angles')}"
+            lambda: len(bridge.since(known, bridge.joints)) > 5, lambda: f"joint states; {bridge.diagnostic('angles')}"
         )
         assert_no_wrong_angle(bridge, bridge.since(known, bridge.joints))
         assert bridge.node.stop() == 0
@@ -225,14 +227,14 @@ def test_the_bias_of_a_file_is_of_another_day(domain, latency_probe, probe, benc
 
 def test_a_second_emulator_takes_nothing_from_the_first(domain, bench, tmp_path):
     folder = bench.port.parent
-    for words, told in (
+    for words, diagnostic in (
         (("--link", bench.port), "is there already, and leads to /dev/pts/"),
         (("--link", tmp_path / "other", "--control", folder / "control"), "is another emulator's, which runs"),
     ):
         again = NodeProcess("continuum_hw_imu", "bench_emulator", domain, arguments=tuple(map(str, words)))
         with ended_in_any_case(again):
             assert again.exit_code() == 2
-            assert told in again.stderr
+            assert diagnostic in again.stderr
     assert bench.port.exists()
     assert bench.status["port"]
 

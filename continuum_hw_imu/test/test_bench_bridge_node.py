@@ -55,7 +55,7 @@ def bridge(domain, latency_probe, probe, bench):
         assert said[0] == "found; still to find: axis, zero"
         assert said[1] == "found; still to find: axis"
         assert said[2] == f"found; the calibration is complete, and written to {file}"
-        probe.wait_until(lambda: len(bridge.joints) > 10, lambda: f"joint states; {bridge.told('angles')}")
+        probe.wait_until(lambda: len(bridge.joints) > 10, lambda: f"joint states; {bridge.diagnostic('angles')}")
         yield bridge
         assert bridge.node.stop() == 0
 
@@ -212,5 +212,7 @@ def test_calibration_file_is_read_again(bridge):
     bridge.wait_for_level("link", "STALE", "not configured")
     bridge.joints.clear()
     assert bridge.change("configure"), bridge.node.stderr
-    bridge.probe.wait_until(lambda: len(bridge.joints) > 10, lambda: f"joint states; {bridge.told('angles')}")
-    bridge.probe.wait_until(lambda: bridge.told("link")["level"] in ("OK", "WARN"), lambda: bridge.told("link"))
+    bridge.probe.wait_until(lambda: len(bridge.joints) > 10, lambda: f"joint states; {bridge.diagnostic('angles')}")
+    bridge.probe.wait_until(
+        lambda: bridge.diagnostic("link")["level"] in ("OK", "WARN"), lambda: bridge.diagnostic("link")
+    )

@@ -142,11 +142,11 @@ def test_no_joint_state_is_wrong_while_a_sensor_turns_unmeasured(trouble):
     flags[at] = 0 if trouble == "missing" else PRESENT | CLIPPED_RATE[1]
     published.measure(30, flags=flags, link_rates=[0.0, 0.0, 0.0, 0.0, 0.7])
     assert len(published.joints) == before
-    complaint, told = published.status("angles"), published.status("imu 5")
+    complaint, output = published.status("angles"), published.status("imu 5")
     assert complaint.level == DiagnosticStatus.ERROR
     assert f"sensor 5 is {trouble}" in complaint.message
-    assert f"30 samples {trouble}" in told.message
-    assert (told.level == DiagnosticStatus.ERROR) == ("no data" in told.message) == (trouble == "missing")
+    assert f"30 samples {trouble}" in output.message
+    assert (output.level == DiagnosticStatus.ERROR) == ("no data" in output.message) == (trouble == "missing")
     assert published.status("imu 4").level != DiagnosticStatus.ERROR
     forces[at] = 9.81 * np.array([-np.sin(turn), 0.0, np.cos(turn)])
     published.measure(120, forces=forces)

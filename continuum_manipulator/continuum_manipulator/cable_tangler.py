@@ -53,7 +53,7 @@ class CableTanglerNode(CheckedNode):
         self._numbers = range(1, self.arm.n_sections + 1)
         self._names = list(self.arm.cable_names)
         self._through = {number: cables_through(self.arm, number - 1).names for number in self._numbers}
-        self._instants: StampJoiner[int, CableStates] = StampJoiner(self._numbers, told=self._tell_loss)
+        self._instants: StampJoiner[int, CableStates] = StampJoiner(self._numbers, on_loss=self._tell_loss)
         self.diagnostics.values["instants waiting for a section"] = lambda: self._instants.waiting
         self._publish_states = self.offer(CableStates, "cable_states")
         self._publish_commands = self.offer(CableStates, "section_cable_commands")

@@ -125,11 +125,11 @@ class ViewerNode(CheckedNode):
         self.listen(message_type, topic, keep, NEWEST)
 
     def _on_joints(self, message: JointState) -> None:
-        angles = {**self._remote.told.joints, **read_angles(message, self._known)}
+        angles = {**self._remote.latest.joints, **read_angles(message, self._known)}
         self._remote.tell(joints=angles, time=time.monotonic())
 
     def _on_simulated(self, message: JointState) -> None:
-        angles = {**self._remote.told.simulated, **read_angles(message, self._known)}
+        angles = {**self._remote.latest.simulated, **read_angles(message, self._known)}
         self._remote.tell(simulated=angles, time=time.monotonic())
 
     def _on_cables(self, message: CableStates) -> None:

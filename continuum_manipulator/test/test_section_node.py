@@ -80,9 +80,9 @@ def test_every_message_has_one_answer_of_its_stamp(bench):
         expected = section_length_rates(own, own_rate, ARM, NUMBER - 1)
         np.testing.assert_allclose(message.velocity, expected, rtol=1e-9, atol=1e-12)
         phi, theta = jones_from_allen(own)
-        told = [config.u, config.v, config.phi, config.theta, config.s, config.kappa, config.u_rate, config.v_rate]
+        output = [config.u, config.v, config.phi, config.theta, config.s, config.kappa, config.u_rate, config.v_rate]
         length, kappa = arc_length(theta, SECTION), curvature(theta, SECTION)
-        np.testing.assert_allclose(told, [*own, phi, theta, length, kappa, *own_rate], rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(output, [*own, phi, theta, length, kappa, *own_rate], rtol=1e-9, atol=1e-12)
 
 
 def test_joints_are_found_by_name_in_any_order(bench):

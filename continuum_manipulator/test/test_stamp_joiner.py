@@ -124,11 +124,11 @@ def test_sources_that_go_back_in_time_start_anew():
 
 
 def test_every_loss_is_told_with_its_stamp_and_sources():
-    told = []
-    joiner = StampJoiner(KEYS, told=lambda *loss: told.append(loss))
+    output = []
+    joiner = StampJoiner(KEYS, on_loss=lambda *loss: output.append(loss))
     for key, stamp in [("a", 1), ("a", 1), ("a", 2), ("b", 2), ("c", 2), ("b", 2)]:
         joiner.add(key, stamp, None)
-    assert told == [
+    assert output == [
         (Loss.REPEATED, 1, {"a"}),
         (Loss.INCOMPLETE, 1, {"b", "c"}),
         (Loss.LATE, 2, {"b"}),

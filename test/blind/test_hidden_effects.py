@@ -49,17 +49,17 @@ def results(pytestconfig: pytest.Config) -> Iterator[list[Result]]:
 
 def judged(results: list[Result], *kinds: str) -> list[tuple[str, Answer]]:
     """What was hidden and said, and what that is worth."""
-    return [(told(one), answer(one.hidden, one.verdict)) for one in results if one.plan.kind in kinds]
+    return [(diagnostic(one), answer(one.hidden, one.verdict)) for one in results if one.plan.kind in kinds]
 
 
-def told(one: Result) -> str:
+def diagnostic(one: Result) -> str:
     hidden = ", ".join(f"{e['name']}@{e['joint']}" for e in one.hidden) or "nothing"
     named = "" if one.verdict is None else "; ".join(label(s["effects"]) for s in one.verdict["sets"])
     return f"{one.plan}: hidden {hidden}, {one.verdict and one.verdict['verdict']} {named} {one.failure}"
 
 
 def test_every_case_has_a_verdict(results: list[Result]) -> None:
-    assert [told(one) for one in results if one.verdict is None] == []
+    assert [diagnostic(one) for one in results if one.verdict is None] == []
 
 
 def test_no_wrong_cause_is_named(results: list[Result]) -> None:

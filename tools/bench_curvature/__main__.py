@@ -49,10 +49,10 @@ def rows_of(name: str, holds: Sequence[KnownHold]) -> list[list[str]]:
 
 def _row(title: str, holds: Sequence[KnownHold]) -> list[str]:
     inside = np.mean([hold.inside for hold in holds])
-    told = [hold for hold in holds if hold.found.nearer is not Nearer.UNREPORTED]
-    right = sum(hold.found.nearer is _truly(hold) for hold in told)
+    decided = [hold for hold in holds if hold.found.nearer is not Nearer.UNDECIDED]
+    right = sum(hold.found.nearer is _truly(hold) for hold in decided)
     covered = np.mean([_difference_covered(hold) for hold in holds])
-    counts = (right, len(told) - right, len(holds) - len(told))
+    counts = (right, len(decided) - right, len(holds) - len(decided))
     return [title, str(len(holds)), f"{100 * inside:.1f} %", f"{100 * covered:.1f} %", *map(str, counts)]
 
 

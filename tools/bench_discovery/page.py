@@ -108,8 +108,8 @@ def _by_effect(results: Sequence[Result]) -> str:
         )
         visible = rate((r for r in mine if r.plan.size != "small"), *FOUND)
         others = Counter(_said(result) for result in mine if result.answer not in FOUND).most_common(4)
-        told = ", ".join(f"{what} {n}" for what, n in others)
-        row = (names[0] if names else "nothing", *texts, visible, told, _of_estimates(mine))
+        output = ", ".join(f"{what} {n}" for what, n in others)
+        row = (names[0] if names else "nothing", *texts, visible, output, _of_estimates(mine))
         rows.append((not set(names) & set(LIBRARY), visible.value if visible.n else 2.0, row))
     rows.sort(key=lambda row: row[:2])
     head = (

@@ -49,8 +49,8 @@ def _statuses(arm: Arm, kind: int, least: float, most: float) -> str:
     rotations = poses[:, :3, :3] if kind == POSE else None
     batch = InverseKinematics(arm).solve_many(Targets(poses[:, :3, 3], directions, rotations))
     beyond = np.sum(bend(batch.configurations) > np.array([s.bend_limit for s in arm.sections]) + 1e-9)
-    told = " | ".join(str(count) for count in np.bincount(batch.statuses, minlength=len(IkStatus)))
-    return told + (f" ({beyond} bends beyond the limits)" if beyond else "")
+    output = " | ".join(str(count) for count in np.bincount(batch.statuses, minlength=len(IkStatus)))
+    return output + (f" ({beyond} bends beyond the limits)" if beyond else "")
 
 
 if __name__ == "__main__":

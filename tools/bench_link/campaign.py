@@ -131,8 +131,8 @@ def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
 
 def evaluated(course: _Course, truth: Truth, sent: tuple[Array, Array]) -> Case:
     """What a course showed, beside the truth, and what was sent, as of `load_sent`."""
-    written, told = sent
-    after = (told > course.back) & (told < course.end)
+    written, measured_at = sent
+    after = (measured_at > course.back) & (measured_at < course.end)
     here = truth.between(course.begin, course.end)
     _, off = errors_of(course.joints, truth)
     far = np.degrees(np.abs(off).max(axis=1, initial=0.0))
@@ -141,7 +141,7 @@ def evaluated(course: _Course, truth: Truth, sent: tuple[Array, Array]) -> Case:
     return Case(
         faults=list(course.case),
         load=course.load,
-        stalled=float((written - told)[after].max(initial=0.0)),
+        stalled=float((written - measured_at)[after].max(initial=0.0)),
         resumed=_last(resumed),
         angles_back=good_again(course.joints, since, 1 / RATE),
         states=len(far),

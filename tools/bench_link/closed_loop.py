@@ -79,13 +79,13 @@ def measure(minutes: float, folder: Path) -> ClosedLoop:
     with rig(folder) as bench, bench.bridge(max_tension=20.0) as bridge:
         pids = bridge.node.process.pid, bench.bench.process.process.pid
         before = [usage(pid) for pid in pids]
-        begin = told = time.monotonic()
+        begin = minute_begin = time.monotonic()
         for let_go in _courses(bench, bridge):
             releases.append(let_go)
             states += bench.latency_probe.joints
             bench.latency_probe.clear()
-            if time.monotonic() - told >= MINUTE:
-                told += MINUTE
+            if time.monotonic() - minute_begin >= MINUTE:
+                minute_begin += MINUTE
                 loads.append(os.getloadavg()[0])
                 print(f"  {len(loads)} min, load {loads[-1]:.1f}", flush=True)
             if time.monotonic() - begin >= MINUTE * minutes:
@@ -93,7 +93,7 @@ def measure(minutes: float, folder: Path) -> ClosedLoop:
         lasted = time.monotonic() - begin
         shares = [core_share(was, usage(pid)) for was, pid in zip(before, pids, strict=True)]
         bridge.probe.wait_for_report(f"{bridge.name}: link")
-        lost = int(bridge.told("link")["frames lost"])
+        lost = int(bridge.diagnostic("link")["frames lost"])
         skipped = float(bench.bench.status["skipped"])
     truth = load_truth(bench.truth_file)
     found = delays(states, *load_sent(bench.sent_file, truth))

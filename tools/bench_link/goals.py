@@ -41,9 +41,9 @@ def goals(results: Results) -> list[Goal]:
         (results.crash_tests, _crashes),
         (results.soak, _soak),
     )
-    for result, told in parts:
+    for result, output in parts:
         if result:
-            lines += told(result)
+            lines += output(result)
     return lines
 
 

@@ -37,21 +37,21 @@ def load_sent(path: Path, truth: Truth) -> tuple[Array, Array]:
     """When each frame was written, and the instant that it tells of; of the monotonic clock, (frames,) each [s]."""
     table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
     instants = dict(zip((truth.device.astype(np.int64) % WRAP_TIME).tolist(), truth.time.tolist(), strict=True))
-    told = np.array([instants[int(device)] for device in table[:, 1]])
-    return table[:, 0], told
+    measured_at = np.array([instants[int(device)] for device in table[:, 1]])
+    return table[:, 0], measured_at
 
 
-def delays(states: Sequence[State], written: Array, told: Array) -> Delays:
+def delays(states: Sequence[State], written: Array, measured_at: Array) -> Delays:
     """States beside their frames: those of the nearest instant, by the states' stamps.
 
     Args:
         states: in the order of their stamps.
-        written, told: as of `load_sent`.
+        written, measured_at: as of `load_sent`.
     """
     stamps = np.array([state.stamp for state in states])
-    right = np.clip(np.searchsorted(told, stamps), 1, len(told) - 1)
-    nearest = np.where(stamps - told[right - 1] < told[right] - stamps, right - 1, right)
+    right = np.clip(np.searchsorted(measured_at, stamps), 1, len(measured_at) - 1)
+    nearest = np.where(stamps - measured_at[right - 1] < measured_at[right] - stamps, right - 1, right)
     columns = (np.array([getattr(state, name) for state in states]) for name in ("published", "received", "called"))
     published, received, called = (column - written[nearest] for column in columns)
     missing = int(nearest[-1] - nearest[0] + 1 - np.unique(nearest).size)
-    return Delays(written[nearest], published, received, called, missing, stamps - told[nearest])
+    return Delays(written[nearest], published, received, called, missing, stamps - measured_at[nearest])

@@ -84,7 +84,7 @@ class Rig:
         """Until some come from now on."""
         before = len(self.latency_probe.joints)
         bridge.probe.wait_until(
-            lambda: len(self.latency_probe.joints) > before + 5, lambda: f"states; {bridge.told('angles')}"
+            lambda: len(self.latency_probe.joints) > before + 5, lambda: f"states; {bridge.diagnostic('angles')}"
         )
 
     def drive(self, bridge: Bridge, pull: Pull | None, lasts: float) -> None:

@@ -77,7 +77,7 @@ def measure(minutes: float, rate: float, folder: Path) -> Soak:
                 print(f"  {lasted / 60:.0f} min, {received / lasted:.0f} Hz: {memory}", flush=True)
         lasted = time.monotonic() - begin
         bridge.probe.wait_for_report(f"{bridge.name}: link")
-        lost = int(bridge.told("link")["frames lost"])
+        lost = int(bridge.diagnostic("link")["frames lost"])
     reached = received / lasted
     of_bridge, of_emulator = (memory_of(seen, reached / RATE) for seen in looks)
     return Soak(lasted / 60.0, rate, reached, float(np.mean(loads)), lost, of_bridge, of_emulator)

@@ -49,8 +49,8 @@ class Target:
         self.inputs += 1
         self.size += len(line)
         if self.size >= self._enough:
-            told = {"size": self.size, "inputs": self.inputs, "accepted": self.accepted, "waiting": self.waiting}
-            self._result.write_text(json.dumps(told), encoding="utf-8")
+            output = {"size": self.size, "inputs": self.inputs, "accepted": self.accepted, "waiting": self.waiting}
+            self._result.write_text(json.dumps(output), encoding="utf-8")
             sys.stdout.flush()
             os._exit(0)
 

@@ -9,7 +9,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from continuum.cli.progress import told
+from continuum.cli.progress import progress_bar
 from continuum.discovery.words import verdict_in_words
 from continuum.whole_file import write_whole
 from tools.one_line import in_one_line
@@ -25,7 +25,7 @@ def main() -> None:
         "--out", type=Path, default=Path("docs"), help="folder of page and picture; default %(default)s"
     )
     options = parser.parse_args()
-    with told() as tell:
+    with progress_bar() as tell:
         found = account(tell)
     picture = options.out / "pictures" / "prototype.png"
     picture.parent.mkdir(parents=True, exist_ok=True)

@@ -18,9 +18,9 @@ from tools.prototype.stability import READING, RELATIVE, Said
 from tools.reproduction.release import TABLE_4_POSITION
 
 
-def page(told: Account) -> str:
+def page(account: Account) -> str:
     """The whole page."""
-    result, (run,) = told.diagnosis, told.diagnosis.recordings
+    result, (run,) = account.diagnosis, account.diagnosis.recordings
     text = f"""# The prototype: what the diagnosis says of the real arm
 
 Made by `make prototype`, which writes every figure here, from `data/rep7/rep7_measured.csv`: one release of the LAMECC
@@ -29,7 +29,7 @@ tensions, read off the author's animation. `continuum diagnose data/rep7/rep7_me
 
 ## What is known
 
-{_known(told)}
+{_known(account)}
 
 ## The verdict
 
@@ -54,25 +54,25 @@ Eq. 19 of the joint angles (error by the measured standard deviation, mean over 
 model were fitted to the run that they are compared with here. The noise of an angle is estimated to be
 {np.degrees(result.before.floor):.4f} degrees; the plot was read with 0.01 to 0.3 (`data/rep7/README.md`).
 
-{table(("simulation", "Eq. 19", "error [deg]"), _simulations(told))}
+{table(("simulation", "Eq. 19", "error [deg]"), _simulations(account))}
 
 ![Joint angles of repetition 7](pictures/prototype.png)
 
 ## The end of the run, predicted
 
-{_end(told)}
+{_end(account)}
 
 ## The same again
 
 Changed by {RELATIVE:g} of themselves, or with other kernels of linear algebra, the angles must say the same:
-{_sameness(told.rounding)}. White noise of {READING:g} degrees is about what the plot was read with:
-{_sameness(told.noise)}.
+{_sameness(account.rounding)}. White noise of {READING:g} degrees is about what the plot was read with:
+{_sameness(account.noise)}.
 
-{table(("changed", "kernel", "verdict", "effects", "closed share"), map(_row, (*told.rounding, *told.noise[1:])))}
+{table(("changed", "kernel", "verdict", "effects", "closed share"), map(_row, (*account.rounding, *account.noise[1:])))}
 
 ## Every effect alone, and the thesis's guess
 
-{_alone(told)}
+{_alone(account)}
 
 ## What one recording cannot tell
 
@@ -92,9 +92,9 @@ reproduction of the thesis."""
     )
 
 
-def _known(told: Account) -> str:
+def _known(account: Account) -> str:
     """Zeros of sensors, what stays at each joint, and the run that would tell it."""
-    result, before, after = told.diagnosis, *(1e3 * sigma for sigma in told.diagnosis.sigma)
+    result, before, after = account.diagnosis, *(1e3 * sigma for sigma in account.diagnosis.sigma)
     zeros = [cause for cause in result.causes if cause.effect == "angle_offset"]
     helped = sum(cause.share.value for cause in zeros)
     gone = 1 - after**2 / before**2
@@ -126,8 +126,8 @@ def _estimates(result: Diagnosis) -> list[tuple[str, str]]:
     return [(f"`{one}`", estimate_in_words(one)) for one in (*own, *result.estimates)]
 
 
-def _simulations(told: Account) -> list[tuple[str, str, str]]:
-    result, (run,) = told.diagnosis, told.diagnosis.recordings
+def _simulations(account: Account) -> list[tuple[str, str, str]]:
+    result, (run,) = account.diagnosis, account.diagnosis.recordings
 
     def row(name: str, theta: Array) -> tuple[str, str, str]:
         rms = np.degrees(np.sqrt(np.mean((theta - run.theta) ** 2)))
@@ -135,31 +135,31 @@ def _simulations(told: Account) -> list[tuple[str, str, str]]:
 
     rows = [
         ("thesis, Table 4, row 7", f"{TABLE_4_POSITION:.3f}", ""),
-        row("thesis's parameters, at rest in the first measured angles", told.thesis),
+        row("thesis's parameters, at rest in the first measured angles", account.thesis),
         row("refitted, from the smoothed beginning", result.before.angles[0]),
     ]
     return [*rows, row("extended, from the smoothed beginning", result.after.angles[0])] if result.is_extended else rows
 
 
-def _end(told: Account) -> str:
-    joints, quiet, moving = range(1, told.spread.size + 1), int(np.argmin(told.spread)), told.spread > 0.5
-    labels = ", ".join(f"`{cause.label}`" for cause in told.of_beginning.causes) or "nothing"
+def _end(account: Account) -> str:
+    joints, quiet, moving = range(1, account.spread.size + 1), int(np.argmin(account.spread)), account.spread > 0.5
+    labels = ", ".join(f"`{cause.label}`" for cause in account.of_beginning.causes) or "nothing"
     rows = [
         (one.model, one.begins, f"{np.mean(one.by_joint):.2f}", f"{np.mean(one.by_joint[moving]):.2f}",
          *(f"{x:.2f}" for x in (np.sqrt(np.mean(one.degrees**2)), *one.degrees)))
-        for one in told.predicted
+        for one in account.predicted
     ]  # fmt: skip
-    spread = ("measured", "", "", "", "", *(f"{x:.2f}" for x in told.spread))
+    spread = ("measured", "", "", "", "", *(f"{x:.2f}" for x in account.spread))
     head = ("model", "begins", "Eq. 19", "where joints move", "error [deg]", *(f"joint {j} [deg]" for j in joints))
     return f"""The first {100 * FITTED:.0f} % of the rows were diagnosed:
-`{told.of_beginning.verdict.kind.value}`, with {labels} in the extended model. Both models then simulate the rest, which
-no fit has seen, from where the beginning ends: *smoothed* from the beginning alone, or *measured* at the cut (angles of
+`{account.of_beginning.verdict.kind.value}`, with {labels} in the extended model. Both models then simulate the rest,
+which no fit has seen, from where the beginning ends: *smoothed* from the beginning alone, or *measured* at the cut (angles of
 the next row less what the sensors add, rates by a cubic through seven rows).
 
 {table(head, [*rows, spread])}
 
 Eq. 19 divides by the measured standard deviation, the last row. Joints that rest, joint {quiet + 1} with
-{told.spread[quiet]:.3f} degrees, nearly alone decide it; *where joints move* leaves out those with less than half a
+{account.spread[quiet]:.3f} degrees, nearly alone decide it; *where joints move* leaves out those with less than half a
 degree.
 
 The engine before this one (this page of 24 November 2026) cut the run at the same row. Its models, fitted to the
@@ -185,11 +185,11 @@ def _row(again: tuple[str, Said]) -> tuple[str, str, str, str, str]:
     return what, one.kernel, f"`{one.kind}`", effects, _percent(one.closed)
 
 
-def _alone(told: Account) -> str:
-    names = [label.partition("@")[0] for label, _ in told.alone]
-    place, (where, gain) = names.index(THE_GUESS), told.beside
-    label, own = told.alone[place]
-    rows = [(f"`{name}`", _lowered(gain)) for name, gain in told.alone]
+def _alone(account: Account) -> str:
+    names = [label.partition("@")[0] for label, _ in account.alone]
+    place, (where, gain) = names.index(THE_GUESS), account.beside
+    label, own = account.alone[place]
+    rows = [(f"`{name}`", _lowered(gain)) for name, gain in account.alone]
     beside = f"Beside what the verdict adds, `{where}` promises {_lowered(gain)}."
     return f"""By how much each effect is expected to lower the refitted model's open-loop error by itself, at joints
 where that is most: by open-loop sensitivities, one step from the fit. Effects with states and those that need tension
@@ -198,7 +198,7 @@ are left out.
 {table(("effect", "error"), rows)}
 
 The thesis suspected that its masses and moments of inertia were wrong (`{THE_GUESS}`). Alone, `{label}` promises
-{_lowered(own)}, place {place + 1} of {len(names)}. {beside * bool(where)} {_said_of_guess(told.diagnosis)}"""
+{_lowered(own)}, place {place + 1} of {len(names)}. {beside * bool(where)} {_said_of_guess(account.diagnosis)}"""
 
 
 def _lowered(gain: float) -> str:

@@ -13,14 +13,14 @@ from tools.prototype.account import Account
 _MEASURED, _THESIS, _REFITTED, _EXTENDED = "0.55", "tab:orange", "tab:green", "tab:blue"
 
 
-def draw(told: Account, path: Path) -> None:
+def draw(account: Account, path: Path) -> None:
     """One panel a joint."""
-    result, (run,) = told.diagnosis, told.diagnosis.recordings
+    result, (run,) = account.diagnosis, account.diagnosis.recordings
     figure = Figure(figsize=(11.0, 3.2), layout="constrained")
     panels = figure.subplots(1, run.n_joints, sharex=True)
     lines = [
         ("measured", run.theta, _MEASURED, 3.0),
-        ("simulated: the thesis's parameters", told.thesis, _THESIS, 1.2),
+        ("simulated: the thesis's parameters", account.thesis, _THESIS, 1.2),
         ("the same parameters, refitted", result.before.angles[0], _REFITTED, 1.2),
     ]
     if result.is_extended:

@@ -82,7 +82,7 @@ def run(options: argparse.Namespace) -> int:
             allowed = f"{model.n_joints}, as {options.model} has; --model names another"
             raise InvalidValueError(f"{recording.name}: number of joints", recording.n_joints, allowed)
     # Here, so that data that are refused need not wait for numba.
-    from continuum.cli.progress import told
+    from continuum.cli.progress import progress_bar
     from continuum.discovery import diagnose
     from continuum.discovery.hand_measurement import measurement_of
     from continuum.discovery.report import write_report
@@ -92,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
     measured = [measurement_of(text) for text in options.measured]
     zeroed = [_number_of(path, options.data) for path in options.zeroed]
     tolerance = None if options.tolerance is None else math.radians(options.tolerance)
-    with told() as tell:
+    with progress_bar() as tell:
         result = diagnose(
             recordings, model, tolerance=tolerance, progress=tell, measured=measured, zeroed=zeroed,
             without=options.without,

@@ -136,9 +136,9 @@ def _numbers(option: str, text: str, n_runs: int) -> list[int]:
 
 def _identified(options: argparse.Namespace, recordings: Sequence[Recording], model: Model) -> Identified:
     """By the method that was asked for."""
-    from continuum.cli.progress import told
+    from continuum.cli.progress import progress_bar
 
-    with told() as tell:
+    with progress_bar() as tell:
         if options.method == "swarm":
             from continuum.identification.thesis_swarm import swarm_parameters
 

@@ -20,7 +20,7 @@ _BAR = 16  # characters, so that a name has room beside it on 80 columns
 
 
 @contextmanager
-def told() -> Iterator[Callable[[str, float], None]]:
+def progress_bar() -> Iterator[Callable[[str, float], None]]:
     """A function that shows what is going on, and the part of it that is done, 0 to 1."""
     if not sys.stderr.isatty():
         yield _lines()
@@ -62,13 +62,13 @@ class _Left(ProgressColumn):
 
 def _lines() -> Callable[[str, float], None]:
     """Tells each stage once, as it begins."""
-    told_last, began = "", time.monotonic()
+    last_stage, began = "", time.monotonic()
 
     def tell(what: str, part: float) -> None:
-        nonlocal told_last
-        if what != told_last:
+        nonlocal last_stage
+        if what != last_stage:
             left = left_in_words(part, time.monotonic() - began)
             print(f"continuum: {what}" + f" ({left})" * bool(left), file=sys.stderr, flush=True)
-            told_last = what
+            last_stage = what
 
     return tell

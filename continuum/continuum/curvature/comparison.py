@@ -39,7 +39,7 @@ class Nearer(Enum):
 
     DYNAMIC = "dynamic model"
     CONSTANT = "constant curvature"
-    UNREPORTED = "cannot be told"
+    UNDECIDED = "cannot be told"
 
 
 @dataclass(frozen=True)
@@ -125,7 +125,7 @@ class Comparison:
     def nearer(self) -> Nearer:
         """By this posture alone."""
         if not self.resolved:
-            return Nearer.UNREPORTED
+            return Nearer.UNDECIDED
         s, slopes = self.difference
         return _nearer(s, float(np.sqrt(slopes @ self.covariance @ slopes)))
 
@@ -210,7 +210,7 @@ def overall(each: Sequence[Comparison], errors: MedianErrors) -> Overall:
     dynamic = _root_mean_square([one.angles_to_dynamic for one in each])
     counts = {kind: sum(one.nearer is kind for one in each) for kind in Nearer}
     contradict = counts[Nearer.DYNAMIC] > 0 and counts[Nearer.CONSTANT] > 0
-    nearer = Nearer.UNREPORTED if contradict else _nearer(s, sd)
+    nearer = Nearer.UNDECIDED if contradict else _nearer(s, sd)
     return Overall(constant, dynamic, _closer(s, sd, constant + dynamic), nearer, counts)
 
 
@@ -220,7 +220,7 @@ def _root_mean_square(distances: Sequence[Distance]) -> float:
 
 def _nearer(s: float, sd: float) -> Nearer:
     if abs(s) <= LEVEL * sd:
-        return Nearer.UNREPORTED
+        return Nearer.UNDECIDED
     return Nearer.DYNAMIC if s < 0 else Nearer.CONSTANT
 
 

@@ -66,7 +66,7 @@ def _tensions(tension: Array) -> str:
 def _which(nearer: Nearer, distances: tuple[float, float], by: Distance) -> str:
     amount = f"{np.degrees(by.value):.2f} +- {np.degrees(LEVEL * by.sd):.2f} degrees (95 %)"
     against = _against(distances)
-    if nearer is Nearer.UNREPORTED:
+    if nearer is Nearer.UNDECIDED:
         return f"Which model is nearer cannot be told: {against}, a difference of {amount}"
     name = "The dynamic model" if nearer is Nearer.DYNAMIC else "Constant curvature"
     return f"{name} is nearer by {amount}: {against}"

@@ -27,14 +27,14 @@ def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | N
         u: inputs, (n_inputs,): commanded tension of each cable [N], or torque of each joint's drive [N m].
         motion: of the joints, where it is known already; made from ``x`` and ``v`` without.
     """
-    now, told = _instant(model, x, v, u, motion or joint_motion(model, x, v))
+    now, commanded = _instant(model, x, v, u, motion or joint_motion(model, x, v))
     parts = list(_parts(model, x, v))
     torque = torque_balance(now)
     for active, state, _ in parts:
         torque = torque + active.effect.torque(now, active.values, state)
     params = [
-        active.effect.state_balance(replace(now, u=told_it), active.values, state, rate)
-        for (active, state, rate), told_it in zip(parts, told, strict=True)
+        active.effect.state_balance(replace(now, u=command), active.values, state, rate)
+        for (active, state, rate), command in zip(parts, commanded, strict=True)
     ]
     return np.concatenate([torque, *params])
 
@@ -47,14 +47,14 @@ def joint_motion(model: Model, x: Numbers, v: Numbers) -> Motion:
 
 def _instant(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion) -> tuple[Instant, list[Numbers]]:
     """What the torques see, and the tensions that each effect is told before it changes them."""
-    drive, told = np.zeros(1), []
+    drive, commanded = np.zeros(1), []
     if model.inputs is InputKind.JOINT_TORQUES:
         drive, u = u, np.full(len(SIDES), LET_GO)
     for active, state, rate in _parts(model, x, v):
-        told.append(u)
+        commanded.append(u)
         motion = active.effect.move_base(motion, active.values, state, rate)
         u = active.effect.pull(u, active.values, state)
-    return Instant(motion, u, model.changed_parameters, drive), told
+    return Instant(motion, u, model.changed_parameters, drive), commanded
 
 
 def _parts(model: Model, x: Numbers, v: Numbers) -> Iterator[tuple[ActiveEffect, Numbers, Numbers]]:

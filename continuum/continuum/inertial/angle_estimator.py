@@ -147,18 +147,18 @@ class AngleEstimator:
     def _estimate(self, time: float, rate: Array, received: Truths, clipped: Truths, resting: Truths) -> AngleEstimate:
         errors = with_neighbour(self._state.error)
         why = [self._why_not(i, bool(received[i]), bool(clipped[i])) for i in range(received.size)]
-        told = tuple(
+        problems = tuple(
             own or before or ("" if error <= self.settings.largest_error else f"known to {np.degrees(error):.1f} deg")
             for own, before, error in zip(why, ["", *why], errors, strict=False)
         )
-        good = np.array([not text for text in told])
+        good = np.array([not text for text in problems])
         angles = within_half_a_turn(of_neighbours(self._state.angle))
         return AngleEstimate(
             time,
             np.where(good, angles, np.nan),
             np.where(good, of_neighbours(rate), np.nan),
             good,
-            told,
+            problems,
             errors,
             resting,
         )

@@ -55,7 +55,7 @@ class CalibrationSteps:
         Raises:
             MeasurementError: it moved; the sensors that did are told.
         """
-        return replace(self, bias=bias_at_rest(rest), sources=self._told("bias", rest))
+        return replace(self, bias=bias_at_rest(rest), sources=self._with_source("bias", rest))
 
     def with_axis(self, motion: ImuRecording, first_turn: int = 1) -> CalibrationSteps:
         """The axes from an arm that bends in its plane, 1 if it first turns towards cable 1, -1 if away from it.
@@ -67,7 +67,7 @@ class CalibrationSteps:
         if self.bias is None:
             raise MeasurementError("no axes without the bias; find it first, with the arm at rest")
         axis = axes_of_motion(motion, self.bias, first_turn)
-        return replace(self, axis=axis, sources=self._told("axis", motion))
+        return replace(self, axis=axis, sources=self._with_source("axis", motion))
 
     def with_zero(self, rest: ImuRecording, posture: object | None = None) -> CalibrationSteps:
         """The zero from an arm at rest, straight or with known joint angles (n,) [rad].
@@ -79,11 +79,11 @@ class CalibrationSteps:
         if posture is not None and self.axis is None:
             raise MeasurementError("no zero from a posture that is not straight without the axes; find them first")
         axis = np.zeros((rest.n_sensors, 3)) if self.axis is None else self.axis
-        return replace(self, zero=zero_at_rest(rest, axis, posture), sources=self._told("zero", rest))
+        return replace(self, zero=zero_at_rest(rest, axis, posture), sources=self._with_source("zero", rest))
 
-    def _told(self, step: str, recording: ImuRecording) -> tuple[str, ...]:
+    def _with_source(self, step: str, recording: ImuRecording) -> tuple[str, ...]:
         """What each sensor's values were found from, this step the latest."""
-        told = f"{step} of {np.ptp(recording.times):.1f} s"
+        source = f"{step} of {np.ptp(recording.times):.1f} s"
         before = self.sources or ("",) * recording.n_sensors
         kept = ([part for part in text.split(_BETWEEN) if part and not part.startswith(step)] for text in before)
-        return tuple(_BETWEEN.join([*parts, told]) for parts in kept)
+        return tuple(_BETWEEN.join([*parts, source]) for parts in kept)

@@ -25,9 +25,9 @@ def check_common_clock(recording: ImuRecording) -> None:
     """
     shifts = speed_shifts(recording)
     if np.abs(shifts).max() > MOST:
-        told = ", ".join(f"{shift:+.2f}" for shift in shifts)
+        listed = ", ".join(f"{shift:+.2f}" for shift in shifts)
         raise MeasurementError(
-            f"the sensors move at different times ({told} s after the last): were they synchronised beforehand?"
+            f"the sensors move at different times ({listed} s after the last): were they synchronised beforehand?"
         )
 
 

@@ -46,9 +46,9 @@ def axes_of_motion(recording: ImuRecording, bias: Array, first_turn: int) -> Arr
     off_axis = np.sqrt(np.maximum(sizes[:, 1], 0.0) / np.maximum(sizes[:, 2], np.finfo(float).tiny))  # eigh's rounding
     alike = _correlation(angles, angles[:, -1])
     wrong = [
-        told
+        problem
         for sensor, (turn, off, like) in enumerate(zip(turns, off_axis, np.abs(alike), strict=True), start=1)
-        if (told := _fault(sensor, turn, off, like))
+        if (problem := _fault(sensor, turn, off, like))
     ]
     if wrong:
         raise MeasurementError(f"no axes found: {'; '.join(wrong)}")

@@ -32,8 +32,8 @@ def unrest(recording: ImuRecording, creep: float = CREEP) -> tuple[str, ...]:
     lasts = float(np.ptp(recording.times)) if recording.times.size else 0.0
     if lasts < SHORTEST_REST:
         return (f"only {lasts:.2g} s were recorded; at least {SHORTEST_REST:g} s are needed",)
-    told = [_of_one(recording, sensor, creep) for sensor in range(recording.n_sensors)]
-    return tuple(f"sensor {sensor + 1} {why}" for sensor, why in enumerate(told) if why)
+    problems = [_of_one(recording, sensor, creep) for sensor in range(recording.n_sensors)]
+    return tuple(f"sensor {sensor + 1} {why}" for sensor, why in enumerate(problems) if why)
 
 
 def _of_one(recording: ImuRecording, sensor: int, creep: float) -> str:

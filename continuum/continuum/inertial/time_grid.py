@@ -78,8 +78,8 @@ def on_one_grid(streams: Sequence[Stream]) -> ImuRecording:
             )
     begin, end = max(stream.times[0] for stream in streams), min(stream.times[-1] for stream in streams)
     if end - begin < _FEWEST * period:
-        told = ", ".join(f"{s.name} {s.times[0]:.1f} to {s.times[-1]:.1f} s" for s in streams)
-        raise MeasurementError(f"no time is common to all sensors ({told}): were they synchronised?")
+        listed = ", ".join(f"{s.name} {s.times[0]:.1f} to {s.times[-1]:.1f} s" for s in streams)
+        raise MeasurementError(f"no time is common to all sensors ({listed}): were they synchronised?")
     rows, most = (end - begin) / period, _LONGEST_GRID * max(stream.times.size for stream in streams)
     if rows > most:
         raise MeasurementError(f"{rows:.3g} periods of {period:g} s between so few readings: their times are damaged")

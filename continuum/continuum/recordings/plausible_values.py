@@ -82,8 +82,10 @@ def refuse_units(samples: Samples) -> None:
         )
     motion = float(np.max(_motion(samples.theta)))
     if motion < _LEAST_MOTION:
-        told = f"{np.degrees(motion):.2g} degrees, hardly more than sensors err: at least {np.degrees(_LEAST_MOTION):g}"
-        raise FileError(samples.path, f"is of an arm whose joints move by at most {told} are needed")
+        description = (
+            f"{np.degrees(motion):.2g} degrees, hardly more than sensors err: at least {np.degrees(_LEAST_MOTION):g}"
+        )
+        raise FileError(samples.path, f"is of an arm whose joints move by at most {description} are needed")
     if samples.rate is not None:
         slopes = np.gradient(samples.theta, samples.times, axis=0)
         for joint, (slope, rate) in enumerate(zip(slopes.T, samples.rate.T, strict=True), start=1):
@@ -103,10 +105,10 @@ def without_still_rates(samples: Samples) -> tuple[Samples, list[str]]:
     if not np.any(wrong):
         return samples, []
     joint = int(np.argmax(wrong))
-    told = f"{samples.rate[0, joint]:g} rad/s throughout while its angle changes"
+    description = f"{samples.rate[0, joint]:g} rad/s throughout while its angle changes"
     if not np.all(still):
-        raise FileError(samples.path, f"joint {joint + 1}: its rate is {told}: was it measured?")
-    return replace(samples, rate=None), [f"no rate ever changes (joint {joint + 1}: {told}): rates left out"]
+        raise FileError(samples.path, f"joint {joint + 1}: its rate is {description}: was it measured?")
+    return replace(samples, rate=None), [f"no rate ever changes (joint {joint + 1}: {description}): rates left out"]
 
 
 def _motion(theta: Array) -> Array:

@@ -25,18 +25,18 @@ _QUIETED = 8  # rows, over which an angle's white noise is averaged
 
 def odd_rates(recordings: Sequence[Recording]) -> list[str]:
     """A sentence where angles and rates are not of one motion, or one for each recording and joint; none otherwise."""
-    told = _told("", rate_ratio(recordings), _ENOUGH)
-    if told:
-        return told
-    runs = [_told(f"{run.name}: ", rate_ratio([run]), _ENOUGH) for run in recordings]
+    description = _described("", rate_ratio(recordings), _ENOUGH)
+    if description:
+        return description
+    runs = [_described(f"{run.name}: ", rate_ratio([run]), _ENOUGH) for run in recordings]
     joints = [
-        _told(f"joint {joint + 1}: ", rate_ratio(recordings, joint), _ENOUGH_OF_A_JOINT)
+        _described(f"joint {joint + 1}: ", rate_ratio(recordings, joint), _ENOUGH_OF_A_JOINT)
         for joint in range(recordings[0].n_joints)
     ]
     return [sentence for found in (*runs, *joints) for sentence in found]
 
 
-def _told(where: str, found: tuple[float, float], enough: float) -> list[str]:
+def _described(where: str, found: tuple[float, float], enough: float) -> list[str]:
     ratio, deviation = found
     if abs(ratio - 1) <= max(enough, _DEVIATIONS * deviation):
         return []

@@ -33,7 +33,7 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
 
     def leave_out(bad: NDArray[np.bool_], why: str) -> Samples:
         if np.any(bad):
-            notes.append(f"{good.told(bad)} {why}")
+            notes.append(f"{good.described(bad)} {why}")
         return good.chosen(~bad)
 
     good = leave_out(~_complete(good), "without a finite value in every column")
@@ -42,9 +42,9 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     good = leave_out(_clipped(good), "with a clipped rate")
     good = leave_out(outliers(good), "with a value that no arm has")
     if good.times.size < _FEWEST_ROWS:
-        told = "; ".join(["", *notes])
+        summary = "; ".join(["", *notes])
         raise FileError(
-            good.path, f"has {good.times.size} usable {good.row}s; at least {_FEWEST_ROWS} are needed{told}"
+            good.path, f"has {good.times.size} usable {good.row}s; at least {_FEWEST_ROWS} are needed{summary}"
         )
     rows = samples.times.size - held
     bad = rows - good.times.size
@@ -142,7 +142,7 @@ def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:
         )
         raise FileError(samples.path, f"{where}: {pushed}")
     if np.max(samples.pull) <= _ZERO_TENSION:  # as far above as below: noise of cells whose cables hang loose
-        told = f"tensions from {np.min(least):.2g} to {np.max(samples.pull):.2g} N are of cables that hang loose"
-        return replace(samples, pull=np.zeros_like(samples.pull)), [f"{told}, all taken as none"]
-    note = f"{samples.told(least < 0)} with a tension below zero, by {-np.min(least):.2g} N at most, taken as none"
+        summary = f"tensions from {np.min(least):.2g} to {np.max(samples.pull):.2g} N are of cables that hang loose"
+        return replace(samples, pull=np.zeros_like(samples.pull)), [f"{summary}, all taken as none"]
+    note = f"{samples.described(least < 0)} with a tension below zero, by {-np.min(least):.2g} N at most, taken as none"
     return replace(samples, pull=np.maximum(samples.pull, 0.0)), [note]

@@ -55,7 +55,7 @@ class Samples:
             torque=torque,
         )
 
-    def told(self, rows: NDArray[np.bool_]) -> str:
+    def described(self, rows: NDArray[np.bool_]) -> str:
         """`row 7`, or `rows 7, 8, 9, ..`."""
         numbers = [str(number) for number in self.numbers[rows]]
         shown = ", ".join(numbers[:8]) + (", .." if len(numbers) > 8 else "")

@@ -45,7 +45,7 @@ class RemoteArm:
         self._seen = replace(self._seen, **news)  # type: ignore[arg-type]
 
     @property
-    def told(self) -> Seen:
+    def latest(self) -> Seen:
         """All that was taken in."""
         return self._seen
 

@@ -73,8 +73,8 @@ class BenchController:
         self.guard = TensionGuard(hello.limits, hello.n_cables)
         self.faults = FaultBoard()
         self.batteries: list[int | None] = [None] * len(hello.sensors)
-        self._told: _Condition | None = None
-        self._told_at = 0
+        self._reported: _Condition | None = None
+        self._reported_at = 0
 
     def connect(self) -> list[Message]:
         """A host has opened the port; what it is told first."""
@@ -105,12 +105,12 @@ class BenchController:
 
     def news(self, now: int) -> list[Message]:
         """Faults that began, and a `Status` where one is due."""
-        told: list[Message] = [*self.faults.take_unreported()]
+        messages: list[Message] = [*self.faults.take_unreported()]
         condition = _Condition(self.guard.state, self.guard.cause, self.guard.claimed, self.faults.bits)
-        if condition != self._told or now - self._told_at >= STATUS_PERIOD:
-            self._told, self._told_at = condition, now
-            told.append(self.status())
-        return told
+        if condition != self._reported or now - self._reported_at >= STATUS_PERIOD:
+            self._reported, self._reported_at = condition, now
+            messages.append(self.status())
+        return messages
 
     def status(self) -> Status:
         """As it is now."""

@@ -62,11 +62,11 @@ class Diagnostics:
         if events > self._seen:
             self._seen, self._warn_until = events, now + RECENT
         warn = now < self._warn_until
-        told = [f"{count} {cause}" for cause, count in (self.faults.counts + self.warnings.counts).items()]
+        causes = [f"{count} {cause}" for cause, count in (self.faults.counts + self.warnings.counts).items()]
         return DiagnosticStatus(
             level=DiagnosticStatus.WARN if warn else DiagnosticStatus.OK,
             name=f"{self._node.get_fully_qualified_name().lstrip('/')}: messages",
-            message=", ".join(told) if warn else "running",
+            message=", ".join(causes) if warn else "running",
             values=[KeyValue(key=key, value=str(value)) for key, value in self._entries()],
         )
 

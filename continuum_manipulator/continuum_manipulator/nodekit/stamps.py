@@ -61,12 +61,12 @@ class StampJoiner[Key: Hashable, Message]:
         keys: Iterable[Key],
         capacity: int = 200,
         restart_gap: int = NANOSECONDS,
-        told: Callable[[Loss, int, frozenset[Key]], object] = lambda _loss, _stamp, _keys: None,
+        on_loss: Callable[[Loss, int, frozenset[Key]], object] = lambda _loss, _stamp, _keys: None,
     ) -> None:
         self._keys = frozenset(keys)
         self._capacity = capacity
         self._restart_gap = restart_gap
-        self._told = told
+        self._on_loss = on_loss
         self._open: dict[int, dict[Key, Message]] = {}
         self._last: int | None = None
         self._latest: dict[Key, int] = {}
@@ -92,12 +92,12 @@ class StampJoiner[Key: Hashable, Message]:
         self._follow_run(key, stamp)
         if stamp == self._last or key not in self._in_run:
             self.late += 1
-            self._told(Loss.LATE, stamp, frozenset([key]))
+            self._on_loss(Loss.LATE, stamp, frozenset([key]))
             return None
         parts = self._open.setdefault(stamp, {})
         if key in parts:
             self.repeated += 1
-            self._told(Loss.REPEATED, stamp, frozenset([key]))
+            self._on_loss(Loss.REPEATED, stamp, frozenset([key]))
             return None
         parts[key] = message
         if len(parts) < len(self._keys):
@@ -141,4 +141,4 @@ class StampJoiner[Key: Hashable, Message]:
     def _give_up(self, stamps: list[int]) -> None:
         self.incomplete += len(stamps)
         for stamp in stamps:
-            self._told(Loss.INCOMPLETE, stamp, self._keys - self._open.pop(stamp).keys())
+            self._on_loss(Loss.INCOMPLETE, stamp, self._keys - self._open.pop(stamp).keys())

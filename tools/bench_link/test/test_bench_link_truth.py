@@ -66,11 +66,11 @@ def test_the_fastest_rise_does_not_count_falls():
 
 
 def test_states_find_their_frames_and_missing_ones_are_counted():
-    told, written = TIME, TIME + 0.003
+    measured_at, written = TIME, TIME + 0.003
     received = [
         state(t + 0.001, [0, 0], delay=0.005) for k, t in enumerate(TIME) if 10 <= k < 200 and k not in (50, 60)
     ]
-    found = delays(received, written, told)
+    found = delays(received, written, measured_at)
     assert found.missing == 2
     np.testing.assert_allclose(found.published, 0.003, atol=1e-9)
     np.testing.assert_allclose(found.received, 0.008, atol=1e-9)

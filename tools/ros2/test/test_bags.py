@@ -62,10 +62,10 @@ def test_mistakes(ros2, bag: Path) -> None:
 
 @pytest.mark.ros
 def test_play_tells_what_and_that_it_ended(ros2, bag: Path) -> None:
-    told = ros2("bag", "play", bag, "--rate", "5", "--clock").stderr
-    assert f"playing '{bag}': 0.6 s, 1 topics" in told
-    assert f"{COUNT}  /numbers" in told
-    assert told.splitlines()[-1] == f"[INFO] [rosbag2_player]: ended, {COUNT} messages played"
+    output = ros2("bag", "play", bag, "--rate", "5", "--clock").stderr
+    assert f"playing '{bag}': 0.6 s, 1 topics" in output
+    assert f"{COUNT}  /numbers" in output
+    assert output.splitlines()[-1] == f"[INFO] [rosbag2_player]: ended, {COUNT} messages played"
 
 
 @pytest.mark.ros
