@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from continuum_laws.differences import assert_same_slopes, geometric_jacobian
+from continuum_laws.differences import assert_same_derivatives, geometric_jacobian
 from continuum_laws.samples import mixed_arm, random_postures
 from continuum_laws.strategies import LAW, arms_and_postures
 from hypothesis import given
@@ -51,7 +51,7 @@ def test_it_is_a_left_inverse_of_the_slope_of_the_lengths(drawn: tuple[Arm, np.n
     arm, w = drawn
     there_and_back = arm_configuration_cable_jacobian(w, arm) @ tangle_jacobian(w, arm)
     np.testing.assert_allclose(there_and_back, np.eye(2 * arm.n_sections), atol=1e-9)
-    assert_same_slopes(tip_cable_jacobian(w, arm) @ tangle_jacobian(w, arm), arm_jacobian(w, arm))
+    assert_same_derivatives(tip_cable_jacobian(w, arm) @ tangle_jacobian(w, arm), arm_jacobian(w, arm))
 
 
 @each_count

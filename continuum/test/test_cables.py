@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from continuum_laws.differences import assert_same_slopes, differences
+from continuum_laws.differences import assert_same_derivatives, differences
 from continuum_laws.rigid_links import section_discs, total_cable_lengths
 from continuum_laws.samples import SECTIONS, postures
 
@@ -41,7 +41,7 @@ def test_hole_points_are_the_holes_of_discs(section: Section) -> None:
 @each_section
 def test_jacobian_is_the_slope_of_the_lengths(section: Section) -> None:
     w = postures(section)
-    assert_same_slopes(cable_jacobian(w, section), differences(lambda q: cable_lengths(q, section), w))
+    assert_same_derivatives(cable_jacobian(w, section), differences(lambda q: cable_lengths(q, section), w))
 
 
 @each_section
@@ -54,7 +54,7 @@ def test_configuration_to_cables_and_back(section: Section) -> None:
 def test_jacobian_from_cables_is_the_slope(section: Section) -> None:
     lengths = cable_lengths(postures(section, largest=0.9 * section.contact_bend), section)
     numeric = differences(lambda q: configuration_from_cables(q, section), lengths, step=5e-4)
-    assert_same_slopes(configuration_cable_jacobian(lengths, section), numeric)
+    assert_same_derivatives(configuration_cable_jacobian(lengths, section), numeric)
 
 
 @each_section

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from continuum_laws.differences import assert_same_slopes, geometric_jacobian
+from continuum_laws.differences import assert_same_derivatives, geometric_jacobian
 from continuum_laws.rigid_links import arm_discs
 from continuum_laws.samples import mixed_arm, random_postures
 from continuum_laws.strategies import LAW, arms_and_postures
@@ -46,5 +46,5 @@ def test_jacobian_is_the_slope_of_the_tip(n_sections: int, largest: float) -> No
         lambda q: arm_pose(q.reshape((*q.shape[:-1], n_sections, 2)), arm), w.reshape(len(w), 2 * n_sections)
     )
     analytic = arm_jacobian(w, arm)
-    assert_same_slopes(analytic[..., :3, :], numeric[..., :3, :])
-    assert_same_slopes(analytic[..., 3:, :], numeric[..., 3:, :])
+    assert_same_derivatives(analytic[..., :3, :], numeric[..., :3, :])
+    assert_same_derivatives(analytic[..., 3:, :], numeric[..., 3:, :])

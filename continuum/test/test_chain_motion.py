@@ -87,11 +87,13 @@ def test_slopes_by_lengths_and_inertias_are_those_of_differences() -> None:
     names = ["link_length", "rotor_inertia", "mass", "center_of_mass"]
     simulator, free = Simulator(model, TIGHT), shared_directions(model, names)
     times = np.array([0.0, 0.2, 0.5])
-    slopes = simulator.run(start(3), times, drive, free=free).slopes
+    sensitivities = simulator.run(start(3), times, drive, free=free).sensitivities
     for column, direction in enumerate(free.T):
         there, back = (
             simulator.run(start(3), times, drive, values=simulator.equations.values + side * step * direction).states
             for side in (1, -1)
         )
         expected = (there - back) / (2 * step)
-        np.testing.assert_allclose(slopes[..., column], expected, rtol=0, atol=1e-5 * max(1, np.abs(expected).max()))
+        np.testing.assert_allclose(
+            sensitivities[..., column], expected, rtol=0, atol=1e-5 * max(1, np.abs(expected).max())
+        )

@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from continuum_laws.differences import assert_same_slopes, differences
+from continuum_laws.differences import assert_same_derivatives, differences
 from continuum_laws.samples import arm_of, mixed_arm, random_postures
 from continuum_laws.targets import misses, targets_at
 
@@ -62,7 +62,7 @@ def test_the_task_tells_distance_and_angle_and_the_descent_of_its_squared_error(
         assert output == pytest.approx((distances[k], angles[k]), rel=1e-9)
         assert np.linalg.norm(error) == pytest.approx(np.hypot(output[0], weight * output[1]), rel=1e-9)
         slope = differences(half_square, w.reshape(-1), step=0.01)
-        assert_same_slopes((-jacobian[:kind].T @ error)[None], slope[None], relative=1e-7)
+        assert_same_derivatives((-jacobian[:kind].T @ error)[None], slope[None], relative=1e-7)
 
 
 def test_after_the_warm_up_nothing_is_compiled() -> None:

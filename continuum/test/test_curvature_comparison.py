@@ -72,8 +72,8 @@ def test_models_that_the_measurement_does_not_tell_apart_are_not_told_apart_by_a
     total = np.radians(4)
     rest, even = held_posture(ARM, total, None, 1).theta, np.full(N, total / N)
     far = even + 20 * (rest - even)
-    s, slopes = of(far).difference
-    assert abs(s) > 5 * np.sqrt(slopes @ of(far).covariance @ slopes)
+    s, sensitivities = of(far).difference
+    assert abs(s) > 5 * np.sqrt(sensitivities @ of(far).covariance @ sensitivities)
     assert of(far).nearer is Nearer.UNDECIDED
 
 
@@ -105,10 +105,10 @@ def test_errors_are_propagated_by_the_exact_slopes(seed: int) -> None:
         tips = at.tip_to_constant.value, at.tip_to_dynamic.value
         return np.array([at.difference[0], at.angles_to_constant.value, at.angles_to_dynamic.value, *tips])
 
-    slopes = differences(distances, theta)
-    np.testing.assert_allclose(found.difference[1], slopes[0], rtol=0, atol=1e-5)
+    sensitivities = differences(distances, theta)
+    np.testing.assert_allclose(found.difference[1], sensitivities[0], rtol=0, atol=1e-5)
     each = (found.angles_to_constant, found.angles_to_dynamic, found.tip_to_constant, found.tip_to_dynamic)
-    np.testing.assert_allclose([one.sd for one in each], np.linalg.norm(slopes[1:], axis=1), rtol=1e-4)
+    np.testing.assert_allclose([one.sd for one in each], np.linalg.norm(sensitivities[1:], axis=1), rtol=1e-4)
 
 
 def test_distances_are_those_between_the_postures() -> None:

@@ -93,9 +93,9 @@ def test_intervals_of_200_holds_hold_the_true_angle_as_often_as_they_say(rate: f
 def test_errors_of_one_recording_go_together_and_those_of_two_do_not() -> None:
     """The variance of a mean over holds does not fall below that of the error that they share."""
     first, second = find_holds(run(0)), find_holds(replace(run(1)))
-    slopes = np.array([[1.0, 0, 0]])
-    one = median_errors(first).variance(np.repeat(slopes, 4, axis=0) / 4)
-    both = median_errors(first + second).variance(np.repeat(slopes, 8, axis=0) / 8)
+    sensitivities = np.array([[1.0, 0, 0]])
+    one = median_errors(first).variance(np.repeat(sensitivities, 4, axis=0) / 4)
+    both = median_errors(first + second).variance(np.repeat(sensitivities, 8, axis=0) / 8)
     assert one > SLOW**2
     assert both == pytest.approx(one / 2, rel=0.2)
 

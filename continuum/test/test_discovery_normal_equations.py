@@ -152,11 +152,11 @@ def test_rows_that_are_alike_count_as_few_as_their_mean_tells(rho: float) -> Non
 def left_out(seed: int, shift: float, unequal: float = 0.0) -> WithoutEach:
     """Of 16 segments in half of which a size is larger by ``shift``; they tell of it by logarithms with some spread."""
     random, count, rows = np.random.default_rng(seed), 16, 40
-    slopes = random.normal(0, 1, (count, rows * N, COMMON + LOCAL + 1))
-    slopes[:, :, 0] *= np.exp(unequal * random.normal(size=(count, 1)))
-    slopes[:, :, -1] *= FLOOR
-    slopes[count // 2 :, :, -1] -= shift * slopes[count // 2 :, :, 0]
-    segments = [drawn_segment(0, one) for one in slopes]
+    sensitivities = random.normal(0, 1, (count, rows * N, COMMON + LOCAL + 1))
+    sensitivities[:, :, 0] *= np.exp(unequal * random.normal(size=(count, 1)))
+    sensitivities[:, :, -1] *= FLOOR
+    sensitivities[count // 2 :, :, -1] -= shift * sensitivities[count // 2 :, :, 0]
+    segments = [drawn_segment(0, one) for one in sensitivities]
     unknowns = SimpleNamespace(common=[unknown(random) for _ in range(COMMON)], per_run=((),))
     values = Values(np.zeros(COMMON), (np.zeros(0),), tuple(np.zeros((count, LOCAL))))
     weights = [one.readings.size / one.square for one in segments]

@@ -9,7 +9,7 @@ from dynamics_laws import moving, prototype_model, random_parameters
 
 from continuum.arm import Section
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.cables import SIDES, chord_lengths, chord_slopes
+from continuum.dynamics.planar.cables import SIDES, chord_jacobian, chord_lengths
 from continuum.dynamics.planar.eq12_cable_torque import cable_torque
 from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation, wrap_angles
 from continuum.dynamics.planar.eq17_serial_jacobian import serial_jacobian, serial_jacobian_transposed_times
@@ -40,13 +40,13 @@ def test_torque_of_wrenches_is_the_transposed_serial_jacobian(n: int) -> None:
 @each_size
 def test_cable_torque_is_the_cables_virtual_work(n: int) -> None:
     for p, theta, rate, u in cases(n, 4):
-        slopes = differences(lambda q: chord_lengths(q, p), theta)  # (n, n_cables, n)  # noqa: B023
+        sensitivities = differences(lambda q: chord_lengths(q, p), theta)  # (n, n_cables, n)  # noqa: B023
         tensions = tension_propagation(theta, rate, p) * u
-        work = -np.einsum("ij,ijk->k", tensions, slopes)
+        work = -np.einsum("ij,ijk->k", tensions, sensitivities)
         np.testing.assert_allclose(
             cable_torque(moving(theta, rate), u, p), work, rtol=0, atol=1e-10 * np.abs(work).max()
         )
-        np.testing.assert_allclose(chord_slopes(theta, p), np.einsum("iji->ij", slopes), rtol=0, atol=1e-12)
+        np.testing.assert_allclose(chord_jacobian(theta, p), np.einsum("iji->ij", sensitivities), rtol=0, atol=1e-12)
 
 
 @each_size
@@ -101,7 +101,7 @@ def test_wrap_is_the_angle_between_neighbouring_chords() -> None:
 def test_friction_on_the_discs_takes_power(n: int) -> None:
     """What is put in at the base, u times the speed taken in, is never less than what reaches the modules."""
     for p, theta, rate, u in cases(n, 7, count=30):
-        taken_in = -chord_slopes(theta, p) * rate[:, None]
+        taken_in = -chord_jacobian(theta, p) * rate[:, None]
         lost = u * taken_in.sum(axis=0) - np.sum(tension_propagation(theta, rate, p) * u * taken_in, axis=0)
         assert np.all(lost >= -1e-12)
         assert np.any(lost > 1e-9)

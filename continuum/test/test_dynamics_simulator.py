@@ -84,7 +84,7 @@ def test_slopes_by_every_parameter_and_by_the_initial_state_are_those_of_runs_ne
     fast, times, p = Simulator(model, Tolerances(1e-11, 1e-11, 5e-4), blind), [0.0, 0.02, 0.05], parameter_vector(model)
     n, size = p.size, p.size + x0.size
     free, free_initial = np.eye(n, size), np.eye(x0.size, size, k=n)
-    found = fast.run(x0, times, PULLS, free=free, free_initial=free_initial).slopes
+    found = fast.run(x0, times, PULLS, free=free, free_initial=free_initial).sensitivities
     units = np.concatenate([1e-4 * np.abs(p), np.full(x0.size, 1e-5)])  # no stage moves over a kink of Eq. 15's wrap
 
     def moved(s: np.ndarray) -> np.ndarray:
@@ -101,7 +101,7 @@ def test_slopes_do_not_depend_on_the_steps() -> None:
     model, times, x0 = two_joints().model, [0.0, 0.05], start(two_joints())
     free = shared_directions(model, ["stiffness", "viscous_friction", "mass", "half_spacing"])
     fine, coarse = (
-        Simulator(model, Tolerances(relative, relative / 10, 0.01)).run(x0, times, PULLS, free=free).slopes[-1]
+        Simulator(model, Tolerances(relative, relative / 10, 0.01)).run(x0, times, PULLS, free=free).sensitivities[-1]
         for relative in (1e-8, 1e-4)
     )
     scale = np.abs(fine).max(axis=0)

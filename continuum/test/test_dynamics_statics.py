@@ -20,7 +20,7 @@ from effects_laws import effect_of
 
 from continuum.dynamics.balance import balance
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cables import chord_lengths, chord_slopes
+from continuum.dynamics.planar.cables import chord_jacobian, chord_lengths
 from continuum.dynamics.planar.eq12_cable_torque import cable_torque
 from continuum.dynamics.planar.eq12_gravity_torque import gravity_potential, gravity_torque
 from continuum.dynamics.planar.eq12_spring_torque import spring_potential, spring_torque
@@ -114,7 +114,7 @@ def test_cables_lose_by_the_direction_of_approach(seed: int, approach: int) -> N
     theta = found_at(model, Load(u, approach)).theta
     assert np.all(theta > 0)
     tension = u[0] * np.exp(-approach * p.capstan_friction * (np.cumsum(theta) - theta / 2))
-    pull = -tension * chord_slopes(theta, p)[:, 0]
+    pull = -tension * chord_jacobian(theta, p)[:, 0]
     np.testing.assert_allclose(gravity_torque(np.cumsum(theta), p) + spring_torque(theta, p), pull, rtol=0, atol=1e-9)
 
 

@@ -70,7 +70,7 @@ def test_derivatives_are_slopes_of_the_balance(name: str) -> None:
             (symbols.residual, []),
             (symbols.stage, [stage]),
             (symbols.newton, [by_v, by_x]),
-            (symbols.slopes, [stage, by_x, by_p]),
+            (symbols.sensitivities, [stage, by_x, by_p]),
         ):
             found = function(packed).full().reshape(-1, nv).T
             wanted = np.concatenate([numeric(model, packed)[:, None], *matrices], axis=1)
@@ -81,7 +81,7 @@ def test_derivatives_are_slopes_of_the_balance(name: str) -> None:
 @each_model
 def test_machine_code_computes_what_the_interpreter_does(name: str) -> None:
     model, symbols = model_and_symbols(name)
-    for function in (symbols.residual, symbols.stage, symbols.newton, symbols.slopes):
+    for function in (symbols.residual, symbols.stage, symbols.newton, symbols.sensitivities):
         code = compile_function(function)
         for seed in range(5):
             packed = random_point(model, seed)

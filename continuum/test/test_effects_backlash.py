@@ -48,8 +48,8 @@ def turned(amplitudes: np.ndarray, speeds: np.ndarray) -> Turned:
 
     def rates(t: float, state: np.ndarray) -> np.ndarray:
         left = one.effect.state_balance(now(t), one.values, state, np.zeros(2))
-        slopes = [one.effect.state_balance(now(t), one.values, state, unit) - left for unit in np.eye(2)]
-        return np.linalg.solve(np.transpose(slopes), -left)
+        sensitivities = [one.effect.state_balance(now(t), one.values, state, unit) - left for unit in np.eye(2)]
+        return np.linalg.solve(np.transpose(sensitivities), -left)
 
     start = one.effect.initial_state(np.zeros(1), LOOSE, one.values, p)
     found = solve_ivp(rates, (0.0, TIMES[-1]), start, "BDF", TIMES, rtol=1e-5, atol=1e-7)

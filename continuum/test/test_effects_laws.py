@@ -146,10 +146,10 @@ def test_compiled_equations_are_those_of_numbers(name: str) -> None:
             dx, dv, dp = np.split(ways @ way, [x.size, x.size + v.size])
             return balance(with_vector(model, p + dp), x + dx, v + dv, U)
 
-        slopes = np.concatenate([by_x, by_v, compiled.parameter_slopes(x, v, U, p)], axis=1) @ ways
+        sensitivities = np.concatenate([by_x, by_v, compiled.parameter_jacobian(x, v, U, p)], axis=1) @ ways
         expected = differences(along, np.zeros(6), 1e-4)
         size = np.abs(expected).max(axis=1, keepdims=True)
-        np.testing.assert_allclose(slopes / size, expected / size, rtol=0, atol=1e-6)
+        np.testing.assert_allclose(sensitivities / size, expected / size, rtol=0, atol=1e-6)
 
 
 @each_effect
@@ -165,14 +165,14 @@ def test_a_release_of_the_prototype_and_its_slopes(name: str, times_typical: flo
         free[slots[f"{name}.{key}"], column] = parameter.typical
     run = fast.run(x0, TIMES, PULLS, free=free)
     assert run.status is SimulationStatus.COMPLETE
-    assert np.all(np.isfinite(run.slopes))
+    assert np.all(np.isfinite(run.sensitivities))
     for column, (key, parameter) in enumerate(params.items()):
         step = STEPS.get(f"{name}.{key}", 1e-4 if times_typical or not is_size(parameter) else 1e-5)
         lowest = min(p[slots[f"{name}.{key}"]]) - 2 * step * parameter.typical < parameter.lower
         shifts, weights = ((0, 1, 2), (-1.5, 2.0, -0.5)) if lowest else ((-1, 0, 1), (-0.5, 0.0, 0.5))
         runs = [fast.run(x0, TIMES, PULLS, p + step * k * free[:, column]) for k in shifts]
         expected = sum(w * r.states for w, r in zip(weights, runs, strict=True)) / step
-        found = run.slopes[:, : 2 * N, column]
+        found = run.sensitivities[:, : 2 * N, column]
         size = np.abs(expected[:, : 2 * N]).max() + 1e-3
         np.testing.assert_allclose(found / size, expected[:, : 2 * N] / size, rtol=0, atol=0.02, err_msg=key)
 

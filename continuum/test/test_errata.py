@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from continuum_laws.differences import assert_same_slopes, differences
+from continuum_laws.differences import assert_same_derivatives, differences
 from continuum_laws.rigid_links import section_discs, total_cable_lengths
 from continuum_laws.samples import PROTOTYPE
 
@@ -194,13 +194,13 @@ def test_eq_21_third_row() -> None:
     printed = twist_of_eq_21(np.sin(THETA / N) ** 2)
     corrected = twist_of_eq_21(np.sin(THETA / (2 * N)) ** 2)
     assert relative_error(printed[:, 2], exact[:, 2]) > WRONG
-    assert_same_slopes(corrected, exact)
-    assert_same_slopes(spatial_twist_jacobian(PHI, THETA, PROTOTYPE), exact)
+    assert_same_derivatives(corrected, exact)
+    assert_same_derivatives(spatial_twist_jacobian(PHI, THETA, PROTOTYPE), exact)
 
 
 def test_eq_21_all_other_entries_are_right() -> None:
     others = [0, 1, 3, 4, 5]
-    assert_same_slopes(twist_of_eq_21(np.sin(THETA / N) ** 2)[:, others], twist_of_eq_20()[:, others])
+    assert_same_derivatives(twist_of_eq_21(np.sin(THETA / N) ** 2)[:, others], twist_of_eq_20()[:, others])
 
 
 def test_eq_21_is_no_tip_velocity() -> None:
@@ -210,23 +210,23 @@ def test_eq_21_is_no_tip_velocity() -> None:
     exact = twist_of_eq_20()
     assert relative_error(exact[:, :3], tip) > WRONG
     at_tip = exact[:, :3] + np.cross(exact[:, 3:], pose_of(q)[:, :3, 3, None], axisa=1, axisb=1, axisc=1)
-    assert_same_slopes(at_tip, tip)
+    assert_same_derivatives(at_tip, tip)
 
 
 def test_eq_22_is_right_but_on_the_axis() -> None:
     """Right also where z <= 0, which the thesis leaves out; not finite on the axis."""
     points = np.array([[0.1, 0.05, 0.15], [-0.05, 0.1, 0.0], [0.03, -0.1, -0.1]])
     numeric = differences(lambda p: np.stack(jones_from_allen(configuration_from_point(p)), axis=-1), points, 1e-3)
-    assert_same_slopes(jones_from_point_jacobian(points), numeric)
+    assert_same_derivatives(jones_from_point_jacobian(points), numeric)
     on_axis = np.array([0.0, 0.0, 0.2])
     assert not np.all(np.isfinite(jones_from_point_jacobian(on_axis)))
     slope = differences(configuration_from_point, on_axis, 1e-3)
-    assert_same_slopes(configuration_from_point_jacobian(on_axis), slope)
+    assert_same_derivatives(configuration_from_point_jacobian(on_axis), slope)
 
 
 def test_eq_23_is_right() -> None:
     numeric = differences(lambda q: allen_from_jones(q[..., 0], q[..., 1]), np.stack([PHI, THETA], axis=-1))
-    assert_same_slopes(allen_rate_jacobian(PHI, THETA), numeric)
+    assert_same_derivatives(allen_rate_jacobian(PHI, THETA), numeric)
 
 
 def test_eq_24_curvature() -> None:
@@ -261,7 +261,7 @@ def test_eq_25_left_side(lengths_and_slopes: tuple[np.ndarray, np.ndarray]) -> N
     squares = differences(lambda q: module_length(q) ** 2, np.stack([PHI, THETA], axis=-1))
     right_side = squares / (2 * lengths[..., None])
     assert relative_error(right_side, squares) > WRONG
-    assert_same_slopes(right_side, exact)
+    assert_same_derivatives(right_side, exact)
 
 
 def slope_of_eq_26(lengths: np.ndarray, sine_power: int) -> np.ndarray:
@@ -289,7 +289,7 @@ def test_eq_26_is_one_module(lengths_and_slopes: tuple[np.ndarray, np.ndarray]) 
     _, module = lengths_and_slopes
     section = cable_jacobian(W, PROTOTYPE) @ allen_rate_jacobian(PHI, THETA)
     assert relative_error(module, section) > WRONG
-    assert_same_slopes(N * module, section)
+    assert_same_derivatives(N * module, section)
 
 
 def test_passing_cables_have_their_own_chord() -> None:

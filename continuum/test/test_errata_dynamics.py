@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from dynamics_laws import prototype_model
 
-from continuum.dynamics.planar.cables import SIDES, chord_slopes
+from continuum.dynamics.planar.cables import SIDES, chord_jacobian
 from continuum.dynamics.planar.eq13_joint_friction import joint_friction
 from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation
 from continuum.dynamics.planar.eq16_link_wrenches import link_wrenches
@@ -40,7 +40,7 @@ def test_eq_15_wrap_and_direction(side: int) -> None:
 
     def lost(share: np.ndarray, rate: np.ndarray) -> np.ndarray:
         """Power that the discs take of each cable: put in at the base less what reaches the modules [W]."""
-        taken_in = -chord_slopes(theta, P) * rate[:, None]
+        taken_in = -chord_jacobian(theta, P) * rate[:, None]
         return np.asarray(U * (taken_in.sum(axis=0) - np.sum(share * taken_in, axis=0)))
 
     assert min(lost(printed, rate).min(), lost(printed, -rate).min()) < -WRONG
@@ -66,7 +66,7 @@ def test_eq_17_first_row() -> None:
     blocks = serial_jacobian(angle, P).reshape(N, 3, N)  # of each link: its wrench's levers at every joint
     wrenches = link_wrenches(np.ones((N, 1)) * U, THETA, P)
     as_derived = np.einsum("iwk,iw->k", blocks, wrenches)
-    work = -(chord_slopes(THETA, P) * U).sum(axis=1)
+    work = -(chord_jacobian(THETA, P) * U).sum(axis=1)
     np.testing.assert_allclose(as_derived, work, rtol=0, atol=1e-12)
     as_printed = as_derived[0] + (blocks[-1, :, -1] - blocks[-1, :, 0]) @ wrenches[-1]
     assert abs(as_printed - work[0]) > WRONG * np.abs(work).max()
@@ -88,7 +88,7 @@ def test_eq_17_is_in_one_frame() -> None:
             lever = disc - joint
             torque[j] += lever[1] * force[0] - lever[0] * force[1] + wrenches[k, 2]
         at = at + P.joint_spacing[k] * along
-    np.testing.assert_allclose(torque, -(chord_slopes(THETA, P) * U).sum(axis=1), rtol=0, atol=1e-12)
+    np.testing.assert_allclose(torque, -(chord_jacobian(THETA, P) * U).sum(axis=1), rtol=0, atol=1e-12)
     own_frames = np.einsum("iwk,iw->k", serial_jacobian(np.zeros(N), P).reshape(N, 3, N), wrenches)
     assert np.abs(own_frames - torque).max() > WRONG * np.abs(torque).max()
 

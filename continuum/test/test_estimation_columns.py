@@ -14,8 +14,8 @@ from continuum.dynamics.reading import Reading
 from continuum.estimation.columns import (
     Change,
     LateInputs,
-    SensorSlope,
-    Slope,
+    Sensitivity,
+    SensorSensitivity,
     assembled,
     to_states,
 )
@@ -46,7 +46,7 @@ def test_a_slope_is_the_derivative_of_the_torque(name: str) -> None:
         changed[slot] = params
         return missing(along, changed)
 
-    found = Slope(directions_of(name)).torque(scene_along(along, values))
+    found = Sensitivity(directions_of(name)).torque(scene_along(along, values))
     expected = differences(torque, values[slot], 0.01 * float(np.min(np.abs(values[slot]))))
     assert np.any(expected)
     np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-8 * np.max(np.abs(expected)))
@@ -60,8 +60,8 @@ def test_a_slope_along_directions_is_the_sum_of_its_parts_where_values_were_chan
     directions = random.normal(0, 1, (values.size, 2))
     changed, elsewhere = {name: values[structure().slots[name]] * random.uniform(0.5, 1.5)}, values.copy()
     elsewhere[structure().slots[name]] = changed[name]
-    found = Slope(directions, changed).torque(scene_along(along, values))
-    parts = Slope(np.eye(values.size)).torque(scene_along(along, elsewhere))
+    found = Sensitivity(directions, changed).torque(scene_along(along, values))
+    parts = Sensitivity(np.eye(values.size)).torque(scene_along(along, elsewhere))
     np.testing.assert_allclose(found, parts @ directions, rtol=1e-9, atol=1e-9 * np.abs(parts).max())
 
 
@@ -88,8 +88,10 @@ def test_what_a_recording_has_for_itself_counts_in_its_columns(seed: int) -> Non
     here[structure().slots["remounted_base.angle"]] = params["remounted_base"]["angle"]
     scene = scene_along(along, values, params)
     np.testing.assert_allclose(scene.nominal(), missing(along, here), rtol=1e-9, atol=1e-10)
-    slopes = Slope(directions_of("stiffness")).torque(scene)
-    np.testing.assert_allclose(slopes, Slope(directions_of("stiffness")).torque(scene_along(along, here)), atol=1e-12)
+    sensitivities = Sensitivity(directions_of("stiffness")).torque(scene)
+    np.testing.assert_allclose(
+        sensitivities, Sensitivity(directions_of("stiffness")).torque(scene_along(along, here)), atol=1e-12
+    )
 
 
 @LAW
@@ -131,7 +133,7 @@ def test_a_sensor_slope_is_the_derivative_of_what_is_read(effect, name: str, wit
         return np.hstack([seen.theta, seen.theta_rate]) if with_rates else seen.theta
 
     at = params[effect.name][name]
-    found = SensorSlope(effect.name, name, at.size).reading(scene)
+    found = SensorSensitivity(effect.name, name, at.size).reading(scene)
     expected = differences(read, at, 1e-3)
     assert np.any(expected)
     np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-6 * np.abs(expected).max())
@@ -167,7 +169,11 @@ def test_columns_side_by_side_are_each_by_itself() -> None:
     random = np.random.default_rng(0)
     params = {effect.name: drawn_own(effect, random) for effect in structure().sensors}
     scene = scene_along(drawn_motion(random, ROWS), drawn_values(random), params)
-    ones = [Slope(directions_of("mass")), SensorSlope("angle_offset", "offset", N), Change({"stiffness": 1.2})]
+    ones = [
+        Sensitivity(directions_of("mass")),
+        SensorSensitivity("angle_offset", "offset", N),
+        Change({"stiffness": 1.2}),
+    ]
     torque, reading = assembled(ones, scene)
     assert torque.shape == (ROWS, N, 2 * N + 1)
     np.testing.assert_array_equal(torque[:, :, :N], ones[0].torque(scene))

@@ -5,7 +5,7 @@ from dataclasses import replace
 import casadi
 import numpy as np
 import pytest
-from continuum_laws.differences import assert_same_slopes, differences
+from continuum_laws.differences import assert_same_derivatives, differences
 from continuum_laws.strategies import LAW
 from estimation_arm import N, drawn_motion, drawn_own, drawn_values, left_side, structure
 from hypothesis import given
@@ -52,8 +52,8 @@ def test_estimated_equations_have_the_slopes_at_a_given_slip_rate(seed: int) -> 
     model = with_vector(structure().model, values)
     r, by_v, by_x = linear_parts(values, x, v, u, slip)
     np.testing.assert_allclose(r, left_side(model, x, v, u, slip), rtol=1e-9, atol=1e-12)
-    assert_same_slopes(by_v, differences(lambda v: left_side(model, x, v, u, slip), v, 1.0))
-    assert_same_slopes(by_x, differences(lambda x: left_side(model, x, v, u, slip), x, 2e-3))
+    assert_same_derivatives(by_v, differences(lambda v: left_side(model, x, v, u, slip), v, 1.0))
+    assert_same_derivatives(by_x, differences(lambda x: left_side(model, x, v, u, slip), x, 2e-3))
 
 
 @LAW
@@ -107,4 +107,4 @@ def test_a_simulation_s_equations_keep_all_of_friction_s_slope(name: str | None)
     by_rate = differences(
         lambda w: balance(model, np.concatenate([x[:N], w, x[2 * N :]]), v, u)[:N], x[N : 2 * N], 1e-4
     )
-    assert_same_slopes(by_x[:N, N : 2 * N], by_rate, 1e-6)
+    assert_same_derivatives(by_x[:N, N : 2 * N], by_rate, 1e-6)

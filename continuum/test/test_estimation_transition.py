@@ -46,7 +46,7 @@ def missed_by_simulation(arm: Arm, rows: int) -> tuple[float, float]:
     one = exact().run(arm.x, times[:2], tensions, arm.values, nothing, np.eye(2 * N))
     return (
         relative(found.end, output.states[1:], np.ptp(output.theta_rate)) * rows,
-        relative(found.F[0], one.slopes[-1], one.slopes[-1] - np.eye(2 * N)),
+        relative(found.F[0], one.sensitivities[-1], one.sensitivities[-1] - np.eye(2 * N)),
     )
 
 
@@ -67,8 +67,8 @@ def test_the_derivative_by_the_state_is_that_of_the_end(seed: int) -> None:
     """But for what the exponential itself changes, which vanishes with the length."""
     arm, short = Arm.drawn(seed, **SMOOTH), 1e-5
     gained = arm.gained(short)
-    slopes = differences(lambda x: arm.over(short, x=x, gained=gained).end[0], arm.x, 1e-4)
-    change, missed = slopes - np.eye(2 * N), arm.over(short, gained=gained).F[0] - slopes
+    sensitivities = differences(lambda x: arm.over(short, x=x, gained=gained).end[0], arm.x, 1e-4)
+    change, missed = sensitivities - np.eye(2 * N), arm.over(short, gained=gained).F[0] - sensitivities
     assert np.max(np.abs(missed).max(axis=0) / np.abs(change[N:]).max(axis=0)) < 0.01
 
 

@@ -51,6 +51,6 @@ def test_slopes_after_a_jump_are_those_of_the_trajectory() -> None:
     simulator, out = Simulator(MODEL, Tolerances(1e-7, 1e-8, 0.01)), np.array([0.0, 0.12])
     p = simulator.equations.values
     free = shared_directions(MODEL, ["stiffness"])
-    slope = simulator.run(np.full(5, 0.1), out, HELD, free=free).slopes[-1, :, 0]
+    slope = simulator.run(np.full(5, 0.1), out, HELD, free=free).sensitivities[-1, :, 0]
     moved = [simulator.run(np.full(5, 0.1), out, HELD, values=p + sign * 1e-5 * free[:, 0]) for sign in (1, -1)]
     np.testing.assert_allclose(slope, (moved[0].states[-1] - moved[1].states[-1]) / 2e-5, rtol=0.02, atol=1e-3)

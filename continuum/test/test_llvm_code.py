@@ -57,7 +57,7 @@ def test_every_operation_is_that_of_c_to_the_last_bit(both: tuple, a: float, b: 
     np.testing.assert_array_equal(*found)
 
 
-@pytest.mark.parametrize("name", ["residual", "stage", "newton", "slopes"])
+@pytest.mark.parametrize("name", ["residual", "stage", "newton", "sensitivities"])
 def test_equations_of_the_arm_are_those_of_c_to_the_last_bit(name: str) -> None:
     function = getattr(SymbolicBalance(load_model("lamecc_prototype.yaml")), name)
     x = np.random.default_rng(3).uniform(0.05, 1.0, function.nnz_in(0))

@@ -160,9 +160,9 @@ def test_joints_and_cables_are_found_by_name(tmp_path: Path) -> None:
 
 def test_slopes_of_a_parabola_are_exact_also_beside_gaps() -> None:
     t = np.array([0.0, 0.1, 0.2, 0.5, 0.6, 0.61])
-    inner, slopes = central_differences((t * 1e9).astype(np.int64), np.stack([t**2, 3 * t], axis=1))
+    inner, sensitivities = central_differences((t * 1e9).astype(np.int64), np.stack([t**2, 3 * t], axis=1))
     np.testing.assert_array_equal(inner, [1, 2, 3, 4])
-    np.testing.assert_allclose(slopes, np.stack([2 * t, np.full(6, 3.0)], axis=1)[1:-1], rtol=1e-9)
+    np.testing.assert_allclose(sensitivities, np.stack([2 * t, np.full(6, 3.0)], axis=1)[1:-1], rtol=1e-9)
 
 
 def test_the_table_keeps_columns_and_values(tmp_path: Path) -> None:

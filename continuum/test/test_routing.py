@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from continuum_laws.differences import assert_same_slopes, differences
+from continuum_laws.differences import assert_same_derivatives, differences
 from continuum_laws.rigid_links import total_cable_lengths
 from continuum_laws.samples import mixed_arm, random_postures
 from continuum_laws.strategies import LAW, arms_and_postures
@@ -52,7 +52,7 @@ def test_jacobian_is_the_slope_of_the_totals(n_sections: int) -> None:
     w[0] = 0.0
     flat = w.reshape(len(w), -1)
     numeric = differences(lambda q: tangle(q.reshape(*q.shape[:-1], n_sections, 2), arm), flat)
-    assert_same_slopes(tangle_jacobian(w, arm), numeric)
+    assert_same_derivatives(tangle_jacobian(w, arm), numeric)
 
 
 @each_count
@@ -63,7 +63,7 @@ def test_rates_are_slopes_of_the_totals(n_sections: int) -> None:
     w_rate = np.random.default_rng(1).normal(size=w.shape)
     at = np.zeros((len(w), 1))
     numeric = differences(lambda t: tangle(w + t[..., None] * w_rate, arm), at)
-    assert_same_slopes(tangle_rates(w, w_rate, arm)[..., None], numeric)
+    assert_same_derivatives(tangle_rates(w, w_rate, arm)[..., None], numeric)
 
 
 @each_count

@@ -7,7 +7,7 @@ from math import factorial
 import numpy as np
 import pytest
 
-from continuum.kinematics.smooth_functions import one_minus_sinc, sinc, sinc_slope, versine
+from continuum.kinematics.smooth_functions import one_minus_sinc, sinc, sinc_derivative, versine
 
 POINTS = [0.0, 1e-300, 1e-12, 1e-8, 1e-4, 0.01, 0.1, 0.3, 0.4999999, 0.5, 0.5000001, 0.6, 1.0, 2.0, 3.0, 4.0, 5.5, 6.5]
 
@@ -15,7 +15,7 @@ COEFFICIENTS = {
     sinc: lambda k: Fraction(1, factorial(2 * k + 1)),
     versine: lambda k: Fraction(1, factorial(2 * k + 2)),
     one_minus_sinc: lambda k: Fraction(1, factorial(2 * k + 3)),
-    sinc_slope: lambda k: -Fraction(2 * k + 2, factorial(2 * k + 3)),
+    sinc_derivative: lambda k: -Fraction(2 * k + 2, factorial(2 * k + 3)),
 }
 
 

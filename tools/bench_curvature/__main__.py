@@ -62,8 +62,8 @@ def _truly(hold: KnownHold) -> Nearer:
 
 def _difference_covered(hold: KnownHold) -> bool:
     """Whether the true difference of the squared distances is in its interval."""
-    found, slopes = hold.found.difference
-    sd = float(np.sqrt(slopes @ hold.found.covariance @ slopes))
+    found, sensitivities = hold.found.difference
+    sd = float(np.sqrt(sensitivities @ hold.found.covariance @ sensitivities))
     return abs(found - hold.truly.difference[0]) <= LEVEL * sd
 
 

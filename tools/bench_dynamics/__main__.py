@@ -64,8 +64,8 @@ def _scores(effort: Effort) -> list[Score]:
     exact = scene.converged()
     for rival in rivals(scene):
         seconds, theta = cpu_time(rival.run, effort.slow if "SciPy" in rival.name else effort.fast)
-        slopes = None if rival.with_slopes is None else cpu_time(rival.with_slopes, effort.slow)[0]
-        scores.append(Score(rival.name, seconds, float(np.degrees(np.abs(theta - exact).max())), slopes))
+        sensitivities = None if rival.with_slopes is None else cpu_time(rival.with_slopes, effort.slow)[0]
+        scores.append(Score(rival.name, seconds, float(np.degrees(np.abs(theta - exact).max())), sensitivities))
         print(f"{rival.name}: {1e3 * seconds:.1f} ms, {scores[-1].error:.4f} degrees", flush=True)
     return scores
 

@@ -59,7 +59,7 @@ def slope_error(scene: Scene, limits: Tolerances) -> float:
 
     Beside them stand central differences of runs at a relative tolerance of 1e-9.
     """
-    found = Simulator(scene.model, limits).run(scene.start, scene.times, free=scene.directions).slopes
+    found = Simulator(scene.model, limits).run(scene.start, scene.times, free=scene.directions).sensitivities
     tight = Simulator(scene.model, Tolerances(1e-9, 1e-10, 0.01), fourth_order())
     values, worst = parameter_vector(scene.model), 0.0
     for k, direction in enumerate(scene.directions.T):

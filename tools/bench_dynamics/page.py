@@ -169,9 +169,9 @@ def _processor() -> str:
 def _rows(result: Result) -> str:
     rows = []
     for score in result.scores:
-        slopes = "" if score.with_slopes is None else f"{1e3 * score.with_slopes:.1f}"
+        sensitivities = "" if score.with_slopes is None else f"{1e3 * score.with_slopes:.1f}"
         ratio = result.baseline.seconds / score.seconds
-        rows.append(f"| {score.name} | {1e3 * score.seconds:.1f} | {ratio:.1f} | {score.error:.4f} | {slopes} |")
+        rows.append(f"| {score.name} | {1e3 * score.seconds:.1f} | {ratio:.1f} | {score.error:.4f} | {sensitivities} |")
     if not any("sundae" in score.name for score in result.scores):
         rows.append("| CVODE by scikit-sundae | not installed | | | |")
     return "\n".join(rows)

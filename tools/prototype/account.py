@@ -21,7 +21,7 @@ from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.estimation.run import Trajectory
-from continuum.identification.local_slopes import local_slope
+from continuum.identification.local_derivatives import local_derivative
 from continuum.identification.nrmse import nrmse_by_joint
 from continuum.recordings.recording import Recording
 from continuum.recordings.recording_csv import read_recording_csv
@@ -96,7 +96,7 @@ def end_predicted(run: Recording, cut: int, model: Model) -> tuple[Diagnosis, li
         problem, state, way = found.problem, one.fit.state, one.fit.state.ways[0]
         read = problem.structure.readings(problem.runs[0], way.q, way.w, point_of(problem, state).by_run[0])
         shift = read[-1, : run.n_joints] - way.q[-1]  # what the sensors add, as the beginning tells it
-        rate = local_slope(run.times[cut:], run.theta[cut:], 0, degree=3)
+        rate = local_derivative(run.times[cut:], run.theta[cut:], 0, degree=3)
         for begins, row, q, w in (
             ("smoothed", cut - 1, way.q[-1], way.w[-1]),
             ("measured", cut, run.theta[cut] - shift, rate),

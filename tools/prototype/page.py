@@ -153,8 +153,8 @@ def _end(account: Account) -> str:
     head = ("model", "begins", "Eq. 19", "where joints move", "error [deg]", *(f"joint {j} [deg]" for j in joints))
     return f"""The first {100 * FITTED:.0f} % of the rows were diagnosed:
 `{account.of_beginning.verdict.kind.value}`, with {labels} in the extended model. Both models then simulate the rest,
-which no fit has seen, from where the beginning ends: *smoothed* from the beginning alone, or *measured* at the cut (angles of
-the next row less what the sensors add, rates by a cubic through seven rows).
+which no fit has seen, from where the beginning ends: *smoothed* from the beginning alone, or *measured* at the cut
+(angles of the next row less what the sensors add, rates by a cubic through seven rows).
 
 {table(head, [*rows, spread])}
 

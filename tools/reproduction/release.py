@@ -77,7 +77,7 @@ def reproduce_release(model: Model) -> Release:
     fitted = least_squares(
         lambda rates: (thrown(rates).theta - published.theta).ravel(),
         np.zeros(n),
-        lambda rates: thrown(rates).slopes[:, :n].reshape(-1, n),
+        lambda rates: thrown(rates).sensitivities[:, :n].reshape(-1, n),
         method="lm",
     )
     return Release(measured, published, thrown(np.zeros(n)), thrown(fitted.x))

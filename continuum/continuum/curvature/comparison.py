@@ -101,7 +101,7 @@ class Comparison:
     @cached_property
     def angles_to_dynamic(self) -> Distance:
         """The same."""
-        return self._of_angles(self.held.theta, self.held.slope)
+        return self._of_angles(self.held.theta, self.held.derivative)
 
     @cached_property
     def tip_to_constant(self) -> Distance:
@@ -111,23 +111,23 @@ class Comparison:
     @cached_property
     def tip_to_dynamic(self) -> Distance:
         """The same."""
-        return self._of_tip(self.held.theta, self.held.slope)
+        return self._of_tip(self.held.theta, self.held.derivative)
 
     @cached_property
     def difference(self) -> tuple[float, Array]:
         """S [rad^2] and its slopes by the measured angles, (n,) [rad]."""
         n, even = self.theta.size, self.theta - self.constant
         uneven = self.theta - self.held.theta
-        slopes = 2 / n * (uneven @ _following(self.held.slope) - even)
-        return float(uneven @ uneven - even @ even) / n, slopes
+        derivatives = 2 / n * (uneven @ _following(self.held.derivative) - even)
+        return float(uneven @ uneven - even @ even) / n, derivatives
 
     @property
     def nearer(self) -> Nearer:
         """By this posture alone."""
         if not self.resolved:
             return Nearer.UNDECIDED
-        s, slopes = self.difference
-        return _nearer(s, float(np.sqrt(slopes @ self.covariance @ slopes)))
+        s, derivatives = self.difference
+        return _nearer(s, float(np.sqrt(derivatives @ self.covariance @ derivatives)))
 
     @property
     def models_apart(self) -> float:
@@ -142,20 +142,22 @@ class Comparison:
     @property
     def closer_by(self) -> Distance:
         """By how much the nearer model is nearer [rad]."""
-        s, slopes = self.difference
-        return _closer(s, float(np.sqrt(slopes @ self.covariance @ slopes)), self._both)
+        s, derivatives = self.difference
+        return _closer(s, float(np.sqrt(derivatives @ self.covariance @ derivatives)), self._both)
 
     @property
     def _both(self) -> float:
         return self.angles_to_constant.value + self.angles_to_dynamic.value
 
-    def _of_angles(self, model: Array, slope: Array) -> Distance:
+    def _of_angles(self, model: Array, derivative: Array) -> Distance:
         away = (self.theta - model) / np.sqrt(self.theta.size)
-        return _length(away, _following(slope) / np.sqrt(self.theta.size), self.covariance)
+        return _length(away, _following(derivative) / np.sqrt(self.theta.size), self.covariance)
 
-    def _of_tip(self, model: Array, slope: Array) -> Distance:
+    def _of_tip(self, model: Array, derivative: Array) -> Distance:
         (here, by_here), (there, by_there) = _tip(self.theta, self.p), _tip(model, self.p)
-        return _length(here - there, by_here - np.outer(by_there @ slope, np.ones(slope.size)), self.covariance)
+        return _length(
+            here - there, by_here - np.outer(by_there @ derivative, np.ones(derivative.size)), self.covariance
+        )
 
 
 @dataclass(frozen=True)
@@ -204,8 +206,8 @@ def compare(
 def overall(each: Sequence[Comparison], errors: MedianErrors) -> Overall:
     """One answer for several postures, whose errors are not independent of each other within a recording."""
     s = float(np.mean([one.difference[0] for one in each]))
-    slopes = np.stack([one.difference[1] for one in each]) / len(each)
-    sd = float(np.sqrt(errors.variance(slopes)))
+    derivatives = np.stack([one.difference[1] for one in each]) / len(each)
+    sd = float(np.sqrt(errors.variance(derivatives)))
     constant = _root_mean_square([one.angles_to_constant for one in each])
     dynamic = _root_mean_square([one.angles_to_dynamic for one in each])
     counts = {kind: sum(one.nearer is kind for one in each) for kind in Nearer}
@@ -229,9 +231,9 @@ def _closer(s: float, sd: float, both: float) -> Distance:
     return Distance(abs(s) / both, sd / both) if both > 0 else Distance(0.0, 0.0)
 
 
-def _following(slope: Array) -> Array:
+def _following(derivative: Array) -> Array:
     """dr/dtheta of a model that changes by ``slope`` (n,) with the total bend, (n, n)."""
-    return np.asarray(np.eye(slope.size) - np.outer(slope, np.ones(slope.size)))
+    return np.asarray(np.eye(derivative.size) - np.outer(derivative, np.ones(derivative.size)))
 
 
 def _length(vector: Array, by_theta: Array, covariance: Array) -> Distance:

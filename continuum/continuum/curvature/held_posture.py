@@ -39,7 +39,7 @@ class HeldPosture:
 
     Attributes:
         theta: joint angles, (n,) [rad].
-        slope: their change with the total bend, (n,).
+        derivative: their change with the total bend, (n,).
         load: tensions at the base, and which way the cables slid last.
         friction: part of its break-away torque that every joint needs, from -1 to 1; 0 at an equilibrium.
         zone: what dry friction holds under that load.
@@ -47,7 +47,7 @@ class HeldPosture:
     """
 
     theta: Array
-    slope: Array
+    derivative: Array
     load: Load
     friction: float
     zone: StickingZone
@@ -71,7 +71,7 @@ def held_posture(arm: RestingArm, total_bend: float, tension: Array | None, appr
         zone = sticking_zone(arm, rests)
         if (held := _by_friction(arm, rests, total_bend)) is not None:
             y, friction = held
-            return HeldPosture(y[: arm.model.n_joints], _slope(arm, y, load), load, friction, zone)
+            return HeldPosture(y[: arm.model.n_joints], _derivative(arm, y, load), load, friction, zone)
         known = None if tension is None else zone.total_bend
     pulled = None if tension is None else _by_tension(arm, load, total_bend)
     if pulled is None:
@@ -81,8 +81,8 @@ def held_posture(arm: RestingArm, total_bend: float, tension: Array | None, appr
     if pulled is None:
         allowed = f"one that up to {_MOST:g} N of one cable hold in the model"
         raise InvalidValueError("total bend [degrees]", round(float(np.degrees(total_bend)), 2), allowed)
-    slope = _slope(arm, pulled.unknowns, pulled.load)
-    return HeldPosture(pulled.theta, slope, pulled.load, 0.0, sticking_zone(arm, pulled), known)
+    derivative = _derivative(arm, pulled.unknowns, pulled.load)
+    return HeldPosture(pulled.theta, derivative, pulled.load, 0.0, sticking_zone(arm, pulled), known)
 
 
 def _by_friction(arm: RestingArm, rests: Equilibrium, total: float) -> tuple[Array, float] | None:
@@ -142,7 +142,7 @@ def _stable(arm: RestingArm, load: Load, start: Array | None) -> Equilibrium | N
     return found if found.status is EquilibriumStatus.STABLE else None
 
 
-def _slope(arm: RestingArm, y: Array, load: Load) -> Array:
+def _derivative(arm: RestingArm, y: Array, load: Load) -> Array:
     """Change of the joint angles with the total bend as the same torque grows at all joints, (n,).
 
     A cable's pull grows nearly so: its lever is the same at every disc but for the joint's angle and its losses.

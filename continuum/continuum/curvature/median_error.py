@@ -45,10 +45,10 @@ class MedianErrors:
         white = self.white[hold]
         return np.asarray(white + self.shared[hold, hold] * np.eye(len(white)))
 
-    def variance(self, slopes: Array) -> float:
+    def variance(self, derivatives: Array) -> float:
         """Variance of a function of all medians by its slopes, (n_holds, n) [./rad]."""
-        by_white = np.einsum("hi,hij,hj", slopes, self.white, slopes)
-        return float(by_white + np.sum(self.shared * (slopes @ slopes.T)))
+        by_white = np.einsum("hi,hij,hj", derivatives, self.white, derivatives)
+        return float(by_white + np.sum(self.shared * (derivatives @ derivatives.T)))
 
 
 def median_errors(holds: Sequence[Hold], slow: float | None = None) -> MedianErrors:

@@ -17,7 +17,7 @@ from continuum.arrays import Array
 from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.planar.eq13_joint_friction import dry_friction
 from continuum.dynamics.values import with_vector
-from continuum.estimation.columns import Change, Column, Slope
+from continuum.estimation.columns import Change, Column, Sensitivity
 from continuum.estimation.motion_equations import evaluate, packed, torques
 from continuum.estimation.run import Run
 from continuum.estimation.structure import Structure
@@ -141,7 +141,7 @@ class Coordinates:
     def columns(self, p: Array) -> list[tuple[Coordinate | str, Column]]:
         """Torque per unit of each coordinate at parameter values p, and of the shapes, which are named."""
         found: list[tuple[Coordinate | str, Column]] = [
-            (one, Slope(self._direction(one, p)[:, None])) for one in self.all
+            (one, Sensitivity(self._direction(one, p)[:, None])) for one in self.all
         ]
         return found + [(f"shape_{k}", Change({"stribeck_speed": factor})) for k, factor in enumerate(_SHAPES)]
 
@@ -190,7 +190,7 @@ class Coordinates:
         here = self._physical(p)
         G, at = np.zeros((here.size, width)), 0
         for column in columns:
-            if isinstance(column, Slope) and not column.changed:
+            if isinstance(column, Sensitivity) and not column.changed:
                 for k in range(column.width):
                     step = 1e-6 * column.directions[:, k]
                     G[:, at + k] = (self._physical(p + step) - here) / 1e-6

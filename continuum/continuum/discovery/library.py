@@ -26,7 +26,7 @@ from continuum.discovery.hypotheses import (
     within,
 )
 from continuum.dynamics.effect import Effect
-from continuum.estimation.columns import Column, Difference, LateInputs, SensorSlope, Slope, StatefulTorque
+from continuum.estimation.columns import Column, Difference, LateInputs, Sensitivity, SensorSensitivity, StatefulTorque
 from continuum.estimation.structure import Structure, absent_values, delay_of, overrides
 
 
@@ -107,7 +107,7 @@ class Library:
                 slot = self.structure.slots[f"{effect.name}.{name}"]
                 directions = np.zeros((self.structure.equations.n_p, slot.stop - slot.start))
                 directions[slot, :] = np.eye(slot.stop - slot.start)
-                at[name] = self._add(Slope(directions, named))
+                at[name] = self._add(Sensitivity(directions, named))
                 if is_active or not changed or changed == first:
                     for k in range(directions.shape[1]):
                         self.at[(effect.name, name, k if spec[name].per_joint else -1)] = at[name] + k
@@ -206,7 +206,7 @@ class Library:
             self._late(effect, late)
         of_readings = {name: spec for name, spec in effect.parameters.items() if name != late}
         at = {
-            name: self._add(SensorSlope(effect.name, name, n if spec.per_joint else 1))
+            name: self._add(SensorSensitivity(effect.name, name, n if spec.per_joint else 1))
             for name, spec in of_readings.items()
         }
         for name, spec in of_readings.items():

@@ -81,7 +81,7 @@ class RunSimulation:
         self._model = extended_model(problem, state, run)
         self._simulator, self._inputs = simulators.of(self._model), simulators.inputs(state, run)
         s, self._params = problem.structure, sensors_at(problem, state, run)
-        self._reads = s.reading_slopes(self._run, self._params)[: s.n]
+        self._reads = s.reading_jacobian(self._run, self._params)[: s.n]
         sensors, late = {e.name for e in s.sensors}, {(e.name, delay_of(e)) for e in s.late}
         slots = parameter_slots(self._model)
         self._directions = np.zeros((parameter_vector(self._model).size, len(unknowns)))
@@ -111,16 +111,16 @@ class RunSimulation:
         """
         n, run, k = self._problem.structure.n, self._run, self._directions.shape[1]
         times, zeros = run.times[rows], local[2 * n :]
-        x0, x0_slopes = self._beginning(rows.start, local)
+        x0, x0_sensitivities = self._beginning(rows.start, local)
         free = np.hstack([self._directions, np.zeros((len(self._directions), 2 * n))])
-        found = self._simulator.run(x0, times, self._inputs, free=free, free_initial=x0_slopes)
+        found = self._simulator.run(x0, times, self._inputs, free=free, free_initial=x0_sensitivities)
         width = k + 3 * n
         if found.status is not SimulationStatus.COMPLETE:
             return self._failed(rows, width)
         q, w = found.theta, found.theta_rate
         read = self._read(rows, q, w, self._params)
         J = np.zeros((times.size, n, width))
-        J[:, :, : k + 2 * n] = self._reads @ found.slopes[:, : 2 * n]
+        J[:, :, : k + 2 * n] = self._reads @ found.sensitivities[:, : 2 * n]
         for i, params in self._sensors.items():
             J[:, :, i] = (self._read(rows, q, w, params) - read) / STEP
         for i, inputs in self._late.items():
@@ -155,17 +155,17 @@ class RunSimulation:
         n, k = self._problem.structure.n, self._directions.shape[1]
         q, w = self._way.q[row] + local[:n], self._way.w[row] + local[n : 2 * n]
         states = self._at_rest(q, row)
-        slopes = np.zeros((2 * n + states.size, k + 2 * n))
-        slopes[: 2 * n, k:] = np.eye(2 * n)
+        sensitivities = np.zeros((2 * n + states.size, k + 2 * n))
+        sensitivities[: 2 * n, k:] = np.eye(2 * n)
         if states.size:
-            by_angles, slopes[2 * n :, :k] = self._rest_slopes(q, row)
-            slopes[2 * n :, k : k + n] = by_angles
+            by_angles, sensitivities[2 * n :, :k] = self._rest_sensitivities(q, row)
+            sensitivities[2 * n :, k : k + n] = by_angles
         if states.size and row:
             if row not in self._led:
                 self._led[row] = self._moved(row)
             moved, by_unknowns = self._led[row]
-            states, slopes[2 * n :, :k] = states + moved, slopes[2 * n :, :k] + by_unknowns
-        return np.concatenate([q, w, states]), slopes
+            states, sensitivities[2 * n :, :k] = states + moved, sensitivities[2 * n :, :k] + by_unknowns
+        return np.concatenate([q, w, states]), sensitivities
 
     def _at_rest(self, q: Array, row: int, model: Model | None = None) -> Array:
         """Effects' states in an arm that rests at angles q."""
@@ -178,7 +178,7 @@ class RunSimulation:
         ]
         return np.concatenate([np.zeros(0), *found])
 
-    def _rest_slopes(self, q: Array, row: int) -> tuple[Array, Array]:
+    def _rest_sensitivities(self, q: Array, row: int) -> tuple[Array, Array]:
         """Derivatives of the states at rest by the angles (n_z, n), and by the effects' own values, (n_z, k)."""
         at_rest = self._at_rest(q, row)
         by_angles = [(self._at_rest(q + step, row) - at_rest) / STEP for step in STEP * np.eye(q.size)]
@@ -196,14 +196,14 @@ class RunSimulation:
         first = min(int(np.searchsorted(times, times[row] - _LEAD_IN)), row - 1)
         q, w = self._way.q[first], self._way.w[first]
         x0 = np.concatenate([q, w, self._at_rest(q, first)])
-        begin = np.concatenate([np.zeros((2 * n, k)), self._rest_slopes(q, first)[1]])
+        begin = np.concatenate([np.zeros((2 * n, k)), self._rest_sensitivities(q, first)[1]])
         led = times[first : row + 1]
         found = self._simulator.run(x0, led, self._inputs, free=self._directions, free_initial=begin)
         if found.status is not SimulationStatus.COMPLETE:
             return np.zeros(x0.size - 2 * n), np.zeros((x0.size - 2 * n, k))
-        by_angles, by_unknowns = self._rest_slopes(found.theta[-1], row)
-        slopes = found.slopes[-1, 2 * n :] - by_angles @ found.slopes[-1, :n] - by_unknowns
-        return found.states[-1, 2 * n :] - self._at_rest(found.theta[-1], row), slopes
+        by_angles, by_unknowns = self._rest_sensitivities(found.theta[-1], row)
+        sensitivities = found.sensitivities[-1, 2 * n :] - by_angles @ found.sensitivities[-1, :n] - by_unknowns
+        return found.states[-1, 2 * n :] - self._at_rest(found.theta[-1], row), sensitivities
 
     def _read(self, rows: slice, q: Array, w: Array, params: Mapping[str, Mapping[str, Array]]) -> Array:
         """Angles as the sensors read them but for their zeros, (rows, n) [rad]."""

@@ -97,8 +97,8 @@ def _estimates(problem: Problem, fit: Fitted, key: Key, model: Model, singly: Co
         return np.stack([np.broadcast_to(found[name], (problem.structure.n,)) for name in THESIS_PARAMETERS])
 
     here, sd = values(fit.values.common), fit.sd
-    slopes = [(values(fit.values.common + step) - here) / _STEP for step in _STEP * np.diag(sd)]
-    J = np.stack(slopes, axis=-1)  # by unknowns in units of their standard deviations
+    sensitivities = [(values(fit.values.common + step) - here) / _STEP for step in _STEP * np.diag(sd)]
+    J = np.stack(sensitivities, axis=-1)  # by unknowns in units of their standard deviations
     given, found = model.values(), list[Estimate]()
     for name, value, by_unknowns in zip(THESIS_PARAMETERS, here, J, strict=True):
         spec, start = PARAMETERS[name], np.broadcast_to(given[name], (problem.structure.n,))

@@ -46,7 +46,7 @@ def _compile_simulators(structure: Structure) -> None:
     for names in (always, *fitted, *screened):
         effects = tuple(a for a in (*model.effects, *stateful) if a.effect.name in names)
         equations = CompiledEquations(replace(model, effects=effects))
-        _ = equations.residual, equations.stage, equations.slopes
+        _ = equations.residual, equations.stage, equations.sensitivities
 
 
 def _recordings(model: Model) -> tuple[Recording, Recording]:

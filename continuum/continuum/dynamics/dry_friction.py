@@ -13,6 +13,6 @@ DRY_SLOPE, CABLE_SLOPE = 1000.0, 2e4
 def with_dry_friction(model: Model) -> Model:
     """The model with both slopes at least that steep."""
     steep = {"friction_slope": DRY_SLOPE, "cable_slope": CABLE_SLOPE}
-    raised = {name: slope for name, slope in steep.items() if slope > float(model.values()[name][0])}
+    raised = {name: sensitivity for name, sensitivity in steep.items() if sensitivity > float(model.values()[name][0])}
     sources = dict(model.sources) | dict.fromkeys(raised, "so steep that it cannot be told from dry friction")
     return replace(model.with_values(raised), sources=sources)

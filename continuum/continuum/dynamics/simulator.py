@@ -76,23 +76,23 @@ class Simulator:
         n, drive = self.model.n_joints, suitable_inputs(self.model, inputs)
         x0, times = initial_state(self.model, initial), output_times(times)
         p = self._values(values)
-        directions, slope0 = self._free(p.size, x0.size, free, free_initial)
+        directions, sensitivity0 = self._free(p.size, x0.size, free, free_initial)
         equations, tableau, limits = self.equations, self._tableau, self.tolerances
         input_times, rows_of_inputs = drive.rows()
         rows, columns = np.nonzero(directions)
         problem = Problem(
             address_of(equations.residual), address_of(equations.stage),
-            address_of(equations.slopes) if directions.shape[1] else 0,
+            address_of(equations.sensitivities) if directions.shape[1] else 0,
             n, p, input_times - times[0], rows_of_inputs, rows, columns, directions[rows, columns],
         )  # fmt: skip
         method = Method(
             tableau.a, tableau.c, tableau.error, tableau.order, limits.relative, limits.absolute, limits.max_step,
             limits.most_steps,
         )  # fmt: skip
-        states, slopes, taken, refused, status = integrate(
-            problem, method, x0, times - times[0], np.ascontiguousarray(slope0)
+        states, sensitivities, taken, refused, status = integrate(
+            problem, method, x0, times - times[0], np.ascontiguousarray(sensitivity0)
         )
-        return Trajectory(STATUSES[status], times, states, n, taken, refused, slopes)
+        return Trajectory(STATUSES[status], times, states, n, taken, refused, sensitivities)
 
     def _values(self, given: Array | None) -> Array:
         """Parameter values, (n_p,)."""
@@ -113,10 +113,12 @@ class Simulator:
         if directions.ndim != 2 or directions.shape[0] != n_p:
             raise InvalidValueError("shape of free", directions.shape, f"({n_p}, n_free)")
         wanted = (n_x, directions.shape[1])
-        slope0 = finite_array("free_initial", np.zeros(wanted) if free_initial is None else free_initial, str(wanted))
-        if slope0.shape != wanted:
-            raise InvalidValueError("shape of free_initial", slope0.shape, str(wanted))
-        return directions, slope0
+        sensitivity0 = finite_array(
+            "free_initial", np.zeros(wanted) if free_initial is None else free_initial, str(wanted)
+        )
+        if sensitivity0.shape != wanted:
+            raise InvalidValueError("shape of free_initial", sensitivity0.shape, str(wanted))
+        return directions, sensitivity0
 
 
 def _structure(model: Model) -> tuple[object, ...]:

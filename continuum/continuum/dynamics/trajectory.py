@@ -26,7 +26,7 @@ class Trajectory:
         states: joint angles, joint rates, states of effects, (n_times, n_x) [rad, rad/s, ...].
         n_joints: number of joints.
         steps, refused: steps that the integrator took, and that it had to repeat (SciPy's BDF: not told, 0).
-        slopes: derivative of the states by the free quantities asked for, (n_times, n_x, n_free); n_free may be 0.
+        sensitivities: derivative of the states by the free quantities, (n_times, n_x, n_free); n_free may be 0.
     """
 
     status: SimulationStatus
@@ -35,7 +35,7 @@ class Trajectory:
     n_joints: int
     steps: int
     refused: int
-    slopes: Array
+    sensitivities: Array
 
     @property
     def theta(self) -> Array:

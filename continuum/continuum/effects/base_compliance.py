@@ -90,8 +90,8 @@ class BaseCompliance(Effect):
         compliance, weight = params["compliance"].item(), (p.gravity * _first_moment(p)).item()
         for _ in range(20):  # Newton's method; the moment changes by less than its size when the plate turns a radian
             leaning = p.hang_angle.item() + psi
-            slope = 1 + compliance * weight * np.cos(leaning)
-            step = (psi + compliance * (of_links + weight * np.sin(leaning))) / slope
+            derivative = 1 + compliance * weight * np.cos(leaning)
+            step = (psi + compliance * (of_links + weight * np.sin(leaning))) / derivative
             psi -= step
             if abs(step) < _SETTLED:
                 break

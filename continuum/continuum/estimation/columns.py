@@ -87,7 +87,7 @@ class Column(Protocol):
 
 
 @dataclass(frozen=True)
-class Slope:
+class Sensitivity:
     """Derivative of Eq. 12 along directions in its parameters.
 
     Attributes:
@@ -214,7 +214,7 @@ def late_torque(scene: Scene, delay: float) -> Array:
 
 
 @dataclass(frozen=True)
-class SensorSlope:
+class SensorSensitivity:
     """Derivative of the readings by one parameter of an effect on sensors, a column for each of its joints."""
 
     effect: str

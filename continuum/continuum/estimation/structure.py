@@ -118,10 +118,10 @@ class Structure:
             run, way: rows and trajectory.
             params: values of the effects on sensors, by effect and parameter.
         """
-        expected, H = self.readings(run, way.q, way.w, params), self.reading_slopes(run, params)
+        expected, H = self.readings(run, way.q, way.w, params), self.reading_jacobian(run, params)
         return Measurement(expected, np.ascontiguousarray(H if run.has_rates else H[: self.n]))
 
-    def reading_slopes(self, run: Run, params: Mapping[str, Mapping[str, Array]]) -> Array:
+    def reading_jacobian(self, run: Run, params: Mapping[str, Mapping[str, Array]]) -> Array:
         """Derivatives of angles and rates as they are read by those that are, the same in every row, (2 n, 2 n)."""
         n, unit = self.n, np.eye(self.n)
         still = np.zeros((n + 1, n))

@@ -87,7 +87,7 @@ def _linearise(  # type: ignore[no-untyped-def]
     given[4 * n + n_u :] = values
     at_reference[4 * n + n_u :] = reference
     out, out_inertia = np.empty(n + n * n + n * n2), np.empty(n + n * n)
-    M, rhs, slopes = np.empty((n, n)), np.empty((n, 1)), np.empty((n, n2 + n + n))
+    M, rhs, sensitivities = np.empty((n, n)), np.empty((n, 1)), np.empty((n, n2 + n + n))
     A, E, S = np.zeros((n2, n2)), np.empty((n2, n2)), np.empty((n2, n2))
     for i in range(n):
         A[i, n + i] = 1.0
@@ -131,23 +131,23 @@ def _linearise(  # type: ignore[no-untyped-def]
             for i in range(n):
                 for j in range(n):
                     M[i, j] = out[n + n * j + i]
-            slopes[:] = 0.0
+            sensitivities[:] = 0.0
             for i in range(n):
                 rhs[i, 0] = 0.0
                 if sign[k, i] != 0.0:
                     rhs[i, 0] = held[r, i] - out[i]
                     for j in range(n2):
-                        slopes[i, j] = -out[n + n * n + n * j + i]
-                    slopes[i, n2 + i] = 1.0
+                        sensitivities[i, j] = -out[n + n * n + n * j + i]
+                    sensitivities[i, n2 + i] = 1.0
                     for j in range(n):
                         if sign[k, j] == 0.0:
-                            slopes[i, n2 + n + j] = -M[i, j]
+                            sensitivities[i, n2 + n + j] = -M[i, j]
                             rhs[i, 0] -= M[i, j] * (prescribed[j] - acc[j])
                 else:
                     rhs[i, 0] = prescribed[i] - acc[i]
-                    slopes[i, n2 + n + i] = 1.0
+                    sensitivities[i, n2 + n + i] = 1.0
             _constrain(M, sign[k])
-            both = np.concatenate((rhs, slopes), axis=1)
+            both = np.concatenate((rhs, sensitivities), axis=1)
             _solve(M, both)
             call_at(inertia, at_reference, out_inertia)
             for i in range(n):

@@ -1,15 +1,15 @@
 """Identification of an arm's springs and friction, and how well an identified model predicts (thesis 3.3 and 4.2).
 
-==================  ============================================================================
-free.py             which parameters may move, as coordinates about a model's values
-swarm.py            the thesis's particle swarm (Table 2), which lowers Eq. 19
-thesis_swarm.py     its five parameters by that swarm
-nrmse.py            Eq. 19
-scores.py           Eq. 19 of every run, simulated open loop (Table 4, Fig. 9)
-estimate.py         one value with its interval
-identified.py       the identified model (Table 3)
-local_slopes.py     slopes of measured signals
-==================  ============================================================================
+====================  ============================================================================
+free.py               which parameters may move, as coordinates about a model's values
+swarm.py              the thesis's particle swarm (Table 2), which lowers Eq. 19
+thesis_swarm.py       its five parameters by that swarm
+nrmse.py              Eq. 19
+scores.py             Eq. 19 of every run, simulated open loop (Table 4, Fig. 9)
+estimate.py           one value with its interval
+identified.py         the identified model (Table 3)
+local_derivatives.py  derivatives of measured signals
+====================  ============================================================================
 
 The fit by maximum likelihood needs the grey-box model and stands above: `continuum.discovery.parameter_fit`.
 """

@@ -6,7 +6,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.reading import Reading
-from continuum.identification.local_slopes import local_slope
+from continuum.identification.local_derivatives import local_derivative
 from continuum.recordings.recording import Recording
 
 
@@ -42,4 +42,4 @@ def measured_rates(recording: Recording) -> Array:
     if recording.theta_rate is not None:
         return recording.theta_rate
     rows = range(recording.times.size)
-    return np.stack([local_slope(recording.times, recording.theta, row, degree=3) for row in rows])
+    return np.stack([local_derivative(recording.times, recording.theta, row, degree=3) for row in rows])

@@ -20,7 +20,7 @@ from continuum.dynamics.model import Model
 from continuum.dynamics.simulation_input import initial_state
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
-from continuum.identification.local_slopes import local_slope
+from continuum.identification.local_derivatives import local_derivative
 from continuum.identification.nrmse import measured_rates, nrmse
 from continuum.recordings.recording import Recording
 
@@ -75,7 +75,7 @@ def nearest_simulation(simulator: Simulator, recording: Recording) -> Trajectory
     """
     model, n = simulator.model, recording.n_joints
     inputs = recording.inputs_for(model).later(lateness(model))
-    rates = local_slope(recording.times, recording.theta, 0, degree=2)
+    rates = local_derivative(recording.times, recording.theta, 0, degree=2)
     free = np.zeros((simulator.equations.values.size, 2 * n))
     by_initial = np.eye(2 * n + model.n_states, 2 * n)
 
@@ -92,7 +92,7 @@ def nearest_simulation(simulator: Simulator, recording: Recording) -> Trajectory
         return np.asarray((as_read(model, found).theta - recording.theta).ravel())
 
     def jacobian(x: Array) -> Array:
-        return np.asarray(simulated(tuple(x)).slopes[:, :n].reshape(recording.theta.size, 2 * n))
+        return np.asarray(simulated(tuple(x)).sensitivities[:, :n].reshape(recording.theta.size, 2 * n))
 
     begin = np.concatenate([recording.theta[0], rates])
     first = simulated(tuple(begin))

@@ -13,7 +13,7 @@ import numpy as np
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.kinematics.cables.eq08_lengths import chords
-from continuum.kinematics.cables.eq26_rates import chord_slopes
+from continuum.kinematics.cables.eq26_rates import chord_jacobian
 from continuum.kinematics.chain import arm_jacobian, arm_pose
 from continuum.kinematics.routing import cables_through
 
@@ -67,5 +67,5 @@ def lengths_of_joints(bends: Array, arm: Arm, index: int) -> Array:
 def length_rates_of_joints(bends: Array, rates: Array, arm: Arm, index: int) -> Array:
     """Rates (..., n_cables through it) [m/s] of `lengths_of_joints`, at ``rates`` (..., n_joints, 2) [rad/s]."""
     routing = cables_through(arm, index)
-    slopes = chord_slopes(bends, arm.sections[index].b, 1, routing.a, routing.azimuths)
-    return np.asarray((slopes @ rates[..., None])[..., 0].sum(axis=-2))
+    jacobian = chord_jacobian(bends, arm.sections[index].b, 1, routing.a, routing.azimuths)
+    return np.asarray((jacobian @ rates[..., None])[..., 0].sum(axis=-2))

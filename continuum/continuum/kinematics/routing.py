@@ -20,7 +20,7 @@ from continuum.kinematics.cables import (
     configuration_from_cables,
 )
 from continuum.kinematics.cables.eq08_lengths import chords
-from continuum.kinematics.cables.eq26_rates import chord_slopes
+from continuum.kinematics.cables.eq26_rates import chord_jacobian
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ def tangle_jacobian(w: Array, arm: Arm) -> Array:
     Columns: u, v of section 1, of section 2, ... A cable that ends before a section does not depend on it.
     """
     routing = arm_routing(arm)
-    blocks = np.moveaxis(chord_slopes(w, routing.b, routing.n_joints, routing.a, routing.azimuths), -3, -2)
+    blocks = np.moveaxis(chord_jacobian(w, routing.b, routing.n_joints, routing.a, routing.azimuths), -3, -2)
     return blocks.reshape(*blocks.shape[:-2], -1)
 
 

@@ -30,7 +30,7 @@ def versine(x: Real) -> Real:
     return 0.5 * half * half
 
 
-def sinc_slope(x: Real) -> Real:
+def sinc_derivative(x: Real) -> Real:
     """sinc'(x) / x = (x cos x - sin x) / x^3."""
     small = np.abs(x) < _SMALL
     y = x * x * small

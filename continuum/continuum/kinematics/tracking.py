@@ -146,8 +146,8 @@ class Tracker:
     def _predict(self, dt: float) -> Array:
         """Configuration after ``dt`` [s] from the last two rates (Adams and Bashforth, second order)."""
         newest = self._rates[-1]
-        slope = 0.5 * (newest - self._rates[-2]) if len(self._rates) > 1 else 0.0
-        return self.configuration + dt * (newest + slope)
+        derivative = 0.5 * (newest - self._rates[-2]) if len(self._rates) > 1 else 0.0
+        return self.configuration + dt * (newest + derivative)
 
     def _rate_of_nearest(self, target: Target, velocity: Array, angular_velocity: Array | None) -> Array:
         """How the posture nearest to a target out of reach moves with it: central difference of two such postures."""

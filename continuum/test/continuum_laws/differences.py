@@ -24,13 +24,13 @@ def differences(function: Callable[[np.ndarray], np.ndarray], at: ArrayLike, ste
 
 def geometric_jacobian(pose: Callable[[np.ndarray], np.ndarray], at: ArrayLike) -> np.ndarray:
     """Linear velocity of a pose's origin and its angular velocity, (..., 6, k), for coordinates ``at`` (..., k)."""
-    slopes = differences(pose, at)
-    spins = np.einsum("...ijk,...lj->...ilk", slopes[..., :3, :3, :], pose(np.asarray(at))[..., :3, :3])
+    sensitivities = differences(pose, at)
+    spins = np.einsum("...ijk,...lj->...ilk", sensitivities[..., :3, :3, :], pose(np.asarray(at))[..., :3, :3])
     angular = np.stack([spins[..., 2, 1, :], spins[..., 0, 2, :], spins[..., 1, 0, :]], axis=-2)
-    return np.concatenate([slopes[..., :3, 3, :], angular], axis=-2)
+    return np.concatenate([sensitivities[..., :3, 3, :], angular], axis=-2)
 
 
-def assert_same_slopes(found: np.ndarray, expected: np.ndarray, relative: float = 1e-9) -> None:
+def assert_same_derivatives(found: np.ndarray, expected: np.ndarray, relative: float = 1e-9) -> None:
     """Matrices (..., m, k) agree, each measured by its own largest entry."""
     assert found.shape == expected.shape
     scale = np.max(np.abs(expected), axis=(-2, -1), keepdims=True)

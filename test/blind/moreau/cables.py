@@ -22,7 +22,7 @@ def lengths(angle: np.ndarray, a: float, b: float) -> np.ndarray:
 
 
 @compiled
-def slopes(angle: np.ndarray, a: float, b: float) -> np.ndarray:
+def sensitivities(angle: np.ndarray, a: float, b: float) -> np.ndarray:
     """Length of each chord by its joint's angle (2, 5) [m/rad]."""
     slope = np.empty((2, JOINTS))
     for i in range(JOINTS):

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from blind.moreau.cables import lengths, slopes
+from blind.moreau.cables import lengths, sensitivities
 from blind.moreau.chain import Chain, equations, gravity, to_hinges
 from blind.moreau.compiled import compiled, digest_of_sources, kept
 from blind.moreau.joints import add_magnets_and_rubbing, add_presliding, add_springs, angles, dry_friction, push
@@ -58,7 +58,7 @@ def step(m: Mechanism, chain: Chain, state: State, command: np.ndarray, let_go: 
     else:
         state.pulling[:] = pulls(m, state, command, lengths(angle, m.hole_radius, m.half_spacing), dt)
         if state.pulling.any():
-            chords = slopes(angle, m.hole_radius, m.half_spacing)
+            chords = sensitivities(angle, m.hole_radius, m.half_spacing)
             tension = rub_cables(laws, m, chain, state, angle, chords, dt)
             for i in range(JOINTS):
                 push(chain, i, -state.pulling[0] * chords[0, i] - state.pulling[1] * chords[1, i], torque)

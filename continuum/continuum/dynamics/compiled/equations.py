@@ -52,9 +52,9 @@ class CompiledEquations:
         return self._machine_code("newton")
 
     @cached_property
-    def slopes(self) -> Any:
-        """Machine code of `SymbolicBalance.slopes`, made when first asked for."""
-        return self._machine_code("slopes")
+    def sensitivities(self) -> Any:
+        """Machine code of `SymbolicBalance.sensitivities`, made when first asked for."""
+        return self._machine_code("sensitivities")
 
     def _machine_code(self, name: str) -> Any:
         return found_or_compiled(self._key, name, lambda: getattr(self._symbols, name))
@@ -65,10 +65,10 @@ class CompiledEquations:
         out = self._call(self.newton, m * (1 + m + self.n_x), x, v, u, p)
         return out[:m], out[m : m + m * m].reshape(m, m).T, out[m + m * m :].reshape(self.n_x, m).T
 
-    def parameter_slopes(self, x: Array, v: Array, u: Array, p: Array | None = None) -> Array:
+    def parameter_jacobian(self, x: Array, v: Array, u: Array, p: Array | None = None) -> Array:
         """dr/dp, (n_v, n_p)."""
         m, n_p = self.n_rates, self.values.size
-        out = self._call(self.slopes, m * (1 + m + self.n_x + n_p), x, v, u, p)
+        out = self._call(self.sensitivities, m * (1 + m + self.n_x + n_p), x, v, u, p)
         return out[m * (1 + m + self.n_x) :].reshape(n_p, m).T
 
     def rates(self, x: Array, u: Array, p: Array | None = None) -> Array:

@@ -70,12 +70,12 @@ class SymbolicBalance:
         return self._function("newton", [self._derivative(self._v), self._derivative(self._x)])
 
     @cached_property
-    def slopes(self) -> casadi.Function:
+    def sensitivities(self) -> casadi.Function:
         """r, J, dr/dx, dr/dp."""
         by_v, by_x, by_p = (self._derivative(symbols) for symbols in (self._v, self._x, self._p))
         J = by_v + self._hg * by_x[:, self._n :]
         J[:, : self._n] += self._hg**2 * by_x[:, : self._n]
-        return self._function("slopes", [J, by_x, by_p])
+        return self._function("sensitivities", [J, by_x, by_p])
 
     def _function(self, name: str, matrices: list[Any]) -> casadi.Function:
         wanted = casadi.vertcat(self._r, *(casadi.vec(casadi.densify(matrix)) for matrix in matrices))

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from continuum.dynamics.integration.compiled_loops import compiled, entry_point
-from continuum.dynamics.integration.esdirk_step import first_stage, slopes_of_stages, solve_stages
+from continuum.dynamics.integration.esdirk_step import first_stage, sensitivities_of_stages, solve_stages
 from continuum.dynamics.integration.inputs_at import jumps_at
 from continuum.dynamics.integration.problem import work_for
 from continuum.dynamics.integration.step_size import FIRST_STEP, error_size, longer, shorter, step_towards
@@ -31,15 +31,15 @@ def _next_bend(input_times, t):  # type: ignore[no-untyped-def]
 
 
 @entry_point
-def integrate(problem, method, x0, times, slope0):  # type: ignore[no-untyped-def]
+def integrate(problem, method, x0, times, sensitivity0):  # type: ignore[no-untyped-def]
     """States (n_times, n_x), their slopes (n_times, n_x, n_free), steps taken, refused, index into `STATUSES`."""
-    x, slope, free = x0.copy(), slope0.copy(), slope0.shape[1]
+    x, sensitivity, free = x0.copy(), sensitivity0.copy(), sensitivity0.shape[1]
     work = work_for(problem, x.size, free, method.c.size)
-    states, slopes = np.full((times.size, x.size), np.nan), np.full((times.size, x.size, free), np.nan)
-    states[0], slopes[0] = x, slope
+    states, sensitivities = np.full((times.size, x.size), np.nan), np.full((times.size, x.size, free), np.nan)
+    states[0], sensitivities[0] = x, sensitivity
     t, taken, refused = times[0], 0, 0
-    if not first_stage(problem, method, work, t, x, slope):
-        return states, slopes, taken, refused, _NOT_FINITE
+    if not first_stage(problem, method, work, t, x, sensitivity):
+        return states, sensitivities, taken, refused, _NOT_FINITE
     wanted, size_before, just_refused = FIRST_STEP, 1.0, False
     for k in range(1, times.size):
         most = taken + refused + method.most_steps
@@ -48,27 +48,27 @@ def integrate(problem, method, x0, times, slope0):  # type: ignore[no-untyped-de
             shortest = _ONE_INSTANT * max(1.0, abs(t))
             if stop - t < shortest:  # an output and a bend, or two bends; the inputs may jump
                 t = stop
-                if not first_stage(problem, method, work, t, x, slope):
-                    return states, slopes, taken, refused, _NOT_FINITE
+                if not first_stage(problem, method, work, t, x, sensitivity):
+                    return states, sensitivities, taken, refused, _NOT_FINITE
                 continue
             step, ends = step_towards(stop, t, min(wanted, method.max_step))
             if step < shortest or taken + refused > most:
-                return states, slopes, taken, refused, _STEP_TOO_SMALL
+                return states, sensitivities, taken, refused, _STEP_TOO_SMALL
             size, new = np.inf, work.states[-1]
             if solve_stages(problem, method, work, t, x, step):
                 size = error_size(step, method.error, work.rates, x, new, method.relative, method.absolute)
             if not size <= 1.0:
                 wanted, refused, just_refused = shorter(step, size, method.order), refused + 1, True
                 continue
-            if free > 0 and not slopes_of_stages(problem, method, work, t, step, slope):
-                return states, slopes, taken, refused, _NOT_FINITE
+            if free > 0 and not sensitivities_of_stages(problem, method, work, t, step, sensitivity):
+                return states, sensitivities, taken, refused, _NOT_FINITE
             grown = longer(step, size, size_before, method.order, just_refused)
             wanted = max(wanted, grown) if ends else grown  # a step cut short says nothing against a longer one
             size_before, just_refused = size, False
-            x[:], work.rates[0], work.rate_slopes[0] = new, work.rates[-1], work.rate_slopes[-1]
+            x[:], work.rates[0], work.rate_sensitivities[0] = new, work.rates[-1], work.rate_sensitivities[-1]
             t, taken = stop if ends else t + step, taken + 1
-            if ends and jumps_at(t, problem.input_times) and not first_stage(problem, method, work, t, x, slope):
-                return states, slopes, taken, refused, _NOT_FINITE
-        states[k], slopes[k] = x, slope
+            if ends and jumps_at(t, problem.input_times) and not first_stage(problem, method, work, t, x, sensitivity):
+                return states, sensitivities, taken, refused, _NOT_FINITE
+        states[k], sensitivities[k] = x, sensitivity
     status = _COMPLETE if np.all(np.isfinite(states)) else _NOT_FINITE
-    return states, slopes, taken, refused, status
+    return states, sensitivities, taken, refused, status

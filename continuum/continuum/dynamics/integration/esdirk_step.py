@@ -5,11 +5,11 @@ from __future__ import annotations
 from continuum.dynamics.integration.compiled_loops import compiled
 from continuum.dynamics.integration.inputs_at import inputs_at
 from continuum.dynamics.integration.stage_newton import solve_stage
-from continuum.dynamics.integration.stage_slopes import stage_slopes
+from continuum.dynamics.integration.stage_sensitivities import stage_sensitivities
 
 
 @compiled
-def first_stage(problem, method, work, t, x, slope):  # type: ignore[no-untyped-def]
+def first_stage(problem, method, work, t, x, sensitivity):  # type: ignore[no-untyped-def]
     """Rates at ``t`` and their slopes, with which the first step begins; whether there are any."""
     n = problem.n_joints
     v = work.rates[0, n:]
@@ -17,7 +17,7 @@ def first_stage(problem, method, work, t, x, slope):  # type: ignore[no-untyped-
     if not solve_stage(problem, method, work, x, v, 0.0, False):
         return False
     work.rates[0, :n] = x[n : 2 * n]
-    return slope.shape[1] == 0 or stage_slopes(problem, work, slope, 0.0, work.rate_slopes[0])
+    return sensitivity.shape[1] == 0 or stage_sensitivities(problem, work, sensitivity, 0.0, work.rate_sensitivities[0])
 
 
 @compiled
@@ -39,18 +39,20 @@ def solve_stages(problem, method, work, t, x, step):  # type: ignore[no-untyped-
 
 
 @compiled
-def slopes_of_stages(problem, method, work, t, step, slope):  # type: ignore[no-untyped-def]
+def sensitivities_of_stages(problem, method, work, t, step, sensitivity):  # type: ignore[no-untyped-def]
     """Slopes at the end of a step whose stages are solved, in place of those at its start; whether there are any."""
-    n, n_x = problem.n_joints, slope.shape[0]
+    n, n_x = problem.n_joints, sensitivity.shape[0]
     for i in range(1, method.c.size):
-        _stage_base(work.base_slope, slope, step, method.a[i, :i], work.rate_slopes)
+        _stage_base(work.base_sensitivity, sensitivity, step, method.a[i, :i], work.rate_sensitivities)
         work.packed[:n_x] = work.states[i]
         work.packed[n_x : n_x + work.pivots.size] = work.rates[i, n:]
         inputs_at(t, t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
-        if not stage_slopes(problem, work, work.base_slope, step * method.a[i, i], work.rate_slopes[i]):
+        if not stage_sensitivities(
+            problem, work, work.base_sensitivity, step * method.a[i, i], work.rate_sensitivities[i]
+        ):
             return False
-    slope[:] = work.base_slope  # the last stage is the result
-    _add(slope, step * method.a[-1, -1], work.rate_slopes[-1])
+    sensitivity[:] = work.base_sensitivity  # the last stage is the result
+    _add(sensitivity, step * method.a[-1, -1], work.rate_sensitivities[-1])
     return True
 
 

@@ -17,7 +17,7 @@ class Problem(NamedTuple):
     """What is integrated.
 
     Attributes:
-        residual, stage, slopes: addresses of a model's machine code; ``slopes`` is 0 where none are asked for.
+        residual, stage, sensitivities: addresses of a model's machine code; the last is 0 where none are asked for.
         n_joints: number of joints.
         p: parameter values, (n_p,).
         input_times, inputs: what drives the arm, (rows,) [s] and (rows, n_inputs), as `InputSignal.rows`.
@@ -27,7 +27,7 @@ class Problem(NamedTuple):
 
     residual: int
     stage: int
-    slopes: int
+    sensitivities: int
     n_joints: int
     p: Array
     input_times: Array
@@ -73,10 +73,10 @@ class Work(NamedTuple):
     further: Array
     row: Array
     base: Array
-    base_slope: Array
+    base_sensitivity: Array
     states: Array
     rates: Array
-    rate_slopes: Array
+    rate_sensitivities: Array
 
 
 @compiled
@@ -95,8 +95,8 @@ def work_for(problem, n_x, n_free, stages):  # type: ignore[no-untyped-def]
         further=np.empty((n_v, 1)),
         row=np.empty(n_free),
         base=np.empty(n_x),
-        base_slope=np.empty((n_x, n_free)),
+        base_sensitivity=np.empty((n_x, n_free)),
         states=np.empty((stages, n_x)),
         rates=np.zeros((stages, n_x)),
-        rate_slopes=np.zeros((stages, n_x, n_free)),
+        rate_sensitivities=np.zeros((stages, n_x, n_free)),
     )

@@ -41,7 +41,7 @@ def simulate_bdf(
     drive, limits = suitable_inputs(model, inputs), tolerances or Tolerances()
     rates = numpy_state_space(model) if equations is None else equations.rates
     jacobian = None if equations is None else (lambda t, x: equations.jacobian(x, drive.at(t)))
-    nothing, no_slopes = np.full((times.size, x0.size), np.nan), np.zeros((times.size, x0.size, 0))
+    nothing, no_sensitivities = np.full((times.size, x0.size), np.nan), np.zeros((times.size, x0.size, 0))
     try:
         done = solve_ivp(
             lambda t, x: rates(x, drive.at(t)),
@@ -56,8 +56,8 @@ def simulate_bdf(
             max_step=limits.max_step,
         )
     except ValueError:  # linear algebra was given what is not finite, or singular
-        return Trajectory(SimulationStatus.NOT_FINITE, times, nothing, model.n_joints, 0, 0, no_slopes)
+        return Trajectory(SimulationStatus.NOT_FINITE, times, nothing, model.n_joints, 0, 0, no_sensitivities)
     status = SimulationStatus.COMPLETE if done.success else SimulationStatus.STEP_TOO_SMALL
     states = nothing
     states[: done.y.shape[1]] = done.y.T
-    return Trajectory(status, times, states, model.n_joints, done.sol.ts.size - 1, 0, no_slopes)
+    return Trajectory(status, times, states, model.n_joints, done.sol.ts.size - 1, 0, no_sensitivities)

@@ -22,7 +22,7 @@ def chord_lengths(theta: Numbers, p: Parameters) -> Numbers:
     return 2 * (p.half_spacing[:, None] * np.cos(half) - SIDES * p.hole_radius[:, None] * np.sin(half))
 
 
-def chord_slopes(theta: Numbers, p: Parameters) -> Numbers:
+def chord_jacobian(theta: Numbers, p: Parameters) -> Numbers:
     """d l / d theta of the same, (n, n_cables) [m/rad]."""
     half = theta[:, None] / 2
     return -(p.half_spacing[:, None] * np.sin(half) + SIDES * p.hole_radius[:, None] * np.cos(half))
@@ -35,4 +35,4 @@ def cable_lengths(theta: Array, p: Parameters) -> Array:
 
 def cable_rates(theta: Array, rate: Array, p: Parameters) -> Array:
     """Their rates, positive when a cable gets longer, (n_cables,) [m/s]."""
-    return np.asarray(rate @ chord_slopes(theta, p))
+    return np.asarray(rate @ chord_jacobian(theta, p))

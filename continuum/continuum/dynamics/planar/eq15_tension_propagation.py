@@ -13,7 +13,7 @@ import numpy as np
 
 from continuum.dynamics.expressions import Numbers, smooth_sign, suffix_sum
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.cables import chord_slopes
+from continuum.dynamics.planar.cables import chord_jacobian
 
 
 def tension_propagation(theta: Numbers, slip_rate: Numbers, p: Parameters) -> Numbers:
@@ -23,7 +23,7 @@ def tension_propagation(theta: Numbers, slip_rate: Numbers, p: Parameters) -> Nu
         theta, slip_rate: of the joints, (n,) [rad, rad/s].
         p: parameters.
     """
-    taken_in = -suffix_sum(chord_slopes(theta, p) * slip_rate[:, None])  # cable speed over each disc [m/s]
+    taken_in = -suffix_sum(chord_jacobian(theta, p) * slip_rate[:, None])  # cable speed over each disc [m/s]
     losing = smooth_sign(taken_in, p.cable_slope)
     return np.exp(-p.capstan_friction * np.cumsum(losing * wrap_angles(theta)[:, None], axis=0))
 

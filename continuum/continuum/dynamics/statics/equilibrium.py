@@ -83,33 +83,33 @@ def solve_pull(arm: RestingArm, load: Load, y: Array, torque: Array | None = Non
     wanted = np.zeros(y.size)
     if torque is not None:
         wanted[: torque.size] = torque
-    pull, slope = arm.pull(y, load, share)
+    pull, sensitivity = arm.pull(y, load, share)
     enough = _SOLVED * max(1.0, float(np.abs(pull).max()))
     for _ in range(_MOST_ITERATIONS):
         size = float(np.abs(pull - wanted).max())
         if size <= enough:
             return y
-        if not (np.isfinite(size) and np.all(np.isfinite(slope))):
+        if not (np.isfinite(size) and np.all(np.isfinite(sensitivity))):
             return None
-        step, part = np.linalg.lstsq(slope, wanted - pull, rcond=1e-12)[0], 1.0
+        step, part = np.linalg.lstsq(sensitivity, wanted - pull, rcond=1e-12)[0], 1.0
         part = min(part, 0.5 / max(float(np.abs(step).max()), 1e-300))  # rad: half a turn is another branch
         while part > 1e-4:
-            tried, tried_slope = arm.pull(y + part * step, load, share)
+            tried, tried_sensitivity = arm.pull(y + part * step, load, share)
             if float(np.abs(tried - wanted).max()) < size:
                 break
             part /= 2
         else:
             return None
-        y, pull, slope = y + part * step, tried, tried_slope
+        y, pull, sensitivity = y + part * step, tried, tried_sensitivity
     return None
 
 
-def joint_stiffness(slope: Array, n: int) -> Array:
+def joint_stiffness(sensitivity: Array, n: int) -> Array:
     """Slope of the joints' torques alone, the states of effects following, (n, n)."""
-    if slope.shape[0] == n:
-        return slope
-    following = -np.linalg.lstsq(slope[n:, n:], slope[n:, :n], rcond=1e-12)[0]
-    return np.asarray(slope[:n, :n] + slope[:n, n:] @ following)
+    if sensitivity.shape[0] == n:
+        return sensitivity
+    following = -np.linalg.lstsq(sensitivity[n:, n:], sensitivity[n:, :n], rcond=1e-12)[0]
+    return np.asarray(sensitivity[:n, :n] + sensitivity[:n, n:] @ following)
 
 
 def _grown(arm: RestingArm, load: Load) -> Array | None:

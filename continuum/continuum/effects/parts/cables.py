@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from continuum.dynamics.expressions import Numbers, where_positive
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.cables import chord_lengths, chord_slopes
+from continuum.dynamics.planar.cables import chord_jacobian, chord_lengths
 from continuum.dynamics.planar.motion import Motion
 
 _LET_GO = 0.1
@@ -18,7 +18,7 @@ def lengthening(move: Motion, p: Parameters) -> Numbers:
 
 def lengthening_rate(move: Motion, p: Parameters) -> Numbers:
     """Rate of the same, (n_cables,) [m/s]."""
-    return (chord_slopes(move.theta, p) * move.theta_rate[:, None]).sum(axis=0)
+    return (chord_jacobian(move.theta, p) * move.theta_rate[:, None]).sum(axis=0)
 
 
 def led(u: Numbers) -> Numbers:

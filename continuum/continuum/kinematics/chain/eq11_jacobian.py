@@ -10,7 +10,7 @@ from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.kinematics.chain.eq10_pose import along_the_arm
 from continuum.kinematics.rigid import Entries3, Entries9, cross, rotated, vector
-from continuum.kinematics.section.eq21_jacobian import position_slopes, rotation_slopes
+from continuum.kinematics.section.eq21_jacobian import position_jacobian, rotation_jacobian
 
 TipVelocity = tuple[Entries3, Entries3]
 """Linear [m/rad] and angular [rad/rad] velocity of the arm's tip per rate of one coordinate."""
@@ -31,8 +31,8 @@ def section_columns(
         b: of the section [m].
         n_joints: of the section.
     """
-    linear_u, linear_v = position_slopes(u, v, b, n_joints)
-    angular_u, angular_v = rotation_slopes(u, v)
+    linear_u, linear_v = position_jacobian(u, v, b, n_joints)
+    angular_u, angular_v = rotation_jacobian(u, v)
     return _carried(base, lever, linear_u, angular_u), _carried(base, lever, linear_v, angular_v)
 
 

@@ -18,6 +18,6 @@ def arc_rates(theta: Array, theta_rate: Array, section: Section) -> tuple[Array,
     """
     x = np.asarray(theta, dtype=float) / (2 * section.n_joints)
     kappa = curvature(np.asarray(theta, dtype=float), section)
-    kappa_slope = (kappa**2 * section.b + 1 / section.b) / (2 * section.n_joints)
-    arc_slope = -4 * section.b * x * one_minus_sinc(2 * x) / sinc(x) ** 2
-    return kappa_slope * theta_rate, arc_slope * theta_rate
+    kappa_derivative = (kappa**2 * section.b + 1 / section.b) / (2 * section.n_joints)
+    arc_derivative = -4 * section.b * x * one_minus_sinc(2 * x) / sinc(x) ** 2
+    return kappa_derivative * theta_rate, arc_derivative * theta_rate

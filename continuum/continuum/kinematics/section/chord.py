@@ -22,7 +22,7 @@ def chord_length(theta: Real, b: float, n_joints: int) -> Real:
     return total
 
 
-def chord_slope(theta: Real, b: float, n_joints: int) -> Real:
+def chord_derivative(theta: Real, b: float, n_joints: int) -> Real:
     """(d chord / d theta) / theta [m/rad^2], finite in the straight posture."""
     total = -0.5 * b * sinc(0.5 * theta)
     for k in range(1, (n_joints + 1) // 2):

@@ -8,26 +8,26 @@ from continuum.arm import Section
 from continuum.arrays import Array
 from continuum.kinematics.configuration import allen_from_jones, allen_rate_jacobian
 from continuum.kinematics.rigid import Entries3, vector
-from continuum.kinematics.section.chord import chord_length, chord_slope
+from continuum.kinematics.section.chord import chord_derivative, chord_length
 from continuum.kinematics.section.eq04_pose import section_position
-from continuum.kinematics.smooth_functions import Real, one_minus_sinc, sinc, sinc_slope, versine
+from continuum.kinematics.smooth_functions import Real, one_minus_sinc, sinc, sinc_derivative, versine
 
 
-def position_slopes(u: Real, v: Real, b: float, n_joints: int) -> tuple[Entries3, Entries3]:
+def position_jacobian(u: Real, v: Real, b: float, n_joints: int) -> tuple[Entries3, Entries3]:
     """Velocity of the tip point [m/rad] per rate of u, and per rate of v, at (u, v) [rad]; ``b`` [m]."""
     theta = np.hypot(u, v)
     half = 0.5 * theta
-    chord, slope = chord_length(theta, b, n_joints), chord_slope(theta, b, n_joints)
+    chord, derivative = chord_length(theta, b, n_joints), chord_derivative(theta, b, n_joints)
     lateral = 0.5 * chord * sinc(half)
     # Slopes over theta: d f(theta) / d (u, v) = (f'(theta) / theta) (u, v).
-    lateral_slope = 0.5 * (slope * sinc(half) + 0.25 * chord * sinc_slope(half))
-    axial_slope = slope * np.cos(half) - 0.25 * chord * sinc(half)
-    along_u = (lateral_slope * u * v, -lateral_slope * u * u - lateral, axial_slope * u)
-    along_v = (lateral_slope * v * v + lateral, -lateral_slope * u * v, axial_slope * v)
+    lateral_derivative = 0.5 * (derivative * sinc(half) + 0.25 * chord * sinc_derivative(half))
+    axial_derivative = derivative * np.cos(half) - 0.25 * chord * sinc(half)
+    along_u = (lateral_derivative * u * v, -lateral_derivative * u * u - lateral, axial_derivative * u)
+    along_v = (lateral_derivative * v * v + lateral, -lateral_derivative * u * v, axial_derivative * v)
     return along_u, along_v
 
 
-def rotation_slopes(u: Real, v: Real) -> tuple[Entries3, Entries3]:
+def rotation_jacobian(u: Real, v: Real) -> tuple[Entries3, Entries3]:
     """Angular velocity of the tip [rad/rad] per rate of u, and per rate of v, at (u, v) [rad].
 
     These are the first two columns of the left Jacobian of SO(3) at the rotation vector (u, v, 0).
@@ -45,8 +45,8 @@ def section_jacobian(w: Array, section: Section) -> Array:
     Rows: linear velocity of the tip point [m/rad], then angular velocity [rad/rad]; columns: u, v.
     """
     u, v = w[..., 0], w[..., 1]
-    linear = [vector(column) for column in position_slopes(u, v, section.b, section.n_joints)]
-    angular = [vector(column) for column in rotation_slopes(u, v)]
+    linear = [vector(column) for column in position_jacobian(u, v, section.b, section.n_joints)]
+    angular = [vector(column) for column in rotation_jacobian(u, v)]
     return np.concatenate([np.stack(linear, axis=-1), np.stack(angular, axis=-1)], axis=-2)
 
 

@@ -38,15 +38,15 @@ def configuration_from_point_jacobian(point: Array) -> Array:
     theta = 2.0 * np.arctan2(radius, z)
     with np.errstate(divide="ignore", invalid="ignore"):
         per_radius = np.where(near_axis, 2.0 * _atan_ratio(radius / safe_z) / safe_z, theta / safe_radius)
-        slope = np.where(
+        derivative = np.where(
             near_axis,
             polynomial.polyval((radius / safe_z) ** 2, _SERIES) / safe_z**3,
             (2.0 * z * radius / distance_squared - theta) / safe_radius**3,
         )
         along_z = -2.0 / distance_squared
     rows = [
-        [-slope * x * y, -slope * y * y - per_radius, -along_z * y],
-        [slope * x * x + per_radius, slope * x * y, along_z * x],
+        [-derivative * x * y, -derivative * y * y - per_radius, -along_z * y],
+        [derivative * x * x + per_radius, derivative * x * y, along_z * x],
     ]
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 

@@ -9,7 +9,7 @@ from continuum.arrays import Array
 _HALF = 3  # samples to each side
 
 
-def local_slope(times: Array, signals: Array, row: int, degree: int) -> Array:
+def local_derivative(times: Array, signals: Array, row: int, degree: int) -> Array:
     """Slope at one sample, times as they are, however uneven.
 
     Args:
