@@ -130,8 +130,8 @@ def test_what_a_package_imports_is_declared(package: str) -> None:
 @each_package
 def test_what_its_tests_import_is_declared(package: str) -> None:
     tests = sources(package, "test")
-    beside = {*tests.values(), *(ROOT / "test").iterdir()}
-    helpers = {path.stem for path in beside} | {path.parent.name for path in beside}
+    siblings = {*tests.values(), *(ROOT / "test").iterdir()}
+    helpers = {path.stem for path in siblings} | {path.parent.name for path in siblings}
     known = declared(package, "depend", "exec_depend", "test_depend") | {package} | WITHOUT_KEY | ONLY_IN_TESTS
     assert undeclared(tests, known | helpers) == []
 

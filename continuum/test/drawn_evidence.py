@@ -76,9 +76,9 @@ class Drawn:
 
 def log_integral(A: np.ndarray, b: np.ndarray, c: float, least: np.ndarray) -> float:
     """Log of the integral of exp(c + b'a - a'Aa / 2) over all a above their bounds, by points in every direction."""
-    center, spread = np.linalg.solve(A, b), np.sqrt(np.diag(np.linalg.inv(A)))
+    center, sds = np.linalg.solve(A, b), np.sqrt(np.diag(np.linalg.inv(A)))
     grids, factors = [], []
-    for low, middle, wide in zip(least, center, spread, strict=True):
+    for low, middle, wide in zip(least, center, sds, strict=True):
         begin, end = max(low, middle - 8 * wide), max(low, middle) + 8 * wide
         if middle < low:  # what is left falls off from the bound on
             end = low + min(8 * wide, 40 * wide**2 / (low - middle))

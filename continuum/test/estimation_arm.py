@@ -36,14 +36,14 @@ def drawn_values(random: np.random.Generator, with_effects: bool = True, **chang
     arm = Model(random_parameters(random, N))
     values[: parameter_vector(arm).size] = parameter_vector(arm)
     for effect in s.plain if with_effects else ():
-        for name, params in drawn_own(effect, random).items():
+        for name, params in drawn_params(effect, random).items():
             values[s.slots[f"{effect.name}.{name}"]] = params
     for name, value in changed.items():
         values[s.slots[name]] = value
     return values
 
 
-def drawn_own(effect: Effect, random: np.random.Generator) -> dict[str, np.ndarray]:
+def drawn_params(effect: Effect, random: np.random.Generator) -> dict[str, np.ndarray]:
     """An effect's parameters about typical, of either sign where that is allowed, every joint with its own."""
     found = {}
     for name, spec in effect.parameters.items():

@@ -92,8 +92,11 @@ class Dense:
             driven[to][: 2 * n] = reached - np.concatenate([way.q[k + 1], way.w[k + 1]])
             fresh = (noise.slow**2 * (1 - kept_b**2), noise.sigma**2 * (1 - kept_d**2))
             input_covariance.append(scipy.linalg.block_diag(step.noise[k], *map(np.diag, fresh)))
-        spread = np.linalg.inv(chain)
-        self._mean, self._covariance = spread @ driven, spread @ scipy.linalg.block_diag(*input_covariance) @ spread.T
+        inverse = np.linalg.inv(chain)
+        self._mean, self._covariance = (
+            inverse @ driven,
+            inverse @ scipy.linalg.block_diag(*input_covariance) @ inverse.T,
+        )
         one = np.hstack([given.seen.H, np.eye(size, n), np.zeros((size, n))])
         measured = run.live.ravel() > 0
         self._C = np.kron(np.eye(rows), one)[measured]

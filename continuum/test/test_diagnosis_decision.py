@@ -29,10 +29,10 @@ BOTH: Key = SPRING + DRAG
 NONE: Key = ()
 
 
-def candidate(effects: Key, error: float, spread: float = 0.03) -> Candidate:
+def candidate(effects: Key, error: float, scatter: float = 0.03) -> Candidate:
     """With open-loop errors of sixteen segments that differ by a few percent."""
     phases = 3.0 * np.arange(SEGMENTS) + len(effects)
-    return Candidate(effects, error * (1 + spread * np.cos(phases)), OBSERVATIONS)
+    return Candidate(effects, error * (1 + scatter * np.cos(phases)), OBSERVATIONS)
 
 
 def verdict(*others: Candidate, before: float = 0.03, tolerance: float = 0.009) -> Verdict:

@@ -40,10 +40,10 @@ def recording() -> Recording:
     return Recording("pull", TIMES, moved.theta + noise[0], moved.theta_rate + noise[1], Tensions(TIMES, pull(TIMES)))
 
 
-def simulation(recording: Recording, model: Model, sought: float | None) -> tuple[Simulators, State]:
+def simulation(recording: Recording, model: Model, searched: float | None) -> tuple[Simulators, State]:
     problem = problem_of(Structure(model, ["sensor_delay"]), [recording])
     state = fitted_baseline(problem)
-    active = {} if sought is None else {"sensor_delay": {"delay": np.array([sought])}}
+    active = {} if searched is None else {"sensor_delay": {"delay": np.array([searched])}}
     return Simulators(problem, (recording,)), replace(state, active=active)
 
 
@@ -54,8 +54,8 @@ def test_a_given_delay_is_a_delay_that_was_sought(recording: Recording) -> None:
     simulators, state = simulation(recording, given, None)
     angles = RunSimulation(simulators, state, 0).readings(ROWS, np.zeros(15))
     other, _ = simulation(recording, nominal(), None)
-    sought = replace(state, active={"sensor_delay": {"delay": np.array([DELAY])}})
-    again = RunSimulation(other, sought, 0).readings(ROWS, np.zeros(15))
+    searched = replace(state, active={"sensor_delay": {"delay": np.array([DELAY])}})
+    again = RunSimulation(other, searched, 0).readings(ROWS, np.zeros(15))
     np.testing.assert_allclose(again, angles, atol=1e-9)
     assert np.sqrt(np.mean((angles - recording.theta[ROWS]) ** 2)) < 0.01
 

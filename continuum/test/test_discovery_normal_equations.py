@@ -17,7 +17,7 @@ from continuum.discovery.unknowns import Unknown
 pytestmark = pytest.mark.slow
 
 COMMON, LOCAL, N, ROWS, FLOOR = 4, 6, 2, 15, 0.01
-RUNS, SEGMENTS, OWN = 3, (1, 2, 1), (1, 0, 2)
+RUNS, SEGMENTS, PER_RUN = 3, (1, 2, 1), (1, 0, 2)
 
 
 def unknown(random: np.random.Generator, low: float = -np.inf, high: float = np.inf) -> Unknown:
@@ -36,13 +36,15 @@ class Drawn:
         random = np.random.default_rng(seed)
         bounds = (-0.05, 0.05) if bounded else (-np.inf, np.inf)
         common = [unknown(random, *bounds) for _ in range(COMMON)]
-        self.unknowns = SimpleNamespace(common=common, per_run=tuple([unknown(random) for _ in range(m)] for m in OWN))
+        self.unknowns = SimpleNamespace(
+            common=common, per_run=tuple([unknown(random) for _ in range(m)] for m in PER_RUN)
+        )
         count = sum(SEGMENTS)
         self.values = Values(
-            np.zeros(COMMON), tuple(random.normal(0, 1, m) for m in OWN), tuple(random.normal(0, 1, (count, LOCAL)))
+            np.zeros(COMMON), tuple(random.normal(0, 1, m) for m in PER_RUN), tuple(random.normal(0, 1, (count, LOCAL)))
         )
         self.precision = random.uniform(0.5, 2, LOCAL) ** -2
-        widths = [(r, COMMON + OWN[r] + LOCAL + 1) for r in range(RUNS) for _ in range(SEGMENTS[r])]
+        widths = [(r, COMMON + PER_RUN[r] + LOCAL + 1) for r in range(RUNS) for _ in range(SEGMENTS[r])]
         self.segments = [drawn_segment(r, random.normal(0, 1, (ROWS * N, width))) for r, width in widths]
         self.scale = Scale(self.segments, FLOOR)
         self.weights = self.scale.weights([one.error for one in self.segments])
@@ -54,8 +56,8 @@ class Drawn:
     def columns(self, number: int) -> np.ndarray:
         """Where a segment's unknowns stand in the one vector."""
         run = self.segments[number].run
-        per_run = COMMON + sum(OWN[:run]) + np.arange(OWN[run])
-        local = COMMON + sum(OWN) + number * LOCAL + np.arange(LOCAL)
+        per_run = COMMON + sum(PER_RUN[:run]) + np.arange(PER_RUN[run])
+        local = COMMON + sum(PER_RUN) + number * LOCAL + np.arange(LOCAL)
         return np.concatenate([np.arange(COMMON), per_run, local]).astype(int)
 
     def dense(self, left_out: int | None = None) -> tuple[np.ndarray, np.ndarray]:
@@ -92,7 +94,7 @@ def test_spreads_are_those_of_the_whole_information(seed: int) -> None:
     drawn = Drawn(seed)
     whole = np.linalg.inv(drawn.dense()[0])
     np.testing.assert_allclose(drawn.normal.covariance, whole[:COMMON, :COMMON], rtol=1e-6, atol=1e-10)
-    per_run = np.sqrt(np.diag(whole))[COMMON : COMMON + sum(OWN)]
+    per_run = np.sqrt(np.diag(whole))[COMMON : COMMON + sum(PER_RUN)]
     np.testing.assert_allclose(np.concatenate(drawn.normal.per_run_sd()), per_run, rtol=1e-6)
 
 
@@ -107,7 +109,7 @@ def test_a_step_keeps_within_bounds(seed: int) -> None:
 def test_errors_are_predicted_by_the_other_segments(seed: int) -> None:
     """The common ones and its recording's by all rows but its own, those of the segment by its own rows, at a price."""
     drawn = Drawn(seed)
-    errors, shared = drawn.normal.without_each(drawn.scale).errors, COMMON + sum(OWN)
+    errors, shared = drawn.normal.without_each(drawn.scale).errors, COMMON + sum(PER_RUN)
     A, b = drawn.dense()
     for i, one in enumerate(drawn.segments):
         others = np.linalg.solve(*drawn.dense(left_out=i))[:shared]

@@ -65,12 +65,12 @@ def test_every_file_of_the_package_is_offered() -> None:
 def test_names_agree_and_words_are_there(name: str) -> None:
     effect = effect_of(name)
     assert effect.name == name == type(effect).__module__.rpartition(".")[2]
-    for words in (effect.in_words, effect.looks_like, effect.experiment):
+    for words in (effect.in_words, effect.symptom, effect.experiment):
         assert words[0].isupper()
         assert words.endswith(".")
     assert effect.source
     assert (sys.modules[type(effect).__module__].__doc__ or "").strip()
-    assert effect.state_spread >= 0
+    assert effect.state_sd >= 0
 
 
 @each_effect

@@ -88,14 +88,14 @@ def test_a_cubic_spring_and_a_sensor_cable_where_they_act() -> None:
 
 def test_a_sensor_cable_that_is_drawn_straight_pulls_by_its_lever() -> None:
     """Against a long one from a clamp across the arm: tension times the slope of its length, to first order of it."""
-    beside, beyond, force, k, dry, length = 0.04, 0.02, 0.5, 20.0, 0.2, 5.0
+    lateral, beyond, force, k, dry, length = 0.04, 0.02, 0.5, 20.0, 0.2, 5.0
 
     def stretched(q: np.ndarray) -> np.ndarray:
-        across = beyond * np.sin(q) - beside * np.cos(q) + beside
-        along = -beyond * np.cos(q) - beside * np.sin(q) + beyond
+        across = beyond * np.sin(q) - lateral * np.cos(q) + lateral
+        along = -beyond * np.cos(q) - lateral * np.sin(q) + beyond
         return np.hypot(length + across, along) - length
 
-    values = {"preload": force * beyond, "stiffness": k * beyond**2, "dry": dry * beyond, "lever": beside / beyond}
+    values = {"preload": force * beyond, "stiffness": k * beyond**2, "dry": dry * beyond, "lever": lateral / beyond}
     for theta in (-0.1, -0.02, 0.05, 0.1):
         now = Instant(moving(np.full(N, theta), np.full(N, 1.0)), LOOSE, prototype_model(N).parameters)
         lever = differences(stretched, np.array([theta]), 1e-3)[0, 0]

@@ -168,12 +168,12 @@ def twist_of_eq_21(third_denominator: np.ndarray) -> np.ndarray:
     """The matrix of Eq. 21 as printed, but for the denominator of its entry (3, theta)."""
     cp, sp, ct, st = np.cos(PHI), np.sin(PHI), np.cos(THETA), np.sin(THETA)
     lever = B * (ct - 1) / np.tan(THETA / (2 * N))
-    spread = -B * (ct - 1) / (N * (np.cos(THETA / N) - 1))
+    lateral = -B * (ct - 1) / (N * (np.cos(THETA / N) - 1))
     rise = -B / (2 * N) * (st - N * np.sin(THETA / N)) / third_denominator
     zero = np.zeros(4)
     rows = [
-        [-lever * sp, spread * cp],
-        [lever * cp, spread * sp],
+        [-lever * sp, lateral * cp],
+        [lever * cp, lateral * sp],
         [zero, rise],
         [-st * cp, -sp],
         [-st * sp, cp],

@@ -89,8 +89,8 @@ def test_eq_17_is_in_one_frame() -> None:
             torque[j] += lever[1] * force[0] - lever[0] * force[1] + wrenches[k, 2]
         at = at + P.joint_spacing[k] * along
     np.testing.assert_allclose(torque, -(chord_jacobian(THETA, P) * U).sum(axis=1), rtol=0, atol=1e-12)
-    own_frames = np.einsum("iwk,iw->k", serial_jacobian(np.zeros(N), P).reshape(N, 3, N), wrenches)
-    assert np.abs(own_frames - torque).max() > WRONG * np.abs(torque).max()
+    each_frames = np.einsum("iwk,iw->k", serial_jacobian(np.zeros(N), P).reshape(N, 3, N), wrenches)
+    assert np.abs(each_frames - torque).max() > WRONG * np.abs(torque).max()
 
 
 def test_cable_1_is_on_the_side_of_positive_angles() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from continuum_laws.differences import differences
 from continuum_laws.strategies import LAW
-from estimation_arm import N, drawn_motion, drawn_own, drawn_values, missing, run_over, scene_along, structure
+from estimation_arm import N, drawn_motion, drawn_params, drawn_values, missing, run_over, scene_along, structure
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -113,7 +113,7 @@ def sensed(random: np.random.Generator, with_rates: bool) -> tuple[Run, Trajecto
     """A run that begins some time after zero, a trajectory, and sensors that err in every way."""
     run = run_over(3.0 + np.cumsum(random.uniform(0.003, 0.02, 8)), with_rates=with_rates)
     motion = random.normal(0, 1, (2, 8, N))
-    params = {effect.name: drawn_own(effect, random) for effect in structure().sensors}
+    params = {effect.name: drawn_params(effect, random) for effect in structure().sensors}
     return run, Trajectory(*motion, 0 * motion[0], 0 * motion[0]), params
 
 
@@ -167,7 +167,7 @@ def test_torque_in_the_substeps_adds_up_at_the_interval_s_end(seed: int) -> None
 def test_columns_side_by_side_are_each_by_itself() -> None:
     """Those of torque leave the readings alone, those of readings the torque."""
     random = np.random.default_rng(0)
-    params = {effect.name: drawn_own(effect, random) for effect in structure().sensors}
+    params = {effect.name: drawn_params(effect, random) for effect in structure().sensors}
     scene = scene_along(drawn_motion(random, ROWS), drawn_values(random), params)
     ones = [
         Sensitivity(directions_of("mass")),

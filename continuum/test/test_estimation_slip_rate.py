@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from continuum_laws.differences import assert_same_derivatives, differences
 from continuum_laws.strategies import LAW
-from estimation_arm import N, drawn_motion, drawn_own, drawn_values, left_side, structure
+from estimation_arm import N, drawn_motion, drawn_params, drawn_values, left_side, structure
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -27,7 +27,7 @@ def with_states(name: str, random: np.random.Generator) -> Model:
     """A random arm with one effect that has states, beside all that have none."""
     effect = structure().stateful[name].effect
     base = with_vector(structure().model, drawn_values(random))
-    return replace(base, effects=(*base.effects, ActiveEffect(effect, drawn_own(effect, random))))
+    return replace(base, effects=(*base.effects, ActiveEffect(effect, drawn_params(effect, random))))
 
 
 def bent_one_way(random: np.random.Generator, x: np.ndarray) -> np.ndarray:

@@ -17,7 +17,7 @@ from continuum.discovery.hand_measurement import HandMeasurement, check_measured
 from continuum.discovery.hand_tests import hand_tests, value_and_sd
 from continuum.discovery.power_words import option
 from continuum.discovery.result import Diagnosis
-from continuum.discovery.zeros_by_hand import SPREAD, agreement, probability
+from continuum.discovery.zeros_by_hand import WIDENING, agreement, probability
 from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.parameters import RATIO
@@ -181,6 +181,6 @@ def test_values_in_each_recording_hold_the_one_that_all_may_share() -> None:
 
 def test_zeros_are_as_far_as_chance_has_them_as_often_as_is_said() -> None:
     random = np.random.default_rng(3)
-    drawn = random.normal(0, np.hypot(0.005, SPREAD * 0.004), (4000, 3))
+    drawn = random.normal(0, np.hypot(0.005, WIDENING * 0.004), (4000, 3))
     found = np.array([probability([(float(v), 0.004, 0.005) for v in row]) for row in drawn])
     assert abs(np.mean(found < 0.05) - 0.05) < 0.012

@@ -91,7 +91,7 @@ def test_a_swarm_that_has_met_stops() -> None:
         calls += 1
         return 0.0
 
-    settings = SwarmSettings(spread_tolerance=1e9)
+    settings = SwarmSettings(variation_tolerance=1e9)
     particle_swarm(flat, LOWER, UPPER, np.random.default_rng(0), settings)
     assert calls == 2 * settings.particles  # the first iteration gains infinitely
 
@@ -122,7 +122,7 @@ def test_the_swarm_identifies_and_counts_its_simulations() -> None:
 
 def test_the_settings_are_those_of_table_2() -> None:
     table = {
-        "particles": 20, "iterations": 40, "objective_tolerance": 0.001, "spread_tolerance": 0.0001,
+        "particles": 20, "iterations": 40, "objective_tolerance": 0.001, "variation_tolerance": 0.0001,
         "cognitive": 3.0, "social": 2.0, "momentum": 0.1, "constriction": 0.1146,
     }  # fmt: skip
     assert asdict(SwarmSettings()) == table

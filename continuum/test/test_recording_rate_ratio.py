@@ -32,12 +32,12 @@ def slow_clock(run: Recording, by: float) -> Recording:
     return replace(run, times=by * run.times)
 
 
-def loud_gyros(run: Recording, by: float) -> Recording:
+def scaled_gyros(run: Recording, by: float) -> Recording:
     assert run.theta_rate is not None
     return replace(run, theta_rate=by * run.theta_rate)
 
 
-@pytest.mark.parametrize("fault", [slow_clock, loud_gyros])
+@pytest.mark.parametrize("fault", [slow_clock, scaled_gyros])
 @pytest.mark.parametrize("by", [0.8, 0.95, 1.05, 1.2])
 def test_a_clock_or_a_gain_that_is_off_is_told(fault: Callable[[Recording, float], Recording], by: float) -> None:
     spoiled = [fault(run, by) for run in runs()]
@@ -104,10 +104,10 @@ def test_one_recording_and_one_joint_that_are_off_are_named() -> None:
     sound = runs(count=8)
     (output,) = odd_rates([*sound[:7], slow_clock(sound[7], 0.9)])
     assert output.startswith("r7: angles change 1.1")
-    one_loud = [replace(run, theta_rate=run.theta_rate * [1.0, 1.5]) for run in sound if run.theta_rate is not None]
-    assert rate_ratio(one_loud, 0) == rate_ratio(sound, 0)
-    assert rate_ratio(one_loud, 1)[0] == pytest.approx(1 / 1.5, abs=0.02)
-    assert odd_rates(one_loud)
+    one_large = [replace(run, theta_rate=run.theta_rate * [1.0, 1.5]) for run in sound if run.theta_rate is not None]
+    assert rate_ratio(one_large, 0) == rate_ratio(sound, 0)
+    assert rate_ratio(one_large, 1)[0] == pytest.approx(1 / 1.5, abs=0.02)
+    assert odd_rates(one_large)
     outer = [replace(run, theta=run.theta * [1.0, 0.2], theta_rate=run.theta_rate * [1.0, 0.25])
              for run in sound if run.theta_rate is not None]  # fmt: skip
     (output,) = odd_rates(outer)  # one that moves little says little of all

@@ -70,9 +70,9 @@ each_map = pytest.mark.parametrize("case", MAPS.values(), ids=MAPS)
 
 @each_map
 def test_one_call_equals_the_loop(case: Case) -> None:
-    function, arguments, own_axes = case
+    function, arguments, each_axes = case
     whole = function(*arguments)
-    lead = arguments[0].shape[: arguments[0].ndim - own_axes]
+    lead = arguments[0].shape[: arguments[0].ndim - each_axes]
     assert len(lead) == 2
     for index in np.ndindex(lead):
         alone = function(*[argument[index] for argument in arguments])

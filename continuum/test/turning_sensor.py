@@ -50,8 +50,8 @@ def sensed_turn(
     zero, one = np.zeros_like(angle), np.ones_like(angle)
     rate = np.gradient(angle, times)
     turned = np.stack([np.cos(angle), -np.sin(angle), zero], axis=1)  # what is fixed and along x, seen from the link
-    beside = sensor.lever * np.stack([-(rate**2), np.gradient(rate, times), zero], axis=1)
-    force = GRAVITY * (np.sin(sensor.tilt) * turned + np.cos(sensor.tilt) * one[:, None] * [0, 0, 1]) + beside
+    across = sensor.lever * np.stack([-(rate**2), np.gradient(rate, times), zero], axis=1)
+    force = GRAVITY * (np.sin(sensor.tilt) * turned + np.cos(sensor.tilt) * one[:, None] * [0, 0, 1]) + across
     drift = rng.normal(size=(2, 3)) * sensor.force_bias
     force = force + drift[0] + np.linspace(0, 1, times.size)[:, None] * drift[1]
     spin = np.stack([zero, zero, sensor.scale * rate + sensor.bias], axis=1)

@@ -239,7 +239,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         before = commander.gate.abandoned
         commander.send(now)
         if commander.gate.abandoned and not before:
-            tension_limits.tell_abandoned(self.diagnostics, self._limits)
+            tension_limits.report_abandoned(self.diagnostics, self._limits)
 
     def _on_command(self, message: CableStates) -> None:
         speakers = self.count_publishers(self.resolve_topic_name(COMMANDS))
@@ -250,7 +250,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         age = max(0, now - nanoseconds(message.header.stamp)) / NANOSECONDS
         if not self._commander.gate.command(wanted, time.monotonic() - age):
             raise MessageFault("not active", "a tension command; the node has to be activated first")
-        tension_limits.tell_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
+        tension_limits.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
 
     # --- services
 

@@ -55,7 +55,7 @@ class LoopedBench:
     def hear(self, data: bytes) -> None:
         for answer in self.controller.hear(data, self.device_time):
             self.say(answer)
-        self.tell_news()
+        self.report_news()
 
     @property
     def device_time(self) -> int:
@@ -71,7 +71,7 @@ class LoopedBench:
     def deliver(self, data: bytes) -> None:
         self.client._take(data, self.now)
 
-    def tell_news(self) -> None:
+    def report_news(self) -> None:
         for message in self.controller.news(self.device_time):
             self.say(message)
 
@@ -80,7 +80,7 @@ class LoopedBench:
         for _ in range(steps):
             self.now += duration / steps
             self.controller.move_on(self.device_time, duration / steps)
-        self.tell_news()
+        self.report_news()
 
     @property
     def set_points(self) -> list[float]:

@@ -9,7 +9,7 @@ import pytest
 from ament_index_python.packages import get_package_prefix
 from emulated_bench import Bridge, LatencyProbe, bridge_at, emulated_bench
 from harness import NodeProcess, Probe, ended_in_any_case
-from test_bench_bridge_node import WAITING, angles_beside_truth
+from test_bench_bridge_node import WAITING, angles_and_truth
 
 from continuum_hw_imu.bench_bridge import AUTOSTART_PERIOD
 from continuum_hw_imu.protocol.messages import ReceiverLimits
@@ -93,7 +93,7 @@ def slack_time_after(bench, instant: float) -> float:
 
 def assert_no_wrong_angle(bridge: Bridge, joints) -> None:
     """None but for a lag, one for each quarter of a second: a bridge that waits for its turn hears all frames late."""
-    off = np.abs(np.subtract(*angles_beside_truth(bridge, joints, np.linspace(0.0, WAITING, 11)))).max(axis=-1)
+    off = np.abs(np.subtract(*angles_and_truth(bridge, joints, np.linspace(0.0, WAITING, 11)))).max(axis=-1)
     stretches = [off[:, i : i + 15].max(axis=1).min() for i in range(0, off.shape[1], 15)]
     assert max(stretches) < FARTHEST, np.degrees(stretches)
 

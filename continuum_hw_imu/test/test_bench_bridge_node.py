@@ -72,7 +72,7 @@ def active(bridge):
     bridge.probe.wait_until(lambda: not any(bridge.bench.status["set_points"]), "slack cables")
 
 
-def angles_beside_truth(bridge, joints, earlier=0.0):
+def angles_and_truth(bridge, joints, earlier=0.0):
     """Joint angles as published, (n, n_joints), and the true ones at their stamps or ``earlier`` [s], each [rad]."""
     truth = bridge.bench.truth()
     at = np.array([bridge.monotonic(message) for message in joints])
@@ -102,7 +102,7 @@ def test_angles_of_a_release_are_the_true_ones(bridge):
     """Criterion 1 of the bench in small: 0.5 degrees RMS in motion, 0.3 at rest."""
     bridge.joints.clear()
     bridge.let_hand_move("hand bend=90 over=1 hold=1", 5.0)
-    measured, real = angles_beside_truth(bridge, bridge.joints)
+    measured, real = angles_and_truth(bridge, bridge.joints)
     assert len(measured) > 100  # of 300; a busy machine may lose some
     assert np.degrees(real.sum(axis=1)).max() > 85
     assert rms_degrees(measured - real) < 0.5

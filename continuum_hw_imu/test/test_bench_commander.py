@@ -91,7 +91,7 @@ def test_a_stop_without_a_line_reaches_the_bench_later(bench, commander):
 def test_a_stop_of_the_bench_is_the_nodes_too(bench, commander):
     commander.begin()
     bench.controller.guard.stop(bench.device_time)
-    bench.tell_news()
+    bench.report_news()
     assert commander.keep_up(bench.now)
     assert commander.gate.stopped
 
@@ -121,7 +121,7 @@ def test_every_trouble_of_the_line_keeps_tension_out(bench, commander):
     bench.controller.move_on(bench.device_time, 3.6)
     commander.keep_up(bench.now)
     assert bench.link.reopened == 1
-    bench.tell_news()
+    bench.report_news()
     assert commander.problem() == "this node is no longer the bench's commander"
     bench.client._begin()
     assert commander.problem() == "the port is open, but no bench says who it is"

@@ -53,7 +53,7 @@ class CableTanglerNode(CheckedNode):
         self._numbers = range(1, self.arm.n_sections + 1)
         self._names = list(self.arm.cable_names)
         self._through = {number: cables_through(self.arm, number - 1).names for number in self._numbers}
-        self._instants: StampJoiner[int, CableStates] = StampJoiner(self._numbers, on_loss=self._tell_loss)
+        self._instants: StampJoiner[int, CableStates] = StampJoiner(self._numbers, on_loss=self._report_loss)
         self.diagnostics.values["instants waiting for a section"] = lambda: self._instants.waiting
         self._publish_states = self.offer(CableStates, "cable_states")
         self._publish_commands = self.offer(CableStates, "section_cable_commands")
@@ -61,9 +61,9 @@ class CableTanglerNode(CheckedNode):
         self._sections = self.listen(CableStates, "section_cable_states", self._on_section)
         self.listen(CableStates, "cable_commands", self._on_commands)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._patience_timer = self.create_timer(PATIENCE, self._tell_missing, clock=steady)
+        self._patience_timer = self.create_timer(PATIENCE, self._report_missing, clock=steady)
 
-    def _tell_missing(self) -> None:
+    def _report_missing(self) -> None:
         """Once: a launch file made for another number of sections would go unnoticed until poses come."""
         self.destroy_timer(self._patience_timer)
         speakers, wanted = self._sections.get_publisher_count(), len(self._numbers)
@@ -85,7 +85,7 @@ class CableTanglerNode(CheckedNode):
         if instant is not None:
             self._tangle(instant)
 
-    def _tell_loss(self, loss: Loss, stamp: int, numbers: frozenset[int]) -> None:
+    def _report_loss(self, loss: Loss, stamp: int, numbers: frozenset[int]) -> None:
         cause, detail = LOSSES[loss]
         sections = ", ".join(f"section {number}" for number in sorted(numbers))
         self.diagnostics.warnings.note(cause, f"at {seconds(stamp)}: {detail.format(sections=sections)}")
@@ -123,10 +123,10 @@ class CableTanglerNode(CheckedNode):
             w_rate = untangle_rates(lengths, velocities, self.arm)
             check_rates(w_rate)
         for i, section in enumerate(self.arm.sections):
-            n_own = len(section.cable_names)
+            n_actuating = len(section.cable_names)
             command = CableStates(section=i + 1, name=list(section.cable_names))
             command.header.stamp = message.header.stamp
-            command.position = section_lengths(w[i], self.arm, i)[:n_own]
+            command.position = section_lengths(w[i], self.arm, i)[:n_actuating]
             if w_rate is not None:
-                command.velocity = section_length_rates(w[i], w_rate[i], self.arm, i)[:n_own]
+                command.velocity = section_length_rates(w[i], w_rate[i], self.arm, i)[:n_actuating]
             self._publish_commands(command)

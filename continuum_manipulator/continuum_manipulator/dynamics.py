@@ -152,7 +152,7 @@ class DynamicsNode(CheckedNode):
         duration = (self._pace.reach(number) - begin) / NANOSECONDS
         interval = self._tensions.move_on(self._pace.seconds(begin), duration)
         if self._tensions.abandoned and not before:
-            tension_limits.tell_abandoned(self.diagnostics, self._limits)
+            tension_limits.report_abandoned(self.diagnostics, self._limits)
         status = self._arm.advance(interval)
         if status is SimulationStatus.COMPLETE:
             self._publish()
@@ -171,7 +171,7 @@ class DynamicsNode(CheckedNode):
         wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
         if self._pace is None:
             return  # within the first period
-        tension_limits.tell_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
+        tension_limits.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
         self._tensions.command(wanted, self._pace.seconds(min(now, nanoseconds(message.header.stamp))))
 
     def _release(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:

@@ -42,11 +42,11 @@ def joint_values(state: Configuration, section: Section) -> tuple[Array, Array |
     """
     phi, theta = jones_from_allen(state.w)
     if state.rate is None:
-        return _spread(phi, theta, section), None
+        return _distributed(phi, theta, section), None
     if theta < STRAIGHT:
         phi, theta_rate = jones_from_allen(state.rate)
-        return _spread(phi, np.float64(0.0), section), _spread(np.float64(0.0), theta_rate, section)
-    return _spread(phi, theta, section), _spread(*jones_rates(state.w, state.rate), section)
+        return _distributed(phi, np.float64(0.0), section), _distributed(np.float64(0.0), theta_rate, section)
+    return _distributed(phi, theta, section), _distributed(*jones_rates(state.w, state.rate), section)
 
 
 def read_joints(
@@ -144,5 +144,5 @@ def _phi_and_thetas(
     return np.float64(values[index[section.phi_joint]]), np.repeat(found, section.n_joints // len(thetas))
 
 
-def _spread(phi: Array, theta: Array, section: Section) -> Array:
+def _distributed(phi: Array, theta: Array, section: Section) -> Array:
     return np.concatenate([[phi], np.full(section.n_joints, theta / section.n_joints), [-phi]])

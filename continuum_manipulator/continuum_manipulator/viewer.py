@@ -93,10 +93,10 @@ class ViewerNode(CheckedNode):
         self._publish_joints = self.offer_at_times(JointState, JOINTS)
         self._publish_tensions = self.offer_at_times(CableStates, TENSIONS)
         self._newest = Newest[tuple[Callable[[Any], None], Any]]()
-        self._look(JointState, JOINTS, self._on_joints)
-        self._look(JointState, f"{self.values['simulated']}/joint_states", self._on_simulated)
-        self._look(CableStates, "cable_states", self._on_cables)
-        self._look(PoseStamped, TARGETS, self._on_target)
+        self._refresh(JointState, JOINTS, self._on_joints)
+        self._refresh(JointState, f"{self.values['simulated']}/joint_states", self._on_simulated)
+        self._refresh(CableStates, "cable_states", self._on_cables)
+        self._refresh(PoseStamped, TARGETS, self._on_target)
         self.listen(CableStates, TENSIONS, lambda message: self._hear(TENSIONS, message), NEWEST)
         self.listen(DiagnosticArray, "/diagnostics", self._on_diagnostics, REPORT)
         self.create_timer(1.0 / FRAME_RATE, self._act, clock=Clock(clock_type=ClockType.STEADY_TIME))
@@ -113,7 +113,7 @@ class ViewerNode(CheckedNode):
         self._page.close()
         super().close()
 
-    def _look(self, message_type: type, topic: str, handle: Callable[[Any], None]) -> None:
+    def _refresh(self, message_type: type, topic: str, handle: Callable[[Any], None]) -> None:
         """Subscribe; of all messages about the same names between two frames the last one is looked at."""
         checked = self.checked(topic, handle)
 

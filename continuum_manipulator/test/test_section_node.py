@@ -19,7 +19,7 @@ pytestmark = pytest.mark.ros
 
 NUMBER = 2
 SECTION = ARM.sections[NUMBER - 1]
-OWN = joint_names(SECTION)
+PER_RUN = joint_names(SECTION)
 
 
 class Bench:
@@ -73,24 +73,24 @@ def test_every_message_has_one_answer_of_its_stamp(bench):
     assert [instant_of(message) for message in bench.configs] == list(range(1, 50))
     for message, config in zip(answers, bench.configs, strict=True):
         i = instant_of(message)
-        own, own_rate = w[i, NUMBER - 1], rates[i, NUMBER - 1]
+        own, actuating_rate = w[i, NUMBER - 1], rates[i, NUMBER - 1]
         assert message.section == config.section == NUMBER
         assert tuple(message.name) == cables_through(ARM, NUMBER - 1).names
         np.testing.assert_allclose(message.position, section_lengths(own, ARM, NUMBER - 1), rtol=1e-12)
-        expected = section_length_rates(own, own_rate, ARM, NUMBER - 1)
+        expected = section_length_rates(own, actuating_rate, ARM, NUMBER - 1)
         np.testing.assert_allclose(message.velocity, expected, rtol=1e-9, atol=1e-12)
         phi, theta = jones_from_allen(own)
         output = [config.u, config.v, config.phi, config.theta, config.s, config.kappa, config.u_rate, config.v_rate]
         length, kappa = arc_length(theta, SECTION), curvature(theta, SECTION)
-        np.testing.assert_allclose(output, [*own, phi, theta, length, kappa, *own_rate], rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(output, [*own, phi, theta, length, kappa, *actuating_rate], rtol=1e-9, atol=1e-12)
 
 
 def test_joints_are_found_by_name_in_any_order(bench):
     w, rates = postures(2, seed=1)
     plain = joint_state(1, w[0], rates[0])
     order = np.random.default_rng(2).permutation(len(NAMES))
-    own_only = [NAMES.index(name) for name in OWN]
-    answers = bench.answers([plain, picked(plain, order), picked(plain, own_only)])
+    actuating_only = [NAMES.index(name) for name in PER_RUN]
+    answers = bench.answers([plain, picked(plain, order), picked(plain, actuating_only)])
     assert len(answers) == 3
     assert answers[0].position == answers[1].position == answers[2].position
     assert answers[0].velocity == answers[1].velocity == answers[2].velocity
@@ -129,8 +129,8 @@ def test_bad_joint_states_are_dropped_counted_told_in_two_lines_and_survived(ben
     probe.wait_for_report("middle")
     dropped, ignored = probe.count("middle", "dropped: not finite"), probe.count("middle", "ignored joint_states")
     good, bad = (joint_state(instant, postures(1)[0][0]) for instant in (9, 7))
-    bad.position[NAMES.index(OWN[0])] = math.nan
-    others = picked(joint_state(7, postures(1)[0][0]), [i for i, name in enumerate(NAMES) if name not in OWN])
+    bad.position[NAMES.index(PER_RUN[0])] = math.nan
+    others = picked(joint_state(7, postures(1)[0][0]), [i for i, name in enumerate(NAMES) if name not in PER_RUN])
     answers = bench.answers([bad, others, good] * 50)
     assert [instant_of(message) for message in answers] == [9] * 50
     probe.wait_until(
@@ -143,14 +143,14 @@ def test_bad_joint_states_are_dropped_counted_told_in_two_lines_and_survived(ben
     assert probe.report("middle")["level"] == "WARN"
     bench.node.wait_for_line("not finite: 50 in")
     first, _ = bench.node.stderr.removeprefix(before).splitlines()
-    assert f"dropped, not finite: joint_states: position of {OWN[0]}" in first
+    assert f"dropped, not finite: joint_states: position of {PER_RUN[0]}" in first
 
 
 def test_commands_become_joints(bench):
     w, rates = postures(20, seed=3)
-    own, own_rates = w[:, NUMBER - 1], rates[:, NUMBER - 1]
+    own, actuating_rates = w[:, NUMBER - 1], rates[:, NUMBER - 1]
     lengths = section_lengths(own, ARM, NUMBER - 1)[:, :4]
-    velocities = section_length_rates(own, own_rates, ARM, NUMBER - 1)[:, :4]
+    velocities = section_length_rates(own, actuating_rates, ARM, NUMBER - 1)[:, :4]
     bench.joints.clear()
     for i in range(20):
         bench.say_cables(cables(i, NUMBER, SECTION.cable_names[::-1], lengths[i, ::-1], velocities[i, ::-1]))
@@ -162,7 +162,7 @@ def test_commands_become_joints(bench):
         index = {name: k for k, name in enumerate(message.name)}
         state = read_joints(index, message.position, message.velocity, SECTION)
         np.testing.assert_allclose(state.w, own[i], atol=1e-9)
-        np.testing.assert_allclose(state.rate, own_rates[i], atol=1e-8)
+        np.testing.assert_allclose(state.rate, actuating_rates[i], atol=1e-8)
     assert not bench.joints[-1].velocity
 
 

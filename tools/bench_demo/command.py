@@ -77,7 +77,7 @@ def record_runs(port: str, out: Path) -> None:
                     conductor.wait_for_states()
                     conductor.activate()
                     conductor.carry_out(run)
-                _tell(run, conductor, None if port else out / "truth.csv")
+                _report(run, conductor, None if port else out / "truth.csv")
 
 
 def diagnosed(out: Path) -> int:
@@ -121,7 +121,7 @@ def _calibrate(conductor: Conductor) -> None:
     conductor.wait_for_states()
 
 
-def _tell(run: Run, conductor: Conductor, truth: Path | None) -> None:
+def _report(run: Run, conductor: Conductor, truth: Path | None) -> None:
     times, measured, simulated = side_by_side(conductor.received)
     line = (
         f"{run.name}: {times[-1]:.1f} s, {len(times)} joint states, bent by up to "

@@ -108,7 +108,7 @@ def measure(minutes: float, folder: Path) -> ClosedLoop:
         skipped=skipped,
         **off,
         shift=[1e3 * float(np.quantile(found.shift, part)) for part in (0.0, 0.5, 1.0)],
-        until={name: _spread(getattr(found, name)) for name in ("published", "received", "called")},
+        until={name: _scatter(getattr(found, name)) for name in ("published", "received", "called")},
         by_minute=by_minute(found, begin, loads),
         bridge_share=shares[0],
         emulator_share=shares[1],
@@ -143,7 +143,7 @@ def _errors(states: Sequence[State], truth: Truth, releases: Sequence[float]) ->
     }
 
 
-def _spread(delay: Array) -> list[float]:
+def _scatter(delay: Array) -> list[float]:
     """Median, 99 %, largest [ms]."""
     return [1e3 * float(np.quantile(delay, part)) for part in (0.5, 0.99, 1.0)]
 
@@ -154,6 +154,6 @@ def by_minute(found: Delays, begin: float, loads: Sequence[float]) -> list[Minut
     for k, load in enumerate(loads):
         inside = (found.written >= begin + k * MINUTE) & (found.written < begin + (k + 1) * MINUTE)
         if inside.any():
-            median, slow, _ = _spread(found.received[inside])
+            median, slow, _ = _scatter(found.received[inside])
             minutes.append(Minute(load, median, slow))
     return minutes

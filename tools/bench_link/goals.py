@@ -85,9 +85,9 @@ def _crashes(crash_tests: Sequence[Crash]) -> Iterator[Goal]:
     yield Goal("slack after the receiver began to let go", _slack(SLACK, 2), f"{ramp:.2f}", ramp <= SLACK + 2 * TICK)
 
 
-def _slack(stated: float, looks: int) -> str:
+def _slack(stated: float, readings: int) -> str:
     """Of so many instants, each is known to one look at the receiver."""
-    return f"<= {stated:g} s + {1e3 * looks * TICK:.0f} ms"
+    return f"<= {stated:g} s + {1e3 * readings * TICK:.0f} ms"
 
 
 def _soak(run: Soak) -> Iterator[Goal]:

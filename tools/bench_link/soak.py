@@ -58,34 +58,36 @@ class Soak:
 
 def measure(minutes: float, rate: float, folder: Path) -> Soak:
     """Stream at a rate [Hz], the cables pulled gently to and fro."""
-    looks: tuple[list[Usage], list[Usage]] = [], []
+    readings: tuple[list[Usage], list[Usage]] = [], []
     loads, received = [], 0
     with rig(folder, "--rate", str(rate)) as bench, bench.bridge() as bridge:
         bench.latency_probe.clear()
         pids = bridge.node.process.pid, bench.bench.process.process.pid
         begin = time.monotonic()
         while time.monotonic() - begin < 60.0 * minutes:
-            for pid, seen in zip(pids, looks, strict=True):
+            for pid, seen in zip(pids, readings, strict=True):
                 seen.append(usage(pid))
             loads.append(os.getloadavg()[0])
             bench.drive(bridge, lambda t: 4.0 * np.array([1.0 - np.cos(t), 0.0]), PERIOD)
             received += len(bench.latency_probe.joints)
             bench.latency_probe.clear()
             if len(loads) % 12 == 0:
-                memory = ", ".join(f"{seen[-1].memory / 1024:.1f} MiB" for seen in looks)
+                memory = ", ".join(f"{seen[-1].memory / 1024:.1f} MiB" for seen in readings)
                 lasted = time.monotonic() - begin
                 print(f"  {lasted / 60:.0f} min, {received / lasted:.0f} Hz: {memory}", flush=True)
         lasted = time.monotonic() - begin
         bridge.probe.wait_for_report(f"{bridge.name}: link")
         lost = int(bridge.diagnostic("link")["frames lost"])
     reached = received / lasted
-    of_bridge, of_emulator = (memory_of(seen, reached / RATE) for seen in looks)
+    of_bridge, of_emulator = (memory_of(seen, reached / RATE) for seen in readings)
     return Soak(lasted / 60.0, rate, reached, float(np.mean(loads)), lost, of_bridge, of_emulator)
 
 
 def memory_of(seen: list[Usage], speed: float) -> Memory:
     """Of looks at a process that did ``speed`` times the work of live streaming."""
     settled = seen[int(SETTLING * len(seen)) :]
-    times, memory = (np.array([getattr(look, name) for look in settled], dtype=float) for name in ("at", "memory"))
+    times, memory = (
+        np.array([getattr(reading, name) for reading in settled], dtype=float) for name in ("at", "memory")
+    )
     growth = slope(times, memory) * 3600.0 / speed / 1024.0
     return Memory(float(memory[0] / 1024), float(memory[-1] / 1024), growth, core_share(settled[0], settled[-1]))

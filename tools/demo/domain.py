@@ -16,7 +16,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from continuum.recordings.arm_recording import OPTIONAL_SECTION_TOPICS, OPTIONAL_TOPICS, SECTION_TOPICS, TOPICS
 from tools.demo.errors import DemoError
 
-LOOK_TIME = 1.5
+DISCOVERY_TIME = 1.5
 """Within this time nodes that run are discovered [s]."""
 
 LARGEST = 232
@@ -70,7 +70,7 @@ def speakers(domain: int) -> list[str]:
     rclpy.init(context=context, domain_id=domain)
     try:
         node = rclpy.create_node("demo_look", context=context)
-        deadline = time.monotonic() + LOOK_TIME
+        deadline = time.monotonic() + DISCOVERY_TIME
         found: set[str] = set()
         while time.monotonic() < deadline and (not found or _NAMELESS in found):
             time.sleep(0.05)

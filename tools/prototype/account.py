@@ -63,9 +63,9 @@ class Account:
     noise: Sequence[tuple[str, Said]]
     of_beginning: Diagnosis
     predicted: Sequence[Predicted]
-    spread: Array
+    sd: Array
     alone: Sequence[tuple[str, float]]
-    beside: tuple[str, float]
+    with_guess: tuple[str, float]
 
 
 def account(tell: Callable[[str, float], None]) -> Account:
@@ -84,7 +84,7 @@ def account(tell: Callable[[str, float], None]) -> Account:
         result, Simulator(model).run(run.theta[0], run.times).theta,
         again[: 1 + len(ROUNDING)], [again[0], *again[1 + len(ROUNDING) :]],
         of_beginning, predicted, np.degrees(np.std(run.theta[cut:], axis=0)),
-        every_effect_alone(found), guess_beside(found, ended_with(found, result)),
+        every_effect_alone(found), guess_with(found, ended_with(found, result)),
     )  # fmt: skip
 
 
@@ -124,13 +124,13 @@ def every_effect_alone(found: Examination) -> list[tuple[str, float]]:
     return list(best.values())
 
 
-def guess_beside(found: Examination, best: Examined) -> tuple[str, float]:
+def guess_with(found: Examination, best: Examined) -> tuple[str, float]:
     """Where the thesis's guess promises most beside a set, and by how much it lowers the logarithm of the error."""
     if THE_GUESS in {h.effect for h in best.found.chosen}:
         return "", 0.0
     library = with_library(found.problem, best.found).lin.library
-    promised = promises(found.judge, best.fit, library)
-    return next((one.hypothesis.label, one.gain) for one in promised if one.hypothesis.effect == THE_GUESS)
+    ranked = promises(found.judge, best.fit, library)
+    return next((one.hypothesis.label, one.gain) for one in ranked if one.hypothesis.effect == THE_GUESS)
 
 
 def ended_with(found: Examination, result: Diagnosis) -> Examined:

@@ -10,7 +10,13 @@ from continuum.arrays import Array
 from continuum.discovery import Diagnosis
 from continuum.discovery.power_words import experiment_in_words
 from continuum.discovery.result import is_named
-from continuum.discovery.words import estimate_in_words, lookalikes, shares_in_words, sigma_in_words, verdict_in_words
+from continuum.discovery.words import (
+    estimate_in_words,
+    shares_in_words,
+    sigma_in_words,
+    similar_causes,
+    verdict_in_words,
+)
 from continuum.identification.nrmse import nrmse
 from tools.markdown import paragraph, table
 from tools.prototype.account import FITTED, THE_GUESS, Account
@@ -35,7 +41,7 @@ tensions, read off the author's animation. `continuum diagnose data/rep7/rep7_me
 
 **`{result.verdict.kind.value}`.** {verdict_in_words(result)}
 
-{"".join(f"- {line}\n" for line in (*result.notes, *lookalikes(result), *_probabilities(result)))}
+{"".join(f"- {line}\n" for line in (*result.notes, *similar_causes(result), *_probabilities(result)))}
 {table(("value", "estimate, 95 % interval"), _estimates(result))}
 
 Share of the open-loop error that each effect closes, and what stays unknown:
@@ -142,24 +148,24 @@ def _simulations(account: Account) -> list[tuple[str, str, str]]:
 
 
 def _end(account: Account) -> str:
-    joints, quiet, moving = range(1, account.spread.size + 1), int(np.argmin(account.spread)), account.spread > 0.5
+    joints, quiet, moving = range(1, account.sd.size + 1), int(np.argmin(account.sd)), account.sd > 0.5
     labels = ", ".join(f"`{cause.label}`" for cause in account.of_beginning.causes) or "nothing"
     rows = [
         (one.model, one.begins, f"{np.mean(one.by_joint):.2f}", f"{np.mean(one.by_joint[moving]):.2f}",
          *(f"{x:.2f}" for x in (np.sqrt(np.mean(one.degrees**2)), *one.degrees)))
         for one in account.predicted
     ]  # fmt: skip
-    spread = ("measured", "", "", "", "", *(f"{x:.2f}" for x in account.spread))
+    sd = ("measured", "", "", "", "", *(f"{x:.2f}" for x in account.sd))
     head = ("model", "begins", "Eq. 19", "where joints move", "error [deg]", *(f"joint {j} [deg]" for j in joints))
     return f"""The first {100 * FITTED:.0f} % of the rows were diagnosed:
 `{account.of_beginning.verdict.kind.value}`, with {labels} in the extended model. Both models then simulate the rest,
 which no fit has seen, from where the beginning ends: *smoothed* from the beginning alone, or *measured* at the cut
 (angles of the next row less what the sensors add, rates by a cubic through seven rows).
 
-{table(head, [*rows, spread])}
+{table(head, [*rows, sd])}
 
 Eq. 19 divides by the measured standard deviation, the last row. Joints that rest, joint {quiet + 1} with
-{account.spread[quiet]:.3f} degrees, nearly alone decide it; *where joints move* leaves out those with less than half a
+{account.sd[quiet]:.3f} degrees, nearly alone decide it; *where joints move* leaves out those with less than half a
 degree.
 
 The engine before this one (this page of 24 November 2026) cut the run at the same row. Its models, fitted to the
@@ -187,10 +193,10 @@ def _row(again: tuple[str, Said]) -> tuple[str, str, str, str, str]:
 
 def _alone(account: Account) -> str:
     names = [label.partition("@")[0] for label, _ in account.alone]
-    place, (where, gain) = names.index(THE_GUESS), account.beside
+    place, (where, gain) = names.index(THE_GUESS), account.with_guess
     label, own = account.alone[place]
     rows = [(f"`{name}`", _lowered(gain)) for name, gain in account.alone]
-    beside = f"Beside what the verdict adds, `{where}` promises {_lowered(gain)}."
+    with_guess = f"Beside what the verdict adds, `{where}` promises {_lowered(gain)}."
     return f"""By how much each effect is expected to lower the refitted model's open-loop error by itself, at joints
 where that is most: by open-loop sensitivities, one step from the fit. Effects with states and those that need tension
 are left out.
@@ -198,7 +204,7 @@ are left out.
 {table(("effect", "error"), rows)}
 
 The thesis suspected that its masses and moments of inertia were wrong (`{THE_GUESS}`). Alone, `{label}` promises
-{_lowered(own)}, place {place + 1} of {len(names)}. {beside * bool(where)} {_said_of_guess(account.diagnosis)}"""
+{_lowered(own)}, place {place + 1} of {len(names)}. {with_guess * bool(where)} {_said_of_guess(account.diagnosis)}"""
 
 
 def _lowered(gain: float) -> str:

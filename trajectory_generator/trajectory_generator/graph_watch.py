@@ -37,13 +37,13 @@ class GraphWatch:
 
     def ready(self) -> bool:
         """To be asked again and again, several times within the settle time."""
-        picture = self._look()
+        picture = self._check()
         if picture != self._picture:
             self._picture, self._still_since = picture, time.monotonic()
         still = time.monotonic() - self._still_since >= self._settle_time
         return still and self._complete() and not self.missing()
 
-    def _look(self) -> object:
+    def _check(self) -> object:
         node = self._node
         topics = [topic for topic, _ in node.get_topic_names_and_types()]
         ends = [(topic, node.count_publishers(topic), node.count_subscribers(topic)) for topic in sorted(topics)]

@@ -70,7 +70,7 @@ class TrajectoryPublisherNode(CheckedNode):
         self._wait_until = time.monotonic() + self.values["wait_timeout"]
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._wait_timer = self.create_timer(START_PERIOD, self._wait, clock=steady)
-        self._progress_timer = self.create_timer(PROGRESS_PERIOD, self._tell_progress, clock=steady)
+        self._progress_timer = self.create_timer(PROGRESS_PERIOD, self._report_progress, clock=steady)
 
     @classmethod
     def all_parameter_specs(cls) -> tuple[ParameterSpec, ...]:
@@ -127,7 +127,7 @@ class TrajectoryPublisherNode(CheckedNode):
         """The time of instant ``i`` [ns], counted on through all rounds of a loop."""
         return self._start + round(i * NANOSECONDS / self._rate)
 
-    def _tell_progress(self) -> None:
+    def _report_progress(self) -> None:
         if 0 < self._next < len(self._messages):
             share = self._next / len(self._messages)
             self.get_logger().info(f"{100 * share:.0f} %, {self._next} of {len(self._messages)} poses")

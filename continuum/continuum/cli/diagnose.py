@@ -160,9 +160,9 @@ def show(result: Diagnosis) -> None:
     from continuum.discovery.words import (
         errors_in_words,
         estimate_in_words,
-        lookalikes,
         shares_in_words,
         sigma_in_words,
+        similar_causes,
         verdict_in_words,
     )
 
@@ -189,7 +189,7 @@ def show(result: Diagnosis) -> None:
     print(f"\nMissing torque, {models} model")
     print_pairs(sigma_in_words(result))
     _show_power(result)
-    for line in (*result.notes, *lookalikes(result)):
+    for line in (*result.notes, *similar_causes(result)):
         print(line)
 
 

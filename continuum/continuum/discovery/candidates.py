@@ -119,11 +119,11 @@ class _Fits:
         """Fit sets that have one effect more."""
         self._expanded.add(about.found.key)
         found = self._with_library(about)
-        promised = promises(self.judge, about.fit, found.lin.library)
-        self.log.append(f"about {found.label}: {_labels(promised)}")
-        worth = [one for one in promised if is_worth(one.gain / RUNNER_UP, one.observations)]
+        ranked = promises(self.judge, about.fit, found.lin.library)
+        self.log.append(f"about {found.label}: {_labels(ranked)}")
+        worth = [one for one in ranked if is_worth(one.gain / RUNNER_UP, one.observations)]
         if not worth and self._is_unexplained(about):
-            worth = promised[:1]  # far from the truth few residuals are independent, and steps are too short
+            worth = ranked[:1]  # far from the truth few residuals are independent, and steps are too short
         gains = [(one.gain, one.hypothesis) for one in worth]
         for number, one in enumerate(with_one_more(self._problem, found, gains)):
             self._progress(f"simulating with {one.label}", 0.3 + 0.05 * number + 0.2 * bool(found.chosen))
@@ -145,12 +145,12 @@ class _Fits:
         chosen, gained = best.found.chosen, log(self.examined[0].fit.error / best.fit.error)
         for left in filter(is_linear, chosen if is_probable(best.candidate, self.examined[0].candidate) else ()):
             rest = with_library(self._problem, best.found.without(left))
-            promised = promises(self.judge, best.fit, rest.lin.library, left)
-            self.log.append(f"in {best.found.label} for {left.label}: {_labels(promised)}")
-            near = {one.hypothesis: one.near for one in promised}
+            ranked = promises(self.judge, best.fit, rest.lin.library, left)
+            self.log.append(f"in {best.found.label} for {left.label}: {_labels(ranked)}")
+            near = {one.hypothesis: one.near for one in ranked}
             alike = [
                 (one.gain + gained, one.hypothesis)
-                for one in promised
+                for one in ranked
                 if one.gain > (RUNNER_UP - 1) * gained and self._lacks(rest, one, best, gained)
             ]
             for one in with_linear(rest, alike):
@@ -232,8 +232,8 @@ class _Fits:
         self._by_key[found.key] = min(self._by_key.get(found.key, new), new, key=_error)
 
 
-def _labels(promised: Sequence[Promise]) -> str:
-    return ", ".join(f"{one.hypothesis.label} {one.gain:.2f}" for one in promised[:5])
+def _labels(ranked: Sequence[Promise]) -> str:
+    return ", ".join(f"{one.hypothesis.label} {one.gain:.2f}" for one in ranked[:5])
 
 
 def _error(one: Examined) -> float:

@@ -12,7 +12,7 @@ from continuum.discovery.fitted import Fitted
 from continuum.discovery.power import POWER
 from continuum.discovery.problem import ValueKey
 from continuum.discovery.result import HandTest, Removal
-from continuum.discovery.zeros_by_hand import SPREAD
+from continuum.discovery.zeros_by_hand import WIDENING
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import ByHand
 
@@ -38,7 +38,7 @@ def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest
         if effect in taken_for or key in known:
             continue
         (one, one_sd), (other, other_sd) = (value_and_sd(rival.fit, key) for rival in rivals)
-        variance = by_hand.sd**2 + (SPREAD * one_sd) ** 2 + (SPREAD * other_sd) ** 2
+        variance = by_hand.sd**2 + (WIDENING * one_sd) ** 2 + (WIDENING * other_sd) ** 2
         apart, unit = abs(one - other) / variance**0.5, effect_named(effect).parameters[name].unit
         where = joint if joint >= 0 else None
         text = by_hand.how if where is None else f"At joint {joint + 1}: {by_hand.how[:1].lower()}{by_hand.how[1:]}"

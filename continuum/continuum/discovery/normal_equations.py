@@ -124,7 +124,7 @@ class WithoutEach(NamedTuple):
 
     Attributes:
         moves: of the common unknowns, (segments, k).
-        spreads: their standard deviations where the model is right, (segments, k).
+        sds: their standard deviations where the model is right, (segments, k).
         errors: of the segment that is left out, root mean square, (segments,) [rad]. Its own unknowns are data as well:
             one that is z prior standard deviations off counts as a residual of z times the noise, and as as many rows
             as hold one independent residual. What a set cannot simulate no segment may take for wrong zeros of its
@@ -132,13 +132,13 @@ class WithoutEach(NamedTuple):
     """
 
     moves: Array
-    spreads: Array
+    sds: Array
     errors: Array
 
     @property
     def disagreement(self) -> Array:
         """Mean square of the moves in units of their spreads, (k,): about 1 where segments agree."""
-        size = np.divide(self.moves, self.spreads, out=np.zeros_like(self.moves), where=self.spreads > 0)
+        size = np.divide(self.moves, self.sds, out=np.zeros_like(self.moves), where=self.sds > 0)
         return np.asarray(np.mean(size**2, axis=0))
 
     def probability(self, which: Sequence[int]) -> float:
@@ -242,7 +242,7 @@ class NormalEquations:
         held = ((self._low > -_AT_BOUND) & (self._b < 0)) | ((self._high < _AT_BOUND) & (self._b > 0))
         free, k = ~held, len(held)
         whole, covariance = _solved(self._A, self._b, free)
-        moves, spreads, errors = list[Array](), list[Array](), list[float]()
+        moves, sds, errors = list[Array](), list[Array](), list[float]()
         before = iter(self._values.local)
         for r, run in enumerate(self._runs):
             for i, one in enumerate(self._of(r)):
@@ -256,11 +256,11 @@ class NormalEquations:
                 local = run.segments[i][:, -1] - run.segments[i][:, :-1] @ both
                 move = np.concatenate([both, local])
                 moves.append(step - whole)
-                spreads.append(np.sqrt(np.maximum(variance, 0.0)))
+                sds.append(np.sqrt(np.maximum(variance, 0.0)))
                 departure = np.sum(self._local_precision * (next(before) + local) ** 2)
                 square = np.sum(one.residuals_at(move) ** 2) + departure * scale.floor**2 / scale.independent
                 errors.append(float(np.sqrt(square / one.residuals.size)))
-        return WithoutEach(np.array(moves), np.array(spreads), np.array(errors))
+        return WithoutEach(np.array(moves), np.array(sds), np.array(errors))
 
 
 def _solved(A: Array, b: Array, free: NDArray[np.bool_]) -> tuple[Array, Array]:

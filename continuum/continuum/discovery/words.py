@@ -114,7 +114,7 @@ def estimate_in_words(one: Estimate) -> str:
     return f"{one.value:.4g}{interval}{unit}{degrees}{percent}"
 
 
-def lookalikes(result: Diagnosis) -> list[str]:
+def similar_causes(result: Diagnosis) -> list[str]:
     """What is no effect of the library and would look like those that are named."""
     if not is_named(result.verdict.kind):
         return []

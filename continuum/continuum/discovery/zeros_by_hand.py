@@ -11,7 +11,7 @@ from continuum.discovery.problem import Problem, ValueKey
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import Parameter
 
-SPREAD = 2.0
+WIDENING = 2.0
 """Factor of a fitted value's standard deviation: on the benchmark's arms 95 % intervals hold the truth in 65 of 100
 cases, as those of half the deviation would."""
 
@@ -41,7 +41,7 @@ def zeros_in(fit: Fitted, run: int) -> list[tuple[float, float, float]]:
 
 def probability(zeros: Iterable[tuple[float, float, float]]) -> float:
     """That any of some zeros is as far from where hands set it, or farther; Bonferroni. 1 where there is none."""
-    found = [2 * float(ndtr(-abs(value) / (by_hand**2 + (SPREAD * sd) ** 2) ** 0.5)) for value, sd, by_hand in zeros]
+    found = [2 * float(ndtr(-abs(value) / (by_hand**2 + (WIDENING * sd) ** 2) ** 0.5)) for value, sd, by_hand in zeros]
     return min(1.0, len(found) * min(found)) if found else 1.0
 
 

@@ -34,13 +34,13 @@ class Effect:
         in_words_if_more, in_words_if_less: the same where all its sizes are above or below none; empty where that makes
             no difference.
         in_words_if_lacking: the same where the model has nothing of its kind; empty where that cannot be.
-        looks_like: what it does to the data, one sentence.
+        symptom: what it does to the data, one sentence.
         experiment: what to measure so that it stands out from what resembles it, one sentence.
         removal: how to take it off the arm for further recordings, one sentence; empty where that cannot be done.
         beware: what no effect here is and would look the same, one sentence; empty where nothing is known to.
         alike_in_all_runs: the effect that it is where its values are the same in all recordings; empty where there is
             none. Such values are that one's to explain.
-        state_spread: how far each of its states may be from `initial_state` when a recording begins, in the state's
+        state_sd: how far each of its states may be from `initial_state` when a recording begins, in the state's
             units; 0 where it is certain.
         uses_cables: whether it acts on cables: none of an arm that joint torques drive.
         uses_drives: whether it acts on joints' drives: none of an arm that cables pull.
@@ -60,12 +60,12 @@ class Effect:
     in_words_if_more: ClassVar[str] = ""
     in_words_if_less: ClassVar[str] = ""
     in_words_if_lacking: ClassVar[str] = ""
-    looks_like: ClassVar[str] = ""
+    symptom: ClassVar[str] = ""
     experiment: ClassVar[str] = ""
     removal: ClassVar[str] = ""
     beware: ClassVar[str] = ""
     alike_in_all_runs: ClassVar[str] = ""
-    state_spread: ClassVar[float] = 0.0
+    state_sd: ClassVar[float] = 0.0
     uses_cables: ClassVar[bool] = False
     uses_drives: ClassVar[bool] = False
     needs_tension: ClassVar[bool] = False

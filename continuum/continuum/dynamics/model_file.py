@@ -72,9 +72,9 @@ def model_from_mapping(block: Mapping[str, object]) -> Model:
     for name in named:
         effect: Effect = effect_named(name)
         given = _mapping(named, name, "effects.")
-        params, own_sources = _values(given, effect.parameters, n, f"effects.{name}.")
+        params, given_sources = _values(given, effect.parameters, n, f"effects.{name}.")
         effects.append(ActiveEffect(effect, params))
-        sources |= {f"{name}.{key}": source for key, source in own_sources.items()}
+        sources |= {f"{name}.{key}": source for key, source in given_sources.items()}
     inputs = _inputs(block.get("inputs"), values)
     try:
         return Model(Parameters(**values), tuple(effects), sources, inputs)

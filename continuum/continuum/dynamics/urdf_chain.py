@@ -26,7 +26,7 @@ from continuum.errors import FileError
 
 _PARALLEL = 1e-4  # rad: what descriptions round
 _SHORTEST = 1e-4  # m, of links, as in model files
-_BESIDE = 0.01  # part of a link's length by which its centre of mass may lie off the line from joint to joint
+_OFFSET = 0.01  # part of a link's length by which its centre of mass may lie off the line from joint to joint
 
 
 @dataclass(frozen=True)
@@ -79,14 +79,14 @@ def chain_from_urdf(
     directions = along / lengths[:, None]
     centres = np.array([_within(one.centre - place, axis) for one, place in zip(bodies, places, strict=True)])
     ahead = np.sum(centres * directions, axis=1)
-    beside = np.linalg.norm(centres - ahead[:, None] * directions, axis=1)
-    if np.any(beside > _BESIDE * lengths):
-        worst = int(np.argmax(beside / lengths))
+    offset = np.linalg.norm(centres - ahead[:, None] * directions, axis=1)
+    if np.any(offset > _OFFSET * lengths):
+        worst = int(np.argmax(offset / lengths))
         raise FileError(
             path,
-            f"has a link whose centre of mass lies {1e3 * beside[worst]:.3g} mm beside the line from joint "
+            f"has a link whose centre of mass lies {1e3 * offset[worst]:.3g} mm beside the line from joint "
             f"{joints[worst].name} to the next, or to the tip; models have theirs on it, here within "
-            f"{1e3 * _BESIDE * lengths[worst]:.3g} mm",
+            f"{1e3 * _OFFSET * lengths[worst]:.3g} mm",
         )
     pull = _within(np.asarray(gravity, dtype=float), axis)
     weight = float(np.linalg.norm(pull))

@@ -43,7 +43,7 @@ class ActuatorLag(CableStates):
     shifts_time = True
     source = "Franklin, Powell and Emami-Naeini, Feedback Control of Dynamic Systems, ch. 3 (first-order lag)"
     in_words = "The motors pull later than they are told."
-    looks_like = "Every answer to a change of pull comes late by the same time; what moves freely is as it should be."
+    symptom = "Every answer to a change of pull comes late by the same time; what moves freely is as it should be."
     experiment = "Step the command with the arm held still and record the tension at the base of the cable."
 
     def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:

@@ -34,7 +34,7 @@ class AngleOffset(Effect):
     }
     source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3 and 4"
     in_words = "A sensor shows a wrong angle from the start, by the same amount all the time."
-    looks_like = "Measured and simulated angle run side by side, and the rates agree; the gap differs from run to run."
+    symptom = "Measured and simulated angle run side by side, and the rates agree; the gap differs from run to run."
     experiment = "Measure the resting angle with a protractor, or restart the sensors and release again."
     beware = (
         "A spring that rests elsewhere in every run looks nearly the same: measure the resting angles by other means."

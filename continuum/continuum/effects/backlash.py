@@ -60,9 +60,9 @@ class Backlash(Effect):
     }
     source = "Nordin and Gutman, Automatica 38, 2002, 1633-1649"
     in_words = "A joint has play: for a small way it moves without its spring and friction."
-    looks_like = "The joint rattles freely within its play when the load on it changes sides, and knocks at its ends."
+    symptom = "The joint rattles freely within its play when the load on it changes sides, and knocks at its ends."
     experiment = "Move the resting joint by hand with a force gauge: within the play it meets nothing at all."
-    state_spread = 0.02
+    state_sd = 0.02
 
     def n_states(self, n_joints: int) -> int:
         """y and dy/dt of each joint [rad, rad/s]."""

@@ -48,9 +48,9 @@ class BaseCompliance(Effect):
     }
     source = "Lew and Moon, IEEE/ASME Trans. Mechatronics 6, 2001 (manipulators on compliant bases)"
     in_words = "The mount of the base plate gives way when the arm swings."
-    looks_like = "A second, faster swing rides on the first; all joints take part, and rest angles change little."
+    symptom = "A second, faster swing rides on the first; all joints take part, and rest angles change little."
     experiment = "Put a sensor on the base plate, or brace the plate, and release again."
-    state_spread = 0.01
+    state_sd = 0.01
     beginnings: ClassVar[Sequence[Mapping[str, float]]] = [
         {"compliance": compliance, "frequency": frequency}
         for compliance in (0.012, 0.04, 0.12)

@@ -36,7 +36,7 @@ class BaseTilt(Effect):
     }
     source = "thesis Eq. 12, G; Khalil and Dombre, Modeling, Identification and Control of Robots, 2002, ch. 9"
     in_words = "The base plate is not level, so the arm hangs askew."
-    looks_like = "All joints come to rest to one side, those near the base most, as the weight beyond them asks."
+    symptom = "All joints come to rest to one side, those near the base most, as the weight beyond them asks."
     experiment = (
         "Put a spirit level on the base plate; or turn the arm half a turn about its own axis and release again: "
         "a tilt changes its side in the arm's own angles."

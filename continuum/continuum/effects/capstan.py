@@ -39,7 +39,7 @@ class Capstan(Effect):
     needs_tension = True
     source = "thesis Eqs. 14 and 15; Kaneko, Yamashita and Tanie, ICAR 1991 (transmission of tendon drives)"
     in_words = "The cables rub in the holes of the discs, so that less of the pull reaches the tip."
-    looks_like = "Under pull the joints near the tip bend less than those near the base, the more the arm is bent."
+    symptom = "Under pull the joints near the tip bend less than those near the base, the more the arm is bent."
     experiment = "Pull slowly and let go slowly: the arm's bend at the same pull differs, most at the tip."
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:

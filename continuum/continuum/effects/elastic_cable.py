@@ -49,7 +49,7 @@ class ElasticCable(CableStates):
     ]
     source = "Camarillo et al., IEEE Trans. Robotics 24, 2008, 1262-1273 (tendons); Hogan, ASME JDSMC 107, 1985"
     in_words = "The cables stretch, and the motors even that out only after a while."
-    looks_like = "While the arm moves fast the pull is above or below the command, as the cable is drawn out or let in."
+    symptom = "While the arm moves fast the pull is above or below the command, as the cable is drawn out or let in."
     experiment = (
         "Hold the arm still and step the command, then hold the command and push the arm; compare the tensions."
     )

@@ -24,7 +24,7 @@ class GyroDrift(Effect):
     }
     source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3.2"
     in_words = "A gyro drifts: the angle of a joint at rest keeps changing."
-    looks_like = "The gap between measured and simulated angle grows in proportion to time, also where the arm rests."
+    symptom = "The gap between measured and simulated angle grows in proportion to time, also where the arm rests."
     experiment = "Record the arm at rest for half a minute before and after each release."
 
     def measure(self, seen: Reading, params: EffectParams) -> Reading:

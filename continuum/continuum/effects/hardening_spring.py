@@ -24,7 +24,7 @@ class HardeningSpring(Effect):
     }
     source = "Kovacic and Brennan (eds.), The Duffing Equation, Wiley 2011, ch. 2"
     in_words = "The springs grow stiffer the further they are bent."
-    looks_like = "Large swings are faster than small ones, and joints bend less than in proportion to a large load."
+    symptom = "Large swings are faster than small ones, and joints bend less than in proportion to a large load."
     experiment = "Hang growing weights on the tip and read the joints' angles at rest: the line bends upwards."
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:

@@ -45,7 +45,7 @@ class HeldCable(Effect):
     uses_cables = True
     source = "Hunt and Crossley, ASME J. Applied Mechanics 42, 1975, 440-445"
     in_words = "A cable that should hang loose goes taut when the arm bends far."
-    looks_like = "Beyond a certain bend to one side the arm is held back and thrown back, all joints at once."
+    symptom = "Beyond a certain bend to one side the arm is held back and thrown back, all joints at once."
     experiment = "Take the cables off, or give them more slack, and release again."
     removal = "Take the cables off the arm."
 

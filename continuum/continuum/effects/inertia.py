@@ -45,7 +45,7 @@ class Inertia(Effect):
     in_words = "A link is heavier or lighter, or its mass lies further out, than in the drawings."
     in_words_if_more = "A link is heavier, or its mass lies further out, than in the drawings."
     in_words_if_less = "A link is lighter, or its mass lies less far out, than in the drawings."
-    looks_like = "Swings are slower or faster and gravity pulls a joint further, in proportion to each other."
+    symptom = "Swings are slower or faster and gravity pulls a joint further, in proportion to each other."
     experiment = "Weigh each link without what hangs on it; add a known weight to one, release again and compare."
     beware = "Links that are longer or shorter than in the model look nearly the same: measure their lengths as well."
 

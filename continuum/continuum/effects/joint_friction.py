@@ -31,7 +31,7 @@ class JointFriction(Effect):
     in_words_if_more = "A joint rubs more than the others: it wants grease, or is clamped too tight."
     in_words_if_less = "A joint rubs less than the others: it has lost its preload."
     in_words_if_lacking = "The joints rub, and the model has no friction."
-    looks_like = "The joint's motion dies out sooner or later than its neighbours', and it sticks elsewhere."
+    symptom = "The joint's motion dies out sooner or later than its neighbours', and it sticks elsewhere."
     experiment = "Move each joint alone by hand at a steady speed, both ways, with a force gauge."
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:

@@ -43,7 +43,7 @@ class LoadFriction(Effect):
         "Bittencourt and Gunnarsson, ASME JDSMC 134, 2012, 051013 (Coulomb and Stribeck part grow with load)"
     )
     in_words = "Joints rub more the more weight or cable pull they carry."
-    looks_like = "Joints near the base stick more than those near the tip, and all stick more when cables pull."
+    symptom = "Joints near the base stick more than those near the tip, and all stick more when cables pull."
     experiment = "Release the arm with and without a weight on its tip, or pull both cables alike while it swings."
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:

@@ -61,9 +61,9 @@ class Presliding(Effect):
     }
     source = "Al-Bender, Lampaert and Swevers, IEEE Trans. Automatic Control 50, 2005, 1883-1887"
     in_words = "Joints that stick still give way a little, like rubber, before they slide."
-    looks_like = "Where the model sticks the joint rocks and springs back a little; small swings have hysteresis."
+    symptom = "Where the model sticks the joint rocks and springs back a little; small swings have hysteresis."
     experiment = "Push a resting joint gently to and fro, below its break-away force: it springs back to where it was."
-    state_spread = 0.7
+    state_sd = 0.7
     within_friction = True
 
     def n_states(self, n_joints: int) -> int:

@@ -35,7 +35,7 @@ class QuadraticDrag(Effect):
     }
     source = "Hoerner, Fluid-Dynamic Drag, 1965, ch. 3"
     in_words = "Something brakes the arm like water: the faster it moves, the more, and by the square."
-    looks_like = "Fast swings, above all of the tip, lose more than the model says, and slow ones nothing."
+    symptom = "Fast swings, above all of the tip, lose more than the model says, and slow ones nothing."
     experiment = "Release from a large and from a small angle and compare what each swing keeps of the one before."
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:

@@ -22,7 +22,5 @@ class RemountedBase(BaseTilt):
     alike_in_all_runs = BaseTilt.name
     source = "thesis Eq. 12, G; Slocum, Precision Machine Design, 1992, ch. 7 (repeatability of mounts)"
     in_words = "The base plate hangs askew, and by another angle in every run."
-    looks_like = (
-        "All joints come to rest to one side, as the weight beyond them asks; the side differs from run to run."
-    )
+    symptom = "All joints come to rest to one side, as the weight beyond them asks; the side differs from run to run."
     experiment = "Pin the base plate, or put a spirit level on it before every run."

@@ -38,7 +38,7 @@ class RotorInertia(Effect):
     }
     source = "Armstrong, Khatib and Burdick, IEEE ICRA 1986, 510-518 (drives' inertia of the PUMA 560)"
     in_words = "The rotor of a joint's drive adds inertia that the model lacks."
-    looks_like = "A joint is slower to speed up and to brake, whatever the other joints do, and weighs no more."
+    symptom = "A joint is slower to speed up and to brake, whatever the other joints do, and weighs no more."
     experiment = "Swing the outer link alone, its drive disengaged and engaged, and compare the periods."
     beware = "At the first joint a rotor and more inertia of the link are the same: its data sheet tells."
     uses_drives = True

@@ -40,7 +40,7 @@ class SensorCable(Effect):
     }
     source = "Papailiou, IEEE Trans. Power Delivery 12, 1997 (bending stiffness and friction of cables)"
     in_words = "The charging cable of the sensors holds back the first joint."
-    looks_like = "Joint 1 alone is stiffer, damped more and drawn to one side."
+    symptom = "Joint 1 alone is stiffer, damped more and drawn to one side."
     experiment = "Take the charging cable off, or tie it elsewhere, and release again."
     removal = "Take the charging cable off."
     beware = (

@@ -51,7 +51,7 @@ class SensorDelay(Effect):
         "Commands that reach the motors a fixed time late look exactly the same: step the command with the arm held "
         "still and record the tension at the base of the cable."
     )
-    looks_like = "All joints follow the model, shifted by the same time, and the more wrong the faster they move."
+    symptom = "All joints follow the model, shifted by the same time, and the more wrong the faster they move."
     experiment = (
         "Film the release with a lamp that the recording switches on, or tap the arm and compare with a contact."
     )

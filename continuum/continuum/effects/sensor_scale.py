@@ -45,9 +45,7 @@ class SensorScale(Effect):
     }
     source = "Tedaldi, Pretto and Menegatti, IEEE ICRA 2014 (calibration of inertial sensors)"
     in_words = "A sensor shows too much or too little of its link's motion, or sits askew on its disc."
-    looks_like = (
-        "The joints on both sides of a sensor err in opposite ways, in proportion to how far its link is turned."
-    )
+    symptom = "The joints on both sides of a sensor err in opposite ways, in proportion to how far its link is turned."
     experiment = "Turn the link by a known angle, against a stop, and compare."
     beware = "Links that are longer or shorter than in the model look nearly the same: measure their lengths as well."
 

@@ -49,7 +49,7 @@ class SlackCable(Effect):
     ]
     source = "Agrawal, Peine and Yao, IEEE Trans. Robotics 26, 2010, 914-924 (slack of cables in conduits)"
     in_words = "The cables hang loose when they are not pulled, and pull only after the motor has wound that up."
-    looks_like = "When a cable begins to pull nothing happens for a moment; cables that stay taut do as the model says."
+    symptom = "When a cable begins to pull nothing happens for a moment; cables that stay taut do as the model says."
     experiment = "Keep some newtons on both cables all the time and repeat the motion: slack then plays no part."
 
     def n_states(self, n_joints: int) -> int:

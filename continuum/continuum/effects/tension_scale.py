@@ -53,7 +53,7 @@ class TensionScale(Effect):
         "Beckwith, Marangoni and Lienhard, Mechanical Measurements, 2007, ch. 13 (calibration of force transducers)"
     )
     in_words = "What is recorded as a cable's pull is too much or too little by a constant factor."
-    looks_like = (
+    symptom = (
         "Pulled, the arm bends too far or not far enough, in proportion to the pull; let go, it swings as it should."
     )
     experiment = "Hang a known weight from each cable's end and compare what is recorded; weigh the links."

@@ -36,7 +36,7 @@ class TipPayload(Effect):
     }
     source = "Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119 (loads)"
     in_words = "The tip carries a weight that the model does not know."
-    looks_like = "All joints swing slower and return further towards the plumb line, those near the base most."
+    symptom = "All joints swing slower and return further towards the plumb line, those near the base most."
     experiment = "Take off what hangs on the tip, weigh it, and weigh the last link without it."
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:

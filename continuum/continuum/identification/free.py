@@ -16,8 +16,8 @@ from continuum.errors import InvalidValueError
 THESIS_PARAMETERS = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
 """What the thesis identified (chapter 3.3), each common to all joints."""
 
-_BASELINE_SPREAD = 1.0  # prior standard deviation of a parameter of Eq. 12, in units of its nominal value
-_EFFECT_SPREAD = 3.0  # of an effect's parameter, in units of its typical size
+_BASELINE_SD = 1.0  # prior standard deviation of a parameter of Eq. 12, in units of its nominal value
+_EFFECT_SD = 3.0  # of an effect's parameter, in units of its typical size
 _BATCH_ENDS = 2.5  # standard deviations, beyond which no part of a batch is
 
 
@@ -54,7 +54,7 @@ class FreeSpace:
         directions: change of them by one unit of each coordinate, (n_p, n_free).
         scale: one unit of each coordinate in the parameter's own unit, (n_free,).
         lower, upper: bounds of the coordinates, (n_free,).
-        spread: prior standard deviation of the coordinates around 0, (n_free,).
+        prior_sd: prior standard deviation of the coordinates around 0, (n_free,).
 
     Raises:
         InvalidValueError: a parameter that the model does not have, or a joint that it does not have.
@@ -70,7 +70,7 @@ class FreeSpace:
         self._allowed = np.array(bounds).T
         k = len(self.unknowns)
         self.directions, self.scale = np.zeros((self.origin.size, k)), np.zeros(k)
-        self.lower, self.upper, self.spread = np.zeros(k), np.zeros(k), np.zeros(k)
+        self.lower, self.upper, self.prior_sd = np.zeros(k), np.zeros(k), np.zeros(k)
         for i, unknown in enumerate(self.unknowns):
             if unknown.name not in slots:
                 raise InvalidValueError("free parameter", unknown.name, "one of " + ", ".join(slots))
@@ -83,9 +83,9 @@ class FreeSpace:
             values = self.origin[at]
             size = float(np.max(np.abs(values)))
             self.scale[i] = meaning.typical or size or 1e-3 * (meaning.upper - meaning.lower)
-            self.spread[i] = _BASELINE_SPREAD if meaning.typical is None else _EFFECT_SPREAD
+            self.prior_sd[i] = _BASELINE_SD if meaning.typical is None else _EFFECT_SD
             if unknown.tolerance is not None:
-                self.scale[i], self.spread[i] = unknown.tolerance * size, 1.0
+                self.scale[i], self.prior_sd[i] = unknown.tolerance * size, 1.0
             self.directions[at, i] = self.scale[i]
             if self.scale[i] == 0:  # parts that are not there are all alike
                 continue

@@ -21,10 +21,10 @@ def nrmse(simulated: Array, measured: Array) -> float:
 
 def nrmse_by_joint(simulated: Array, measured: Array) -> Array:
     """The terms of the mean, (n_moving_joints,)."""
-    spread = np.std(measured, axis=0)
-    moving = spread > 0
+    sd = np.std(measured, axis=0)
+    moving = sd > 0
     error = np.sqrt(np.mean((simulated - measured) ** 2, axis=0))
-    return np.asarray(error[moving] / spread[moving])
+    return np.asarray(error[moving] / sd[moving])
 
 
 def position_nrmse(seen: Reading, recording: Recording) -> float:

@@ -26,7 +26,7 @@ class SwarmSettings:
     Attributes:
         particles, iterations: how many.
         objective_tolerance: least gain of the best particle that counts as one.
-        spread_tolerance: coefficient of variation of the particles below which the swarm has met.
+        variation_tolerance: coefficient of variation of the particles below which the swarm has met.
         cognitive, social: pull towards a particle's own best and the swarm's best place.
         momentum: part of the speed that is kept.
         constriction: factor against divergence.
@@ -35,7 +35,7 @@ class SwarmSettings:
     particles: int = 20
     iterations: int = 40
     objective_tolerance: float = 0.001
-    spread_tolerance: float = 0.0001
+    variation_tolerance: float = 0.0001
     cognitive: float = 3.0
     social: float = 2.0
     momentum: float = 0.1
@@ -103,9 +103,9 @@ def particle_swarm(
         if progress is not None:
             progress(iteration / settings.iterations)
         global_best = int(np.argmin(personal_best))
-        spread = np.std(place, axis=0) / np.maximum(np.abs(np.mean(place, axis=0)), 1e-12)
+        variation = np.std(place, axis=0) / np.maximum(np.abs(np.mean(place, axis=0)), 1e-12)
         if before - personal_best[global_best] < settings.objective_tolerance and np.all(
-            spread < settings.spread_tolerance
+            variation < settings.variation_tolerance
         ):
             break
         before = personal_best[global_best]

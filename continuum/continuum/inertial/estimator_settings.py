@@ -37,7 +37,7 @@ class EstimatorSettings:
     bias_time: float = 100.0
     rest_window: float = 0.5
     rest_rate: float = 20 * _DEGREE
-    rest_spread: float = 4 * _DEGREE
+    rest_sd: float = 4 * _DEGREE
     rest_force: float = 0.3
     longest_gap: float = 0.1
     bias_left: float = 0.01 * _DEGREE

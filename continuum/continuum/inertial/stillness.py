@@ -11,10 +11,10 @@ SHORTEST_REST = 1.0
 """From which a bias or a zero is found [s]."""
 
 _FEWEST = 20  # readings of a sensor
-_SPREAD_OF_RATE = np.radians(0.5)  # rad/s, standard deviation; sensors at rest have less than 0.1 degrees/s
+_SD_OF_RATE = np.radians(0.5)  # rad/s, standard deviation; sensors at rest have less than 0.1 degrees/s
 _CHANGE_OF_RATE = np.radians(0.2)  # rad/s, between means of the parts
 _LARGEST_BIAS = np.radians(5.0)  # rad/s
-_SPREAD_OF_FORCE = 0.2  # m/s2
+_SD_OF_FORCE = 0.2  # m/s2
 _PARTS = 4
 
 CREEP = np.radians(0.08)
@@ -44,9 +44,9 @@ def _of_one(recording: ImuRecording, sensor: int, creep: float) -> str:
     means = np.array([part.mean(axis=0) for part in np.array_split(rates, _PARTS)])
     if np.linalg.norm(rates.mean(axis=0)) > _LARGEST_BIAS:
         return f"turns at {np.degrees(np.linalg.norm(rates.mean(axis=0))):.1f} degrees/s"
-    if rates.std(axis=0).max() > _SPREAD_OF_RATE or np.ptp(means, axis=0).max() > _CHANGE_OF_RATE:
+    if rates.std(axis=0).max() > _SD_OF_RATE or np.ptp(means, axis=0).max() > _CHANGE_OF_RATE:
         return f"swings: its rate changes by {np.degrees(np.ptp(rates, axis=0).max()):.1f} degrees/s"
-    if forces.std(axis=0).max() > _SPREAD_OF_FORCE:
+    if forces.std(axis=0).max() > _SD_OF_FORCE:
         return f"shakes: its acceleration spreads by {forces.std(axis=0).max():.2f} m/s2"
     parts = np.array_split(forces, _PARTS)
     turn = angle_between(parts[0].mean(axis=0), parts[-1].mean(axis=0))

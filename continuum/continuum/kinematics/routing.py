@@ -136,11 +136,13 @@ def untangle_rates(totals: Array, total_rates: Array, arm: Arm) -> Array:
     left, left_rates = np.array(totals, dtype=float), np.array(total_rates, dtype=float)
     rates = []
     for i, section in enumerate(arm.sections):
-        n_own = len(section.cable_azimuths)
-        w = configuration_from_cables(left[..., :n_own], section)
-        rates.append(_apply(configuration_cable_jacobian(left[..., :n_own], section), left_rates[..., :n_own]))
-        left = (left - section_lengths(w, arm, i))[..., n_own:]
-        left_rates = (left_rates - section_length_rates(w, rates[-1], arm, i))[..., n_own:]
+        n_actuating = len(section.cable_azimuths)
+        w = configuration_from_cables(left[..., :n_actuating], section)
+        rates.append(
+            _apply(configuration_cable_jacobian(left[..., :n_actuating], section), left_rates[..., :n_actuating])
+        )
+        left = (left - section_lengths(w, arm, i))[..., n_actuating:]
+        left_rates = (left_rates - section_length_rates(w, rates[-1], arm, i))[..., n_actuating:]
     return np.stack(rates, axis=-2)
 
 

@@ -19,7 +19,7 @@ from continuum.whole_file import write_figure
 _INSTANTS = 6
 """Postures shown."""
 
-_BESIDE: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "fontsize": 8, "frameon": False}
+_OUTSIDE: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "fontsize": 8, "frameon": False}
 """Legends stand right of their panel."""
 
 
@@ -41,7 +41,7 @@ def write_motion_figure(motion: Trajectory, inputs: InputSignal, p: Parameters, 
         for joint, column in enumerate(np.degrees(values).T):
             panels[name].plot(motion.times, column, color=colours[joint], linewidth=1.3, label=f"joint {joint + 1}")
     if motion.n_joints <= 12:
-        panels["angles"].legend(**_BESIDE, title="from the base", title_fontsize=8)
+        panels["angles"].legend(**_OUTSIDE, title="from the base", title_fontsize=8)
     if drives and pulled:
         _draw_tensions(panels["inputs"], motion.times, driven)
     elif drives:
@@ -62,7 +62,7 @@ def _draw_tensions(axes: Axes, times: Array, pull: Array) -> None:
     """Tension of each cable at the base, (n_times, n_cables) [N]."""
     for cable, (colour, column) in enumerate(zip(("#202020", "#b07800"), pull.T, strict=True)):
         axes.plot(times, column, color=colour, linewidth=1.3, label=f"cable {cable + 1}")
-    axes.legend(**_BESIDE)
+    axes.legend(**_OUTSIDE)
     axes.set_ylim(0, max(1.0, 1.15 * float(pull.max())))
     axes.set(title="Cable tensions at the base", ylabel="[N]")
 

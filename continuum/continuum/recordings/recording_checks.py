@@ -105,8 +105,8 @@ def _clipped(samples: Samples) -> NDArray[np.bool_]:
                 continue
             edges = np.flatnonzero(np.diff(np.concatenate([[False], column == extreme, [False]]).astype(int)))
             for start, end in zip(edges[::2], edges[1::2], strict=True):
-                beside = np.abs(column[[max(start - 1, 0), min(end, column.size - 1)]] - extreme)
-                if end - start >= _CLIPPED_ROWS and np.max(beside) > _CLIPPED_STEP * digit:
+                jump = np.abs(column[[max(start - 1, 0), min(end, column.size - 1)]] - extreme)
+                if end - start >= _CLIPPED_ROWS and np.max(jump) > _CLIPPED_STEP * digit:
                     clipped[start:end] = True
     return clipped
 

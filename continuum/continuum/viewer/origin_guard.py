@@ -66,7 +66,7 @@ def kept_guard(host: str, words: Collection[str], faults: BurstLog) -> Iterator[
     Raises:
         NoDoorError: the server that was started serves in another way.
     """
-    own_names = {host, "localhost", socket.gethostname(), f"{socket.gethostname()}.local"}
+    known_hosts = {host, "localhost", socket.gethostname(), f"{socket.gethostname()}.local"}
     serve = websocket_server.serve
     served = threading.Event()
 
@@ -88,7 +88,7 @@ def kept_guard(host: str, words: Collection[str], faults: BurstLog) -> Iterator[
     ) -> websocket_server.serve:
         def answer(connection: ServerConnection, request: Request) -> Response | None:
             origin, served_as = (", ".join(request.headers.get_all(name)) or None for name in ("Origin", "Host"))
-            if is_stranger(origin, served_as, own_names):
+            if is_stranger(origin, served_as, known_hosts):
                 _note(faults, REFUSED_SITE, f"{origin} asks for {served_as}")
                 return connection.respond(HTTPStatus.FORBIDDEN, "This is a page of another site.\n")
             return process_request(connection, request)
@@ -118,7 +118,7 @@ def kept_guard(host: str, words: Collection[str], faults: BurstLog) -> Iterator[
         )
 
 
-def is_stranger(origin: str | None, served_as: str | None, own_names: set[str]) -> bool:
+def is_stranger(origin: str | None, served_as: str | None, known_hosts: set[str]) -> bool:
     """Whether a browser shows a page of another site.
 
     Args:
@@ -135,7 +135,7 @@ def is_stranger(origin: str | None, served_as: str | None, own_names: set[str]) 
         return True
     if site != served_as:
         return True
-    return not _is_numeric(name) and name not in {own.lower() for own in own_names}
+    return not _is_numeric(name) and name not in {own.lower() for own in known_hosts}
 
 
 def _is_numeric(name: str) -> bool:

@@ -117,10 +117,10 @@ class PseudoPort:
         if self._link.exists():  # of a port that is gone it leads nowhere
             what = f"leads to {self._link.resolve()}, which is in use" if self._link.is_symlink() else "is no link"
             raise FileError(self._link, f"is there already, and {what}; give another --link, or end what made it")
-        beside = self._link.with_name(f".{self._link.name}.{os.getpid()}")
+        other = self._link.with_name(f".{self._link.name}.{os.getpid()}")
         try:
-            beside.unlink(missing_ok=True)
-            beside.symlink_to(self.name)
-            beside.replace(self._link)
+            other.unlink(missing_ok=True)
+            other.symlink_to(self.name)
+            other.replace(self._link)
         except OSError as error:
             raise FileError(self._link, f"cannot be made: {error.strerror}") from None

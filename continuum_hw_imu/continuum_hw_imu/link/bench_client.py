@@ -38,7 +38,7 @@ from continuum_hw_imu.protocol.sequence import Arrival, SequenceTracker
 AGAIN = 0.1
 """An unanswered request is sent again after this time [s]."""
 
-BEGAN_ANEW = 2_000_000
+BEGAN_AGAIN = 2_000_000
 """A frame this much [us] before the newest is not late: the device's clock began anew."""
 
 HELLO_AGAIN = 0.2
@@ -247,7 +247,7 @@ class BenchClient:
         """Whether the device's clock does. Instants of sensors' frames never go back where their numbers go on."""
         talk = self.conversation
         is_next_sample = isinstance(message, ImuFrame) and arrival is Arrival.NEW
-        return device_time < talk.newest - BEGAN_ANEW or (is_next_sample and device_time < talk.measured)
+        return device_time < talk.newest - BEGAN_AGAIN or (is_next_sample and device_time < talk.measured)
 
     def _keep(self, message: Message) -> None:
         talk = self.conversation

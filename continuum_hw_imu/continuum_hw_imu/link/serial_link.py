@@ -13,7 +13,7 @@ import serial
 FIRST_PAUSE, LONGEST_PAUSE = 0.05, 0.4
 """Time between two attempts to open the port [s]: doubled from the first up to the longest."""
 
-LOOK = 0.1
+CHECK = 0.1
 """Longest wait for bytes before the thread looks whether it is to end [s]."""
 
 WRITE_LIMIT = 0.02
@@ -110,7 +110,7 @@ class SerialLink:
 
     def _open(self) -> bool:
         try:
-            port = serial.Serial(self._port, self._baud_rate, timeout=LOOK, write_timeout=WRITE_LIMIT, exclusive=True)
+            port = serial.Serial(self._port, self._baud_rate, timeout=CHECK, write_timeout=WRITE_LIMIT, exclusive=True)
         except (*FAILURES, ValueError) as error:
             self.problem = _in_words(self._port, error)
             return False

@@ -52,7 +52,7 @@ class SequenceTracker:
             self._advance(sequence, ahead)
             return Arrival.NEW
         if ahead == 0 or behind < _REMEMBERED:
-            return self._looked_up(0 if ahead == 0 else behind)
+            return self._resolved(0 if ahead == 0 else behind)
         self._begin(sequence)
         return Arrival.NEW
 
@@ -65,7 +65,7 @@ class SequenceTracker:
         self._missing = (self._missing << min(ahead, _REMEMBERED) | gap) & ((1 << _REMEMBERED) - 1)
         self._newest = sequence
 
-    def _looked_up(self, behind: int) -> Arrival:
+    def _resolved(self, behind: int) -> Arrival:
         if not self._missing >> behind & 1:
             self.repeated += 1
             return Arrival.REPEATED

@@ -26,14 +26,14 @@ def limits_from(values: Mapping[str, Value]) -> TensionLimits:
     return TensionLimits(*(float(values[spec.name]) for spec in PARAMETERS))
 
 
-def tell_limited(diagnostics: Diagnostics, cables: Sequence[str], wanted: Array, most: float) -> None:
+def report_limited(diagnostics: Diagnostics, cables: Sequence[str], wanted: Array, most: float) -> None:
     """Note on the log and ``/diagnostics`` which of the ``wanted`` tensions (n_cables,) [N] are above ``most`` [N]."""
     for name, tension in zip(cables, wanted, strict=True):
         if tension > most:
             diagnostics.warnings.note("tension limited", f"{name}: {tension:g} N commanded, max_tension is {most:g} N")
 
 
-def tell_abandoned(diagnostics: Diagnostics, limits: TensionLimits) -> None:
+def report_abandoned(diagnostics: Diagnostics, limits: TensionLimits) -> None:
     """Note that commands stopped while a cable was tight."""
     patience, slack = limits.patience, limits.slack_time
     diagnostics.warnings.note(

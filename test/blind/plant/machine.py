@@ -132,7 +132,7 @@ class Machine:
         velocity, half of which is then the step before once more.
         """
         p, velocity = self.p, self._v
-        self._look()
+        self._observe()
         pulling = command
         if self.let_go:
             pulling = np.zeros(len(CABLES))
@@ -173,7 +173,7 @@ class Machine:
         self._rubbed = rubbing
         self.time += self.dt
 
-    def _look(self) -> None:
+    def _observe(self) -> None:
         self._velocity, self.angle, self.rate = _now(self._q, self._v, self._earlier, self.joints)
 
     def settle(self, command: np.ndarray, duration: float = SETTLING) -> None:
@@ -214,7 +214,7 @@ class Machine:
             row, part = divmod(k, self.steps)
             self.let_go = let_go_at is not None and row >= let_go_at
             if k % every == 0:
-                self._look()
+                self._observe()
                 angle[k // every], rate[k // every] = self._links @ self._q, self._links @ self._velocity
             if k < (rows - 1) * self.steps:
                 now = command[row]

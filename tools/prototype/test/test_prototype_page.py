@@ -48,10 +48,10 @@ def diagnosis(kind: Kind, *sets: tuple[Cause, ...]) -> Diagnosis:
 def account(result: Diagnosis) -> Account:
     same, other = Said("Haswell", "cause", ["angle_offset@3"], 0.5), Said("Zen", "unknown", [], -0.1)
     predicted = [Predicted("refitted", "smoothed", np.full(5, 2.0), np.full(5, 0.7))]
-    spread = np.array([3.0, 2.0, 1.0, 0.1, 0.02])
+    sd = np.array([3.0, 2.0, 1.0, 0.1, 0.02])
     alone = [("angle_offset@3", 0.7), ("inertia@1,5", 0.1)]
     again = [("nothing", same), ("kernel", same)], [("nothing", same), ("0.03 degrees, draw 1", other)]
-    return Account(result, THETA, *again, result, predicted, spread, alone, ("inertia@2", 0.2))
+    return Account(result, THETA, *again, result, predicted, sd, alone, ("inertia@2", 0.2))
 
 
 RESULTS = {

@@ -69,7 +69,7 @@ def play_verb(args: argparse.Namespace) -> None:
         clock = session.node.create_publisher(Clock, "/clock", 10) if args.clock else None
         first = reader.start_time + round(args.start_offset * 1e9)
         last = first + round(args.playback_duration * 1e9) if args.playback_duration else reader.end_time
-        _tell(playing_text(args.bag_path, wanted, last - first))
+        _report(playing_text(args.bag_path, wanted, last - first))
         session.spin_for(args.delay)
         count = 0
         while reader.message_count:
@@ -84,10 +84,10 @@ def play_verb(args: argparse.Namespace) -> None:
                 break
         for publisher in publishers.values():
             publisher.wait_for_all_acked(_ACKNOWLEDGED)
-        _tell(f"ended, {count} messages played")
+        _report(f"ended, {count} messages played")
 
 
-def _tell(text: str) -> None:
+def _report(text: str) -> None:
     print(f"[INFO] [rosbag2_player]: {text}", file=sys.stderr, flush=True)
 
 

@@ -67,8 +67,8 @@ def info_verb(args: argparse.Namespace) -> None:
             "Service Clients": node.get_client_names_and_types_by_node,
         }
         print(full)
-        for title, look in sides.items():
+        for title, query in sides.items():
             print(f"  {title}:")
-            for entry, types in sorted(look(name, space or "/")):
+            for entry, types in sorted(query(name, space or "/")):
                 if args.include_hidden or not is_hidden(entry):
                     print(f"    {entry}: {', '.join(types)}")

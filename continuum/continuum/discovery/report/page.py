@@ -72,6 +72,6 @@ def _details(result: Diagnosis) -> dict[str, Any]:
         "power": power_tables.power_rows(result),
         "hidden": power_tables.hidden_effects(result),
         "experiments": steps.experiment_rows(result),
-        "beware": sentences.lookalikes(result),
+        "beware": sentences.similar_causes(result),
         "notes": [capital(with_names(note)).rstrip(".") + "." for note in result.notes],
     }

@@ -117,7 +117,7 @@ def extension(result: Diagnosis) -> str:
     return listed([_name(result, cause) for cause in result.causes])
 
 
-def lookalikes(result: Diagnosis) -> list[str]:
+def similar_causes(result: Diagnosis) -> list[str]:
     """What is no effect of the library and would look like those that are named."""
     if not is_named(result.verdict.kind):
         return []

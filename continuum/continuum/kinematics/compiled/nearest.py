@@ -23,7 +23,7 @@ _DIFFERENCE = 1e-5  # step of the differences [rad]
 _LARGEST_STEP = 0.5  # of any coordinate in one iteration [rad]
 _MAX_ITERATIONS = 100
 _NEARER = 1e-6  # part by which a squared error must be less to count as less
-_ALIKE, _BESIDE = 1e-2, 0.2  # part of a squared error, and distance [rad], by which ends of descents count as one
+_ALIKE, _NEIGHBOURS = 1e-2, 0.2  # part of a squared error, and distance [rad], by which ends of descents count as one
 _EQUAL = 1e-6  # part of a squared error by which they do wherever they are, as where an arm is free to turn
 _ROUNDING = 1e-13  # part of a squared error that rounding may hide
 _STATIONARY = 1e-10  # gradient of the half squared error, in weights per rad, that ends the search
@@ -189,4 +189,4 @@ def _is_like(end: Array, other: Array) -> bool:
     way = 0.0
     for k in range(1, len(end)):
         way = max(way, abs(end[k] - other[k]))
-    return difference <= _EQUAL * end[0] or (difference <= _ALIKE * end[0] and way < _BESIDE)
+    return difference <= _EQUAL * end[0] or (difference <= _ALIKE * end[0] and way < _NEIGHBOURS)

@@ -79,7 +79,7 @@ class _Supervisor:
             self._ending.set()
             return
         try:
-            self._tell_exit(child)
+            self._report_exit(child)
         except UserError as error:
             self._failed = True
             self._screen.say("error", "launch", str(error))
@@ -88,7 +88,7 @@ class _Supervisor:
             self._screen.say("info", "launch", f"process[{child.label}] was required: shutting down launched system")
             self._ending.set()
 
-    def _tell_exit(self, child: Child) -> None:
+    def _report_exit(self, child: Child) -> None:
         """Call the launch files' handlers.
 
         Raises:
