@@ -50,9 +50,9 @@ class LinkPoses:
     def angles(self, named: Mapping[str, float]) -> Array:
         """Angles (n_joints,) [rad] of all joints; of those that nobody names and that follow none, 0."""
         angles = np.array([named.get(name, np.nan) for name in self.joints])
-        for joint, global_best, multiplier, offset in self._followers:
+        for joint, mimicked, multiplier, offset in self._followers:
             if np.isnan(angles[joint]):
-                angles[joint] = multiplier * np.nan_to_num(angles[global_best]) + offset
+                angles[joint] = multiplier * np.nan_to_num(angles[mimicked]) + offset
         known: Array = np.nan_to_num(angles)
         return known
 
