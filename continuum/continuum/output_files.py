@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -17,6 +18,8 @@ def check_writable(path: str | Path | None) -> None:
     """
     if path is None:
         return
+    if str(path).endswith(os.sep):
+        raise FileError(path, "is a folder: name a file in it")
     try:
         file = target_of(path)
         there = file.exists()

@@ -32,7 +32,7 @@ def of(theta: np.ndarray, sd: float = np.radians(0.2)) -> Comparison:
 
 
 def errors_of(*covariances: np.ndarray) -> MedianErrors:
-    return MedianErrors(np.stack(covariances), np.zeros((len(covariances),) * 2))
+    return MedianErrors(np.stack(covariances), np.zeros((len(covariances), len(covariances), N)))
 
 
 @pytest.mark.parametrize("side", [1, -1])
@@ -125,7 +125,7 @@ def test_the_difference_of_the_distances_is_the_one_that_is_stated() -> None:
 
 def test_one_hold_again_and_again_is_answered_as_the_one() -> None:
     one = of(0.7 * HELD + 0.3 * EVEN, np.radians(0.4))
-    shared = np.full((4, 4), np.radians(0.4) ** 2)
+    shared = np.full((4, 4, N), np.radians(0.4) ** 2)
     several = overall([one] * 4, MedianErrors(np.zeros((4, N, N)), shared))
     assert several.nearer is one.nearer is Nearer.DYNAMIC
     np.testing.assert_allclose(values(several.closer_by), values(one.closer_by), rtol=1e-9)

@@ -104,3 +104,27 @@ def test_a_known_sensor_error_takes_the_place_of_the_assumed_one() -> None:
     hold = hold_at(run(), slice(0, 100))
     white = np.pi / 2 * hold.noise / 100
     np.testing.assert_allclose(median_errors([hold], 0.01).covariance(0), white + 1e-4 * np.eye(3), rtol=1e-12)
+
+
+@pytest.mark.parametrize("drift", [0.12, -0.05])
+def test_the_bias_of_a_gyro_is_in_the_intervals_of_later_holds(drift: float) -> None:
+    """Drift [deg/s] of one joint through holds far from the beginning: a random walk of its size errs far less."""
+    rng, times = np.random.default_rng(4), np.arange(0.0, 40.0, 1 / 60)
+    still = np.radians([7.0, 9.0, 12.0, 15.0, 18.0])
+    swings = np.where((times % 10.0) < 2.0, 0.2 * np.sin(np.pi * times), 0.0)[:, None]
+    theta = still + swings + np.radians(drift) * times[:, None] * [0, 0, 0, 0, 1]
+    recording = Recording("drift", times, theta + np.radians(0.1) * rng.standard_normal(theta.shape))
+    holds = find_holds(recording)
+    errors = median_errors(holds)
+    off = holds[-1].theta[4] - still[4]
+    assert abs(off) > np.radians(1.0)
+    assert abs(off) < 2 * np.sqrt(errors.covariance(len(holds) - 1)[4, 4])
+    assert np.sqrt(errors.covariance(len(holds) - 1)[0, 0]) < np.radians(0.5)  # the joints that do not drift
+
+
+def test_an_arm_that_shakes_does_not_rest() -> None:
+    times = np.arange(0.0, 6.0, 1 / 120)
+    theta = 0.2 + np.radians(5.0) * np.sin(2 * np.pi * 10.0 * times)[:, None] * np.ones(5)
+    noise = np.radians(0.1) * np.random.default_rng(0).standard_normal(theta.shape)
+    assert find_holds(Recording("shaken", times, theta + noise)) == []
+    assert find_holds(Recording("still", times, 0.2 + noise)) != []

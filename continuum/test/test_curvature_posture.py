@@ -83,7 +83,7 @@ def test_the_slope_is_the_change_with_the_bend(tension: list[float] | None) -> N
     """Exact where friction changes; where the tension does, to some hundredths, as its lever is not the same at all."""
     total, step = np.radians(80), 1e-4
     change = (held(total + step, tension).theta - held(total - step, tension).theta) / (2 * step)
-    np.testing.assert_allclose(held(total, tension).slope, change, rtol=0, atol=1e-5 if tension else 0.04)
+    np.testing.assert_allclose(held(total, tension).derivative, change, rtol=0, atol=1e-5 if tension else 0.04)
 
 
 def test_an_arm_without_friction_needs_the_one_tension() -> None:

@@ -70,7 +70,7 @@ def test_a_seed_draws_the_same_in_both_plants() -> None:
 
 
 def test_files_look_alike_whatever_is_hidden(cases: list[Case]) -> None:
-    looks = []
+    views = []
     for case in cases:
         look = []
         for name, content in case.files.items():
@@ -81,8 +81,8 @@ def test_files_look_alike_whatever_is_hidden(cases: list[Case]) -> None:
                 for column, cell in zip(columns, row.split(","), strict=True):
                     assert re.fullmatch(rf"-?\d+\.\d{{{DIGITS[column]}}}", cell)
             look.append((name, header, [row.partition(",")[0] for row in rows], content.endswith(b"\n")))
-        looks.append((look, case.truth.regimes))
-    assert all(look == looks[0] for look in looks)
+        views.append((look, case.truth.regimes))
+    assert all(look == views[0] for look in views)
 
 
 def test_a_zero_has_no_sign() -> None:

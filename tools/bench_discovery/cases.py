@@ -27,7 +27,7 @@ from tools.bench_discovery.result import Result, kept
 
 _LIMIT = 600  # of one diagnosis [s]
 MAKERS: Final = {"mujoco": plant.make_case, "moreau": moreau.make_case}
-_TOLD = 1500  # characters of a failure
+_SHOWN = 1500  # characters of a failure
 MODEL = "lamecc_prototype.yaml"
 
 
@@ -51,7 +51,7 @@ def run_case(plan: Plan, digest: str) -> Result:
         try:
             verdict, seconds = diagnosed(plant.write_case(case, Path(folder) / "data"))
         except Exception:  # noqa: BLE001 - whatever went wrong is a result
-            failure, seconds = traceback.format_exc()[-_TOLD:], time.process_time() - began
+            failure, seconds = traceback.format_exc()[-_SHOWN:], time.process_time() - began
         finally:
             signal.alarm(0)
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024

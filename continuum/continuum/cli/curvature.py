@@ -24,6 +24,11 @@ if TYPE_CHECKING:
 
 _WIDTH = 80
 
+_ASSUMED = (
+    "Intervals hold if the zeros of the sensors are right within 0.2 degrees (one standard deviation), and allow for "
+    "the wander and drift that the holds show; --sensor-error states another error."
+)
+
 
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
@@ -73,7 +78,9 @@ def run(options: argparse.Namespace) -> int:
     # Here, so that files that are refused need not wait for numba.
     from continuum.curvature.answer import answer, holds_of
     from continuum.curvature.table import write_csv, write_json
+    from continuum.discovery.refit import check_recordings
 
+    check_recordings(recordings, model)
     found = answer(model, holds_of(model, recordings), None if slow is None else math.radians(slow))
     chosen = found.most_bent if options.hold is None else options.hold - 1
     if not 0 <= chosen < len(found.holds):
@@ -89,6 +96,8 @@ def run(options: argparse.Namespace) -> int:
         title = f"{one.recording.name}, {one.times[0]:.2f} to {one.times[-1]:.2f} s"
         write_curvature_figure(found.each[chosen], options.picture, title)
     show(found, chosen)
+    if slow is None:
+        print(f"\n{_filled(_ASSUMED)}")
     written = [printable(path) for path in outputs if path is not None]
     print(
         f"\nwritten: {', '.join(written)}" if written else "\nnothing written; --csv, --json and --picture name files"

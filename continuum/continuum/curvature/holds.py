@@ -7,8 +7,9 @@ middle than
 
 that is what counts as the same posture, and what white noise of standard deviation sigma makes of it, both from
 elsewhere in the library: `continuum.inertial.stillness` and `continuum.estimation.sensor_noise`. A hold lasts for
-SHORTEST_REST or longer. The longest stretch is taken first, so that the end of a motion is not its beginning; what
-creeps is cut into several. Where constant tensions end in a release, the rows before it are a hold of any length.
+SHORTEST_REST or longer, and within a part the rows vary by no more than that. The longest stretch is taken first, so
+that the end of a motion is not its beginning; what creeps is cut into several. Where constant tensions end in a
+release, the rows before it are a hold of any length.
 """
 
 from __future__ import annotations
@@ -71,7 +72,10 @@ def find_holds(recording: Recording) -> list[Hold]:
     """All holds of a recording, in the order of time."""
     parts = _Parts.of(recording)
     ends = np.append(parts.first, recording.times.size)
-    found = [slice(int(ends[a]), int(ends[b])) for a, b in _longest_first(parts.mean, parts.limit)]
+    found = [
+        slice(int(ends[a]), int(ends[b]))
+        for a, b in _longest_first(np.where(parts.still[:, None], parts.mean, np.nan), parts.limit)
+    ]
     rows = [one for one in found if np.ptp(recording.times[one]) >= SHORTEST_REST - _PART]
     held = _before_release(recording)
     if held > 0 and not any(one.start < held for one in rows):
@@ -93,12 +97,15 @@ class _Parts:
         mean: of its angles, (n_parts, n) [rad].
         noise: covariance of a row's angles by white noise, (n, n) [rad^2].
         limit: within which the means of a hold are, (n,) [rad].
+        still: whether its rows vary by no more than white noise and SETTLED, (n_parts,): an arm that shakes has means
+            that stay.
     """
 
     first: NDArray[np.intp]
     mean: Array
     noise: Array
     limit: Array
+    still: NDArray[np.bool_]
 
     @classmethod
     def of(cls, recording: Recording) -> _Parts:
@@ -107,7 +114,9 @@ class _Parts:
         counts, noise = np.diff(np.append(first, since.size)), _noise(recording)
         mean = np.add.reduceat(recording.theta, first, axis=0) / counts[:, None]
         by_noise = _SIGMAS * np.sqrt(np.diag(noise) / np.median(counts))
-        return cls(first, mean, noise, 2 * np.hypot(SETTLED, by_noise))
+        about = np.add.reduceat((recording.theta - np.repeat(mean, counts, axis=0)) ** 2, first, axis=0)
+        still = np.all(about / counts[:, None] <= SETTLED**2 + _SIGMAS**2 * np.diag(noise), axis=1)
+        return cls(first, mean, noise, 2 * np.hypot(SETTLED, by_noise), still)
 
 
 def _hold(recording: Recording, rows: slice, parts: _Parts) -> Hold:
@@ -136,7 +145,10 @@ def _before_release(recording: Recording) -> int:
 
 
 def _longest_first(parts: Array, limit: Array) -> list[tuple[int, int]]:
-    """Stretches whose averages stay within ``limit`` (n,) of each other, as first part and one past the last."""
+    """Stretches whose averages stay within ``limit`` (n,) of each other, as first part and one past the last.
+
+    A part whose averages are NaN belongs to none.
+    """
     reach, end = np.empty(len(parts), dtype=np.int64), 0
     for start in range(len(parts)):
         end = max(end, start + 1)

@@ -1,14 +1,15 @@
 """How far the medians of holds may be from the true joint angles: covariances of their errors.
 
-    median - true angle = e + b + w(t)
+    median - true angle = e + b + w(t) + d t
 
 e is white noise: a median of n rows of covariance C has pi C / (2 n). b is the slow error of each joint's sensor, one
-for all holds of a recording, of standard deviation SLOW. w wanders since the recording began, as integrated rates do:
-a random walk of variance q t. What shows q are the holds, in which the true angle does not change: from one T = 0.5 s
-to the next, of n rows each, the mean angle changes by variance 2 q T / 3 + 2 C / n. Holds that follow each other at
-once, because the angles wander by more than a hold may, count as one.
+for all holds of a recording, of standard deviation SLOW. Since the recording began, w wanders and d t drifts, as
+integrated rates do: a random walk of variance q t, and the bias of a gyro that is left, d. What shows both are the
+holds, in which the true angle does not change. From one T = 0.5 s to the next, of n rows each, the mean angle changes
+by d T on average, with variance 2 q T / 3 + 2 C / n about that. Holds that follow each other at once, because the
+angles wander by more than a hold may, count as one.
 
-Errors b and w of different joints are taken as independent. Where neighbouring joints share a sensor, their errors
+Errors b, w and d of different joints are taken as independent. Where neighbouring joints share a sensor, their errors
 oppose each other, and a difference between base and tip is more certain than these covariances say.
 """
 
@@ -27,14 +28,17 @@ from continuum.inertial.stillness import SHORTEST_REST
 _WINDOW = SHORTEST_REST / 2
 """From which to the next the wander is seen [s]; the shortest hold has two."""
 
+_TELLING = 4
+"""Changes from which on their mean and their variance are both known to better than themselves."""
+
 
 @dataclass(frozen=True)
 class MedianErrors:
-    """Covariance of the errors of holds h and k: ``shared[h, k] * I``, and ``white[h]`` where these are the same.
+    """Covariance of the errors of holds h and k: ``diag(shared[h, k])``, and ``white[h]`` where these are the same.
 
     Attributes:
         white: (n_holds, n, n) [rad^2].
-        shared: (n_holds, n_holds) [rad^2].
+        shared: (n_holds, n_holds, n) [rad^2].
     """
 
     white: Array
@@ -43,12 +47,12 @@ class MedianErrors:
     def covariance(self, hold: int) -> Array:
         """Of one hold's medians, (n, n) [rad^2]."""
         white = self.white[hold]
-        return np.asarray(white + self.shared[hold, hold] * np.eye(len(white)))
+        return np.asarray(white + np.diag(self.shared[hold, hold]))
 
     def variance(self, derivatives: Array) -> float:
-        """Variance of a function of all medians by its slopes, (n_holds, n) [./rad]."""
+        """Variance of a function of all medians by its derivatives, (n_holds, n) [./rad]."""
         by_white = np.einsum("hi,hij,hj", derivatives, self.white, derivatives)
-        return float(by_white + np.sum(self.shared * (derivatives @ derivatives.T)))
+        return float(by_white + np.einsum("hi,hki,ki", derivatives, self.shared, derivatives))
 
 
 def median_errors(holds: Sequence[Hold], slow: float | None = None) -> MedianErrors:
@@ -56,31 +60,49 @@ def median_errors(holds: Sequence[Hold], slow: float | None = None) -> MedianErr
 
     Args:
         holds: one or more.
-        slow: standard deviation of all that is not white, where it is known [rad]; without, SLOW and what wanders.
+        slow: standard deviation of all that is not white, where it is known [rad]; without, SLOW, what wanders and what
+            drifts.
     """
     white = np.stack([np.pi / 2 * hold.noise / len(hold.times) for hold in holds])
     recordings = [id(hold.recording) for hold in holds]
-    same = np.equal.outer(recordings, recordings)
+    same = np.equal.outer(recordings, recordings)[:, :, None]
+    n = len(holds[0].theta)
     if slow is not None:
-        return MedianErrors(white, same * slow**2)
+        return MedianErrors(white, same * np.full(n, slow**2))
     since = np.array([hold.since_begin for hold in holds])
-    rate = {one: _wander([h for h in holds if id(h.recording) == one]) for one in recordings}
-    wandered = np.minimum.outer(since, since) * np.array([rate[one] for one in recordings])
-    return MedianErrors(white, same * (SLOW**2 + wandered))
+    found = {one: _wander_and_drift([h for h in holds if id(h.recording) == one]) for one in recordings}
+    wandered = np.minimum.outer(since, since) * np.array([found[one][0] for one in recordings])
+    drifted = np.multiply.outer(since, since)[:, :, None] * np.array([found[one][1] for one in recordings])
+    return MedianErrors(white, same * (SLOW**2 + wandered[:, :, None] + drifted))
 
 
-def _wander(holds: Sequence[Hold]) -> float:
-    """q of one recording, a mean over joints and holds [rad^2/s]; 0 where it is less than what white noise makes."""
-    excess, seconds = 0.0, 0.0
-    for rows in _joined(holds):
-        times, theta = holds[0].recording.times[rows], holds[0].recording.theta[rows]
-        first = np.flatnonzero(np.diff(np.floor((times - times[0]) / _WINDOW), prepend=-1.0))
-        counts = np.diff(first)[:, None]  # the last one, which may be shorter, is left out
-        means = np.add.reduceat(theta[: first[-1]], first[:-1], axis=0) / counts if first.size > 1 else theta[:0]
-        by_noise = np.diag(holds[0].noise) * (1 / counts[1:] + 1 / counts[:-1])
-        excess += float(np.sum(np.mean(np.diff(means, axis=0) ** 2 - by_noise, axis=1)))
-        seconds += 2 / 3 * _WINDOW * max(len(means) - 1, 0)
-    return max(excess / seconds, 0.0) if seconds > 0 else 0.0
+def _wander_and_drift(holds: Sequence[Hold]) -> tuple[float, Array]:
+    """q of one recording, a mean over joints [rad^2/s], and d^2 of each joint, (n,) [(rad/s)^2].
+
+    Each is 0 where it is less than what the other errors make. Few changes do not tell a drift from a wander.
+    """
+    changes, noise = zip(*(_changes(holds[0], rows) for rows in _joined(holds)), strict=True)
+    moved, by_noise = np.concatenate(changes), np.concatenate(noise)
+    k, n = moved.shape
+    if k == 0:
+        return 0.0, np.zeros(n)
+    mean = moved.mean(axis=0) if k >= _TELLING else np.zeros(n)
+    about = np.sum((moved - mean) ** 2, axis=0) / (k - 1 if k >= _TELLING else k)
+    q = max(float(np.mean(about - by_noise.mean(axis=0))), 0.0) / (2 / 3 * _WINDOW)
+    drift = mean / _WINDOW
+    by_chance = (q * _WINDOW * k + by_noise.mean(axis=0) * len(changes)) / (k * _WINDOW) ** 2
+    return q, np.maximum(drift**2 - by_chance, 0.0)
+
+
+def _changes(hold: Hold, rows: slice) -> tuple[Array, Array]:
+    """Changes of the mean angles from window to window, (k, n) [rad], and their variances by white noise."""
+    times, theta = hold.recording.times[rows], hold.recording.theta[rows]
+    first = np.flatnonzero(np.diff(np.floor((times - times[0]) / _WINDOW), prepend=-1.0))
+    counts = np.diff(first)[:, None]  # the last one, which may be shorter, is left out
+    means = np.add.reduceat(theta[: first[-1]], first[:-1], axis=0) / counts if first.size > 1 else theta[:0]
+    if len(means) < 2:
+        return theta[:0], theta[:0]
+    return np.diff(means, axis=0), np.diag(hold.noise) * (1 / counts[1:] + 1 / counts[:-1])
 
 
 def _joined(holds: Sequence[Hold]) -> list[slice]:

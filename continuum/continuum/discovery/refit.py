@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
+from continuum.arrays import Array
 from continuum.discovery.baseline import fitted_baseline, has_tension, problem_of, with_linear_inputs
 from continuum.discovery.examination import Examined
 from continuum.discovery.hand_measurement import HandMeasurement, known_whole
@@ -20,6 +22,10 @@ from continuum.errors import InvalidValueError
 from continuum.estimation.structure import Structure
 from continuum.recordings.cable_sides import refuse_swapped_cables
 from continuum.recordings.recording import Recording
+
+_STRETCH, _ONE_RUN = 10, 0.5
+"""Rows of a stretch, and part of a recording's stretches that another one has as well: noise and motions are never the
+same twice, a copy is."""
 
 
 def check_recordings(recordings: Sequence[Recording], model: Model) -> None:
@@ -35,8 +41,21 @@ def check_recordings(recordings: Sequence[Recording], model: Model) -> None:
         one.inputs_for(model)
         refuse_swapped_cables(one)
         for other in recordings[:number]:
-            if np.array_equal(one.theta, other.theta):
+            if _share_of_common_rows(one, other) > _ONE_RUN:
                 raise InvalidValueError("recordings", f"{other.name} and {one.name}", "different runs: these are one")
+
+
+def _share_of_common_rows(one: Recording, other: Recording) -> float:
+    """Part of the shorter recording's different stretches of angles that the other one has too."""
+    first, second = (np.unique(_stretches(run.theta), axis=0) for run in (one, other))
+    both = np.unique(np.concatenate([first, second]), axis=0)
+    return (len(first) + len(second) - len(both)) / min(len(first), len(second))
+
+
+def _stretches(theta: Array) -> Array:
+    """All stretches of some rows, (n_stretches, rows n) [rad]: single rows of rounded angles may well be alike."""
+    rows = min(_STRETCH, len(theta))
+    return sliding_window_view(theta, rows, axis=0).reshape(len(theta) - rows + 1, -1)
 
 
 def problem_for(

@@ -75,13 +75,20 @@ def remarks(identified: Identified, predicted: Sequence[Score], fitted: Sequence
     if identified.error > identified.limit:
         yield (
             f"Half-second segments err by {identified.error:.3g} times the sensors' noise, more than chance allows "
-            f"({identified.limit:.3g}): something else may be wrong with the model, and values can be off by more than "
-            "their intervals. `continuum diagnose` looks for it."
+            f"({identified.limit:.3g}): the fit stopped short of its optimum, or something else is wrong with the "
+            "model. Values can be off by more than their intervals. `continuum diagnose` looks for a cause."
         )
     elif np.isfinite(identified.error):
-        yield "Half-second segments err by no more than the sensors' noise."
+        yield (
+            "Half-second segments err by no more than the sensors' noise. That does not show that the rest of the "
+            "model is right: an effect that it lacks can hide in these values. `continuum diagnose` looks for one."
+        )
     else:
         yield "A swarm gives values without intervals."
+    yield (
+        "All of this holds for the masses and lengths of the model file. A release shows springs and friction in "
+        "proportion to them only: with masses that are 10 % too large, these values are 10 % too large as well."
+    )
     names = [name.replace("_", " ") for name in identified.undetermined]
     if names:
         yield f"These runs say little about {', '.join(names)}: the value is mostly what was expected beforehand."

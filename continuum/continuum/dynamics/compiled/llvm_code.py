@@ -1,7 +1,8 @@
 """A CasADi function as machine code by LLVM, which comes with numba: for machines without a C compiler.
 
 Every operation of CasADi's list becomes an instruction of LLVM's language; results are those of the C code to the last
-bit. LLVM compiles in a third of a C compiler's time, and its code takes up to twice as long to run.
+bit, but for the sign of a zero that fmin or fmax chooses. LLVM compiles in a third of a C compiler's time, and its code
+takes up to twice as long to run.
 """
 
 from __future__ import annotations

@@ -1,0 +1,38 @@
+"""Names in the code are the field's words: docs/vocabulary.md."""
+
+import io
+import re
+import subprocess
+import tokenize
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+OURS = (
+    *("told", "untold", "anew", "afresh", "leader", "leaders", "contender", "contenders", "misfit", "misfits"),
+    *("heard", "ears", "deaths", "door", "lookalike", "lookalikes", "felt", "spreads", "promised", "beside", "looks"),
+)
+"""Words that stood for something that textbooks or ROS have a name for."""
+
+
+def sources() -> list[Path]:
+    listed = subprocess.run(["git", "ls-files", "-z", "*.py"], cwd=ROOT, capture_output=True, text=True, check=True)
+    return [ROOT / name for name in filter(None, listed.stdout.split("\0")) if (ROOT / name).exists()]
+
+
+def names(path: Path) -> set[str]:
+    """Names in a file but those of tests, which are sentences."""
+    tokens = tokenize.generate_tokens(io.StringIO(path.read_text(encoding="utf-8")).readline)
+    return {t.string for t in tokens if t.type == tokenize.NAME and not t.string.startswith("test_")}
+
+
+def parts(name: str) -> set[str]:
+    return {*re.sub(r"([a-z])([A-Z])", r"\1_\2", name).lower().split("_")}
+
+
+def test_no_name_has_a_word_of_our_own() -> None:
+    found = {(path.name, name) for path in sources() for name in names(path) if parts(name) & {*OURS}}
+    assert found == set()
+
+
+def test_no_file_is_called_by_one() -> None:
+    assert [path for path in sources() if parts(path.stem) & {*OURS} and not path.stem.startswith("test_")] == []
