@@ -6,7 +6,7 @@ IN_WORKSPACE := source install/setup.bash &&
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-curvature bench-discovery \
-  bench-inertial bench-link bench-viewer fuzz prototype exams figures equations api check check-old format lock clean seeded-faults
+  bench-inertial bench-link bench-viewer fuzz prototype exams figures notebook equations api check check-old format lock clean seeded-faults
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -81,6 +81,9 @@ exams: setup ## arms that nobody of this project made (3 minutes); overwrites do
 
 figures: reproduction prototype ## make every picture of docs/pictures again, and with two of them their pages (5 minutes)
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 PYTHONPATH="test:$$PYTHONPATH" python3 -m tools.figures $(ARGS)
+
+notebook: setup ## run examples/find_the_hidden_effect.ipynb and save its outputs in it
+	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.notebook examples/find_the_hidden_effect.ipynb
 
 equations: setup ## look up where the thesis's equations, tables and figures are in the code; overwrites docs/equations.md
 	@$(IN_WORKSPACE) python3 -m tools.equations $(ARGS)

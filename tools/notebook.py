@@ -22,7 +22,7 @@ import matplotlib as mpl
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from continuum.whole_file import write_whole
+from continuum.whole_file import write_figure, write_whole
 from tools.small_png import shrink
 
 DPI = 70
@@ -70,7 +70,7 @@ def png(figure: Figure) -> str:
     """A small picture, in base64."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "figure.png"
-        figure.savefig(path, dpi=DPI)
+        write_figure(path, figure, DPI)
         shrink(path)
         return base64.b64encode(path.read_bytes()).decode()
 

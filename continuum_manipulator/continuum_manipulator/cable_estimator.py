@@ -122,6 +122,9 @@ class CableEstimatorNode(CheckedNode):
         if found.status not in STATUSES:
             raise MessageFault(NO_POSTURE, "no most likely posture was found")
         check_configuration(found.w, self.arm.sections)
+        if found.status is EstimateStatus.INCONSISTENT:
+            detail = f"chi-square is {found.chi_square:.3g} with {found.degrees_of_freedom} degrees of freedom"
+            self.diagnostics.warnings.note("inconsistent lengths", detail)
 
     def _rate(self, w: Array, cable_rates: Array) -> Array:
         """Rates of the configurations (n_sections, 2) [rad/s]: least squares over the cables' rates [m/s]."""

@@ -20,11 +20,14 @@ from continuum.dynamics.model import Model
 from continuum.dynamics.simulation_input import initial_state
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
+from continuum.estimation.run import Run
+from continuum.estimation.sensor_noise import white_noise
 from continuum.identification.local_derivatives import local_derivative
 from continuum.identification.nrmse import measured_rates, nrmse
 from continuum.recordings.recording import Recording
 
 _MOST = 20  # simulations; what is nearly linear needs four, and friction leaves kinks to search in for ever
+_SLOPE_SD = 1.0  # rad/s, of an initial rate about the slope of the first angles
 _FAILED = 1e3  # rad, that a simulation which fails is off everywhere
 
 
@@ -69,15 +72,18 @@ def _score(simulator: Simulator, recording: Recording) -> Score:
 
 
 def nearest_simulation(simulator: Simulator, recording: Recording) -> Trajectory:
-    """The simulation of a run from the initial angles and rates that bring it nearest to the measured angles.
+    """The simulation of a run from the likeliest initial angles and rates, given what was measured.
 
-    By Levenberg-Marquardt from the first measured row, with the sensitivities of the trajectory.
+    By Levenberg-Marquardt from the first measured row, with the sensitivities of the trajectory. Angles, and rates
+    where they were measured, count by their noise; initial rates have a prior about the slope of the first angles.
     """
     model, n = simulator.model, recording.n_joints
     inputs = recording.inputs_for(model).later(lateness(model))
-    rates = local_derivative(recording.times, recording.theta, 0, degree=2)
+    slope = local_derivative(recording.times, recording.theta, 0, degree=2)
     free = np.zeros((simulator.equations.values.size, 2 * n))
     by_initial = np.eye(2 * n + model.n_states, 2 * n)
+    with_rates = recording.theta_rate is not None
+    sd = _noise(recording)
 
     @lru_cache(maxsize=1)
     def simulated(x: tuple[float, ...]) -> Trajectory:
@@ -86,16 +92,42 @@ def nearest_simulation(simulator: Simulator, recording: Recording) -> Trajectory
         return simulator.run(start, recording.times, inputs, free=free, free_initial=by_initial)
 
     def residuals(x: Array) -> Array:
-        found = simulated(tuple(x))
+        found, prior = simulated(tuple(x)), (x[n:] - slope) / _SLOPE_SD
         if found.status is not SimulationStatus.COMPLETE:
-            return np.full(recording.theta.size, _FAILED)
-        return np.asarray((as_read(model, found).theta - recording.theta).ravel())
+            return np.full(recording.theta.size * (1 + with_rates) + n, _FAILED / sd[0])
+        seen = as_read(model, found)
+        of_angles = (seen.theta - recording.theta) / sd[:n]
+        if recording.theta_rate is None:
+            return np.concatenate([of_angles.ravel(), prior])
+        of_rates = (seen.theta_rate - recording.theta_rate) / sd[n:]
+        return np.concatenate([of_angles.ravel(), of_rates.ravel(), prior])
 
     def jacobian(x: Array) -> Array:
-        return np.asarray(simulated(tuple(x)).sensitivities[:, :n].reshape(recording.theta.size, 2 * n))
+        by_states = simulated(tuple(x)).sensitivities
+        parts = [by_states[:, :n] / sd[:n, None]]
+        if with_rates:
+            parts.append(by_states[:, n : 2 * n] / sd[n:, None])
+        prior = np.eye(n, 2 * n, k=n) / _SLOPE_SD
+        return np.concatenate([*(part.reshape(-1, 2 * n) for part in parts), prior])
 
-    begin = np.concatenate([recording.theta[0], rates])
+    begin = np.concatenate([recording.theta[0], slope if recording.theta_rate is None else recording.theta_rate[0]])
     first = simulated(tuple(begin))
     if first.status is not SimulationStatus.COMPLETE:
         return first
     return simulated(tuple(least_squares(residuals, begin, jacobian, method="lm", max_nfev=_MOST).x))
+
+
+def _noise(recording: Recording) -> Array:
+    """Standard deviations of the white noise of angles, and of rates where they were measured, (n or 2 n,)."""
+    rates = recording.theta_rate
+    readings = recording.theta if rates is None else np.hstack([recording.theta, rates])
+    none = (np.zeros(1), np.zeros((1, 1)))
+    run = Run(
+        recording.name,
+        recording.times,
+        np.ascontiguousarray(readings),
+        np.ones_like(readings),
+        recording.n_joints,
+        none,
+    )
+    return np.sqrt(np.diag(white_noise([run])))

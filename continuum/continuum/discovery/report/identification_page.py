@@ -74,8 +74,8 @@ def remarks(identified: Identified, predicted: Sequence[Score], fitted: Sequence
         yield "The simulation of a run failed: the identified model cannot be used for motions like it."
     if identified.error > identified.limit:
         yield (
-            f"Half-second segments err by {identified.error:.3g} times the sensors' noise, more than chance allows "
-            f"({identified.limit:.3g}): the fit stopped short of its optimum, or something else is wrong with the "
+            f"Half-second segments err by {identified.error:.3f} times the sensors' noise, more than chance allows "
+            f"({identified.limit:.3f}): the fit stopped short of its optimum, or something else is wrong with the "
             "model. Values can be off by more than their intervals. `continuum diagnose` looks for a cause."
         )
     elif np.isfinite(identified.error):
@@ -84,7 +84,7 @@ def remarks(identified: Identified, predicted: Sequence[Score], fitted: Sequence
             "model is right: an effect that it lacks can hide in these values. `continuum diagnose` looks for one."
         )
     else:
-        yield "A swarm gives values without intervals."
+        yield "A swarm gives values without intervals, and others with another --seed: compare the errors in Table 4."
     yield (
         "All of this holds for the masses and lengths of the model file. A release shows springs and friction in "
         "proportion to them only: with masses that are 10 % too large, these values are 10 % too large as well."
