@@ -48,12 +48,12 @@ def main(out: Path) -> None:
     print(f"{report.n_solved} of {report.n_targets} poses reached, {report.n_lost} messages lost")
 
     rclpy.init()
-    node, heard = rclpy.create_node("example"), []
-    node.create_subscription(CableStates, "cable_states", lambda message: heard.append(message.position), 1000)
+    node, received = rclpy.create_node("example"), []
+    node.create_subscription(CableStates, "cable_states", lambda message: received.append(message.position), 1000)
     subprocess.run(["ros2", "bag", "play", bag, "--topics", "/cable_states", "--delay", "1", "--rate", "4"], check=True)
     for _ in range(1000):  # the subscription's queue holds so many
         rclpy.spin_once(node, timeout_sec=0.0)
-    print(f"{len(heard)} cable states played; as recorded: {np.array_equal(heard, recorded.lengths.values)}")
+    print(f"{len(received)} cable states played; as recorded: {np.array_equal(received, recorded.lengths.values)}")
 
 
 if __name__ == "__main__":
