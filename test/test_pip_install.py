@@ -1,6 +1,7 @@
 """The library by `pip install` alone: from its sdist, without ROS, colcon or a compiler."""
 
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -37,14 +38,7 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("pip")
     build = f"import setuptools.build_meta as backend; print(backend.build_sdist({str(folder)!r}))"
     copied = folder / "checkout"
-    files = subprocess.run(
-        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "."],
-        cwd=PACKAGE, capture_output=True, text=True, check=True,
-    ).stdout.split("\0")  # fmt: skip
-    for name in filter(None, files):
-        if (PACKAGE / name).exists():
-            (copied / name).parent.mkdir(parents=True, exist_ok=True)
-            (copied / name).write_bytes((PACKAGE / name).read_bytes())
+    shutil.copytree(PACKAGE, copied, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info", "build"))
     run([sys.executable, "-c", build], cwd=copied)
     (sdist,) = folder.glob("*.tar.gz")
     install = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--no-build-isolation"]

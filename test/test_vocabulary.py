@@ -2,7 +2,6 @@
 
 import io
 import re
-import subprocess
 import tokenize
 from pathlib import Path
 
@@ -14,9 +13,14 @@ OURS = (
 """Words that stood for something that textbooks or ROS have a name for."""
 
 
+FOLDERS = (
+    *("continuum", "continuum_description", "continuum_hw_imu", "continuum_manipulator", "trajectory_generator"),
+    *("examples", "test", "tools"),
+)
+
+
 def sources() -> list[Path]:
-    listed = subprocess.run(["git", "ls-files", "-z", "*.py"], cwd=ROOT, capture_output=True, text=True, check=True)
-    return [ROOT / name for name in filter(None, listed.stdout.split("\0")) if (ROOT / name).exists()]
+    return [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.py"))]
 
 
 def names(path: Path) -> set[str]:
