@@ -124,7 +124,7 @@ def particle_swarm(
 
 def _run_objective(simulator: Simulator, recording: Recording, values: Array) -> float:
     start = np.concatenate([recording.theta[0], np.zeros(recording.n_joints)])
-    run = simulator.run(start, recording.times, recording.pull, values)
+    run = simulator.run(start, recording.times, recording.inputs_for(simulator.model), values)
     if run.status is not SimulationStatus.COMPLETE:
         return float("inf")
     return rate_nrmse(Reading(run.times, run.theta, run.theta_rate, float(run.times[0])), recording)

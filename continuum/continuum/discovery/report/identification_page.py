@@ -86,13 +86,16 @@ def remarks(identified: Identified, predicted: Sequence[Score], fitted: Sequence
     else:
         yield "A swarm gives values without intervals, and others with another --seed: compare the errors in Table 4."
     yield (
-        "All of this holds for the masses and lengths of the model file. A release shows springs and friction in "
-        "proportion to them only: with masses that are 10 % too large, these values are 10 % too large as well."
+        "All of this holds for the masses and lengths of the model file. Where only its weight drives the arm, "
+        "springs, viscous and Coulomb friction are known in proportion to the masses alone."
     )
     names = [name.replace("_", " ") for name in identified.undetermined]
     if names:
         yield f"These runs say little about {', '.join(names)}: the value is mostly what was expected beforehand."
-    at_bound = [_name(one) for one in identified.values if one.is_at_bound]
+    absent = [_name(one) for one in identified.values if one.start == one.value == 0]
+    if absent:
+        yield f"Not sought, as the model file has none: {', '.join(absent)}. Give a first value if the arm has it."
+    at_bound = [_name(one) for one in identified.values if one.is_at_bound and not one.start == one.value == 0]
     if at_bound:
         yield f"At the bound of what is possible, and therefore uncertain: {', '.join(at_bound)}."
 
