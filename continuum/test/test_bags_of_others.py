@@ -10,8 +10,8 @@ from recorded_runs import STAMPS as RUN_STAMPS
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from swing_bag import ANGLES, PULL, RATES, STAMPS, stamped, swing
 
-from continuum.cli.diagnose import read_recording
 from continuum.errors import FileError
+from continuum.recordings.read_recording import read_recording
 from continuum.recordings.recording_bag import read_recording_bag
 from continuum.viewer.tracks import read_tracks
 

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from continuum.cli import main
 from continuum.cli.identify import chosen_runs
 from continuum.discovery.parameter_fit import fit_parameters
+from continuum.discovery.report.identification_page import remarks
 from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
@@ -19,8 +20,8 @@ from continuum.dynamics.simulator import Simulator
 from continuum.errors import InvalidValueError
 from continuum.identification.estimate import Estimate
 from continuum.identification.free import THESIS_PARAMETERS
-from continuum.identification.identified import with_identified
-from continuum.identification.scores import scores
+from continuum.identification.identified import Identified, with_identified
+from continuum.identification.scores import Score, scores
 from continuum.identification.swarm import SwarmSettings
 from continuum.identification.thesis_swarm import swarm_parameters
 from continuum.recordings.recording import Recording
@@ -125,6 +126,26 @@ def test_a_value_of_one_joint_leaves_the_others_alone() -> None:
     expected = np.broadcast_to(nominal().parameters.stiffness, 5).copy()
     expected[1] = 3.0
     np.testing.assert_array_equal(model.parameters.stiffness, expected)
+
+
+@pytest.mark.parametrize(("error", "warns"), [(0.9, False), (1.019, False), (1.021, True), (3.0, True)])
+def test_an_error_beyond_chance_is_warned_of_and_no_other(error: float, warns: bool) -> None:
+    run = Recording("run", TIMES, np.zeros((TIMES.size, 5)))
+    score = Score(run, run.theta, 0.05, 0.1)
+    values = (estimate("stiffness", 1.2),)
+    said = " ".join(remarks(Identified("fit", nominal(), values, error, 1.02), [score], [0]))
+    assert ("more than chance allows" in said) is warns
+    assert ("no more than the sensors' noise" in said) is not warns
+
+
+def test_a_value_that_the_file_has_none_of_is_not_called_at_its_bound() -> None:
+    run = Recording("run", TIMES, np.zeros((TIMES.size, 5)))
+    none = replace(estimate("stiffness", 0.0), start=0.0, lower=0.0, upper=1e4)
+    bound = replace(none, start=1.0)
+    for one, wanted, other in ((none, "Not sought", "At the bound"), (bound, "At the bound", "Not sought")):
+        said = " ".join(remarks(Identified("fit", nominal(), (one,), 0.9, 1.0), [Score(run, run.theta, 0.1, 0.1)], [0]))
+        assert wanted in said
+        assert other not in said
 
 
 @given(st.integers(2, 9), st.data())

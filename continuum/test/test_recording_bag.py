@@ -12,8 +12,8 @@ from recorded_runs import run as kinematic_run
 from rosbags.rosbag2 import StoragePlugin
 from swing_bag import ANGLES, JOINTS, PULL, RATES, ROWS, STAMPS, T, stamped, swing
 
-from continuum.cli.diagnose import read_recording
 from continuum.errors import FileError
+from continuum.recordings.read_recording import read_recording
 from continuum.recordings.recording_bag import read_recording_bag
 from continuum.viewer.tracks import read_tracks
 

@@ -18,10 +18,10 @@ from typing import Any, Final, NoReturn
 
 from blind import moreau, plant
 
-from continuum.cli.diagnose import read_recording
 from continuum.discovery import diagnose
 from continuum.discovery.verdict_json import as_mapping
 from continuum.dynamics.model_file import load_model
+from continuum.recordings.read_recording import read_recording
 from tools.bench_discovery.plans import Plan
 from tools.bench_discovery.result import Result, kept
 

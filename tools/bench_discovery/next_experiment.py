@@ -19,7 +19,6 @@ import numpy as np
 from blind import moreau, plant
 from blind.plant.further import Wanted, further_run
 
-from continuum.cli.diagnose import read_recording
 from continuum.discovery import diagnose
 from continuum.discovery.decision import Kind
 from continuum.discovery.designs import Design, designs
@@ -29,6 +28,7 @@ from continuum.discovery.result import Cause, Diagnosis, Experiment, HandTest, R
 from continuum.discovery.verdict_json import as_mapping
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model_file import load_model
+from continuum.recordings.read_recording import read_recording
 from tools.bench_discovery.answer import is_exactly
 from tools.bench_discovery.cases import MAKERS, MODEL
 from tools.bench_discovery.figures import SAME

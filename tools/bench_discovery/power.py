@@ -16,12 +16,12 @@ from typing import Any, Final, NamedTuple
 
 from blind import plant
 
-from continuum.cli.diagnose import read_recording
 from continuum.discovery.power import Power, powers
 from continuum.discovery.refit import refitted
 from continuum.discovery.search import with_library
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model_file import load_model
+from continuum.recordings.read_recording import read_recording
 from tools.bench_discovery.cases import MAKERS, MODEL
 from tools.bench_discovery.figures import FOUND, SAME
 from tools.bench_discovery.plans import HALVES, Plan

@@ -5,16 +5,16 @@ from __future__ import annotations
 import argparse
 import importlib.metadata
 import math
-import sys
 import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from continuum.cli.diagnose import read_recording
+from continuum.cli.recordings import read_recordings
 from continuum.cli.tables import print_table
 from continuum.errors import InvalidValueError
+from continuum.identification.estimate import Z_95
 from continuum.output_files import check_apart, check_picture, check_writable
 from continuum.printable import printable
 
@@ -71,10 +71,7 @@ def run(options: argparse.Namespace) -> int:
     check_apart(outputs, (*options.data, options.model))
     model = load_model(options.model)
     model.require_cables("continuum curvature")
-    recordings = [read_recording(path) for path in options.data]
-    for recording in recordings:
-        for note in recording.notes:
-            print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
+    recordings = read_recordings(options.data)
     # Here, so that files that are refused need not wait for numba.
     from continuum.curvature.answer import answer, holds_of
     from continuum.curvature.table import write_csv, write_json
@@ -163,7 +160,7 @@ def _distances(angles: Distance, tip: Distance) -> str:
 
 
 def _interval(one: Distance, unit: float, digits: int) -> str:
-    return f"{unit * one.value:.{digits}f} +- {unit * 1.96 * one.sd:.{digits}f}"
+    return f"{unit * one.value:.{digits}f} +- {unit * Z_95 * one.sd:.{digits}f}"
 
 
 def _joints(one: Comparison) -> list[tuple[str, ...]]:

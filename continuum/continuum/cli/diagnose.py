@@ -6,11 +6,11 @@ import argparse
 import datetime
 import importlib.metadata
 import math
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from continuum.cli.recordings import read_recordings
 from continuum.cli.tables import print_pairs
 from continuum.errors import InvalidValueError
 from continuum.output_files import check_apart, check_writable
@@ -18,7 +18,6 @@ from continuum.printable import printable
 
 if TYPE_CHECKING:
     from continuum.discovery.result import Diagnosis
-    from continuum.recordings.recording import Recording
 
 EXIT_CODES = {"adequate": 0, "cause": 3, "ambiguous": 4, "unknown": 5}  # 1 is a crash, 2 wrong usage
 
@@ -73,10 +72,7 @@ def run(options: argparse.Namespace) -> int:
     for path in (options.json, options.report, options.extended):
         check_writable(path)
     check_apart((options.json, options.report, options.extended), (*options.data, options.model))
-    model, recordings = load_model(options.model), [read_recording(path) for path in options.data]
-    for recording in recordings:
-        for note in recording.notes:  # what was not understood may be what matters
-            print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
+    model, recordings = load_model(options.model), read_recordings(options.data)
     for recording in recordings:
         if recording.n_joints != model.n_joints:
             allowed = f"{model.n_joints}, as {options.model} has; --model names another"
@@ -143,15 +139,6 @@ def _how(options: argparse.Namespace) -> str:
     """The same, by which version and on which day."""
     day = datetime.datetime.now().astimezone().date().isoformat()
     return f"Made on {day} by continuum {_made(options)['version']} of {_what(options)}."
-
-
-def read_recording(path: str) -> Recording:
-    """One run from a CSV file, or from a rosbag2 recording's folder or storage file."""
-    from continuum.recordings.bag import is_bag
-    from continuum.recordings.recording_bag import read_recording_bag
-    from continuum.recordings.recording_csv import read_recording_csv
-
-    return read_recording_bag(path) if is_bag(path) else read_recording_csv(path)
 
 
 def show(result: Diagnosis) -> None:

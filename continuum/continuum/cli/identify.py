@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from continuum.cli.diagnose import read_recording
+from continuum.cli.recordings import read_recordings
 from continuum.cli.tables import print_pairs, print_table
 from continuum.errors import InvalidValueError
 from continuum.output_files import check_apart, check_writable
@@ -69,10 +68,7 @@ def run(options: argparse.Namespace) -> int:
     if options.seed < 0:
         raise InvalidValueError("--seed", options.seed, "a whole number >= 0")
     fitted = chosen_runs(options.identify, options.validate, len(options.data))
-    model, recordings = load_model(options.model), [read_recording(path) for path in options.data]
-    for recording in recordings:
-        for note in recording.notes:
-            print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
+    model, recordings = load_model(options.model), read_recordings(options.data)
     from continuum.discovery.refit import check_recordings  # here, so that what is refused need not wait for numba
 
     check_recordings(recordings, model)

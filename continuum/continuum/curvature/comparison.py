@@ -232,7 +232,7 @@ def _closer(s: float, sd: float, both: float) -> Distance:
 
 
 def _following(derivative: Array) -> Array:
-    """dr/dtheta of a model that changes by ``slope`` (n,) with the total bend, (n, n)."""
+    """dr/dtheta of a model that changes by ``derivative`` (n,) with the total bend, (n, n)."""
     return np.asarray(np.eye(derivative.size) - np.outer(derivative, np.ones(derivative.size)))
 
 

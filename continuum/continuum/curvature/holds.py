@@ -14,14 +14,13 @@ release, the rows before it are a hold of any length.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from continuum.arrays import Array
-from continuum.estimation.run import Run
-from continuum.estimation.sensor_noise import white_noise
+from continuum.estimation.sensor_noise import recording_noise
 from continuum.inertial.stillness import SETTLED, SHORTEST_REST
 from continuum.recordings.recording import Recording
 
@@ -111,7 +110,7 @@ class _Parts:
     def of(cls, recording: Recording) -> _Parts:
         since = recording.times - recording.times[0]
         first = np.flatnonzero(np.diff(np.floor(since / _PART), prepend=-1.0))
-        counts, noise = np.diff(np.append(first, since.size)), _noise(recording)
+        counts, noise = np.diff(np.append(first, since.size)), recording_noise(replace(recording, theta_rate=None))
         mean = np.add.reduceat(recording.theta, first, axis=0) / counts[:, None]
         by_noise = _SIGMAS * np.sqrt(np.diag(noise) / np.median(counts))
         about = np.add.reduceat((recording.theta - np.repeat(mean, counts, axis=0)) ** 2, first, axis=0)
@@ -127,12 +126,6 @@ def _hold(recording: Recording, rows: slice, parts: _Parts) -> Hold:
     moved = moved[np.abs(moved) > np.linalg.norm(parts.limit)]
     last = float(moved[-1]) if moved.size else float(theta.sum())
     return Hold(recording, rows, theta, parts.noise, tension, 1 if last > 0 else -1)
-
-
-def _noise(recording: Recording) -> Array:
-    """Covariance of a row's angles by white noise, (n, n) [rad^2]."""
-    theta, nothing = np.ascontiguousarray(recording.theta), (np.zeros(1), np.zeros((1, 1)))
-    return white_noise([Run(recording.name, recording.times, theta, np.ones_like(theta), recording.n_joints, nothing)])
 
 
 def _before_release(recording: Recording) -> int:

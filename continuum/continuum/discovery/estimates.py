@@ -14,9 +14,8 @@ from continuum.discovery.problem import Problem, point_of
 from continuum.discovery.unknowns import Unknown
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import PARAMETERS, Parameter
-from continuum.identification.estimate import Estimate
+from continuum.identification.estimate import Z_95, Estimate
 
-_Z = 1.96
 _IN_PARAMETERS = ("viscous", "coulomb")  # kinds of coordinates that are a parameter's change
 _SHOWN = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
 
@@ -48,7 +47,7 @@ def _lacking(problem: Problem, fit: Fitted, one: Unknown, sd: float) -> list[Est
     if kind not in _IN_PARAMETERS:
         return []
     value = float(point_of(problem, fit.state).values[problem.structure.slots[name]][joint])
-    low, high = max(value - _Z * sd * step, 0.0), value + _Z * sd * step
+    low, high = max(value - Z_95 * sd * step, 0.0), value + Z_95 * sd * step
     spec = PARAMETERS[name]
     return [Estimate(name, joint, "", value, low, high, spec.unit, spec.meaning, 0.0, spec.lower, spec.upper)]
 
@@ -61,7 +60,7 @@ def _estimates(spec: Mapping[str, Parameter], one: Unknown, value: float, sd: fl
         joints = [joint for _, parameter, joint in one.places if parameter == name]
         factor = next(factor for (_, parameter, _), factor in one.places.items() if parameter == name)
         joint = joints[0] if len(joints) == 1 and joints[0] >= 0 else None
-        ends = [value - _Z * sd, value, value + _Z * sd]
+        ends = [value - Z_95 * sd, value, value + Z_95 * sd]
         origin = spec[name].default or 0.0
         low, middle, high = np.exp(ends) if one.is_log else (origin + factor * end for end in ends)
         what = spec[name]

@@ -25,12 +25,11 @@ from continuum.discovery.refit import check_recordings, refitted
 from continuum.discovery.search import Found, Progress
 from continuum.dynamics.model import Model
 from continuum.dynamics.parameters import PARAMETERS
-from continuum.identification.estimate import Estimate
+from continuum.identification.estimate import Z_95, Estimate
 from continuum.identification.free import THESIS_PARAMETERS
 from continuum.identification.identified import Identified, with_identified
 from continuum.recordings.recording import Recording
 
-_Z = 1.96  # half of a 95 % interval, in standard deviations
 _DIFFERENCES = {
     ("joint_stiffness", "excess"): "stiffness",
     ("joint_friction", "viscous"): "viscous_friction",
@@ -106,7 +105,7 @@ def _estimates(problem: Problem, fit: Fitted, key: Key, model: Model, singly: Co
         for joint in joints:
             which = slice(None) if joint is None else slice(joint, joint + 1)
             g = by_unknowns[which].mean(axis=0)
-            half, middle = _Z * float(np.sqrt(g @ fit.correlation @ g)), float(value[which].mean())
+            half, middle = Z_95 * float(np.sqrt(g @ fit.correlation @ g)), float(value[which].mean())
             low, high = max(middle - half, spec.lower), min(middle + half, spec.upper)
             found.append(
                 Estimate(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.estimation.run import Run
+from continuum.recordings.recording import Recording
 
 SLOW = np.deg2rad(0.2)
 """Slow error of an angle from inertial sensors, standard deviation [rad]."""
@@ -46,6 +47,19 @@ class NoiseModel:
     def at(self, sigma: Array) -> NoiseModel:
         """The same with another missing torque, (n,) [N m]."""
         return replace(self, sigma=sigma)
+
+
+def recording_noise(recording: Recording) -> Array:
+    """Covariance of a row of one recording, its angles and, where they were measured, its rates.
+
+    Returns:
+        (n, n) or (2 n, 2 n) [rad^2, (rad/s)^2].
+    """
+    rates = recording.theta_rate
+    readings = np.ascontiguousarray(recording.theta if rates is None else np.hstack([recording.theta, rates]))
+    no_inputs = (np.zeros(1), np.zeros((1, 1)))
+    run = Run(recording.name, recording.times, readings, np.ones_like(readings), recording.n_joints, no_inputs)
+    return white_noise([run])
 
 
 def white_noise(runs: Sequence[Run]) -> Array:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Final
+
+Z_95: Final = 1.96
+"""Half of a 95 % interval, in standard deviations of a normal distribution."""
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,7 @@ from continuum.dynamics.model import Model
 from continuum.dynamics.simulation_input import initial_state
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
-from continuum.estimation.run import Run
-from continuum.estimation.sensor_noise import white_noise
+from continuum.estimation.sensor_noise import recording_noise
 from continuum.identification.local_derivatives import local_derivative
 from continuum.identification.nrmse import measured_rates, nrmse
 from continuum.recordings.recording import Recording
@@ -83,7 +82,7 @@ def nearest_simulation(simulator: Simulator, recording: Recording) -> Trajectory
     free = np.zeros((simulator.equations.values.size, 2 * n))
     by_initial = np.eye(2 * n + model.n_states, 2 * n)
     with_rates = recording.theta_rate is not None
-    sd = _noise(recording)
+    sd = np.sqrt(np.diag(recording_noise(recording)))
 
     @lru_cache(maxsize=1)
     def simulated(x: tuple[float, ...]) -> Trajectory:
@@ -115,19 +114,3 @@ def nearest_simulation(simulator: Simulator, recording: Recording) -> Trajectory
     if first.status is not SimulationStatus.COMPLETE:
         return first
     return simulated(tuple(least_squares(residuals, begin, jacobian, method="lm", max_nfev=_MOST).x))
-
-
-def _noise(recording: Recording) -> Array:
-    """Standard deviations of the white noise of angles, and of rates where they were measured, (n or 2 n,)."""
-    rates = recording.theta_rate
-    readings = recording.theta if rates is None else np.hstack([recording.theta, rates])
-    none = (np.zeros(1), np.zeros((1, 1)))
-    run = Run(
-        recording.name,
-        recording.times,
-        np.ascontiguousarray(readings),
-        np.ones_like(readings),
-        recording.n_joints,
-        none,
-    )
-    return np.sqrt(np.diag(white_noise([run])))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -11,11 +11,10 @@ from continuum.arrays import Array
 from continuum.discovery.fitted import OpenLoop
 from continuum.discovery.report.chart import Axes, Chart, Line, chart, shared
 from continuum.discovery.result import Diagnosis
+from continuum.identification.estimate import Z_95
 
 BEFORE, AFTER, MEASURED = "before", "after", "measured"
 """Classes of the page's style sheet."""
-NOISE_SIGMAS: Final = 1.96
-"""Half-width of the band that holds 95 % of the sensors' noise, in standard deviations."""
 TIME = "time [s]"
 _FIRST = (400.0, 230.0)  # width and height [px]: two beside each other on a screen, one below the other on a phone
 SMALL = (320.0, 130.0)
@@ -38,7 +37,7 @@ class JointCharts(NamedTuple):
 
 def noise_band(result: Diagnosis) -> float:
     """Half-width of the band around zero in which 95 % of the angles' noise are [degrees]."""
-    return NOISE_SIGMAS * float(np.degrees(result.before.floor))
+    return Z_95 * float(np.degrees(result.before.floor))
 
 
 def worst_place(result: Diagnosis) -> Place:
