@@ -1,7 +1,4 @@
-"""Configurations estimated from measured lengths: exact without noise, calibrated with it; what does not fit is said.
-
-Random postures are bent up to 0.8 of the sections' limits, so that the largest noise does not move them beyond.
-"""
+"""Configurations estimated from measured lengths: exact without noise, calibrated with it; misfits have a status."""
 
 from dataclasses import replace
 
@@ -40,7 +37,7 @@ def arm_with(n_sections: int, n_cables: int) -> Arm:
 
 def noisy_estimates(arm: Arm, noise: float, sd: float, n: int = 300) -> tuple[np.ndarray, list[CableEstimate]]:
     """Postures (n, n_sections, 2) [rad], and what is estimated of their lengths with an error of ``noise`` [m]."""
-    w = 0.8 * random_postures(arm, n, seed=arm.n_sections)
+    w = random_postures(arm, n, seed=arm.n_sections)
     errors = noise * np.random.default_rng(len(arm.cable_names)).normal(size=(n, len(arm.cable_names)))
     return w, [estimate_configuration(one, arm, sd) for one in tangle(w, arm) + errors]
 
@@ -110,14 +107,31 @@ def test_no_noise_of_an_encoder_is_refused(n_sections: int, n_cables: int, noise
     assert max(one.iterations for one in estimates) < 10
     error = np.mean([np.sum((one.w - true) ** 2) for true, one in zip(w, estimates, strict=True)])
     assert np.sqrt(error) <= 1.5 * np.sqrt(np.mean([np.trace(one.covariance) for one in estimates]))
-    assert all(np.hypot(*one.w.T).max() <= arm.sections[0].bend_limit for one in estimates)
+
+
+@pytest.mark.slow
+@each_number_of_cables
+@each_count
+def test_noise_at_a_bend_limit_is_not_refused_but_a_bend_beyond_it_is(n_sections: int, n_cables: int) -> None:
+    arm, random = arm_with(n_sections, n_cables), np.random.default_rng(n_cables)
+    limits = np.array([one.bend_limit for one in arm.sections])
+    phi = random.uniform(-np.pi, np.pi, (100, n_sections))
+    w = limits[:, None] * np.stack([-np.sin(phi), np.cos(phi)], axis=-1)
+    errors = 3 * SD * random.normal(size=(100, len(arm.cable_names)))
+    estimates = [estimate_configuration(one, arm, 3 * SD) for one in tangle(w, arm) + errors]
+    assert {one.status for one in estimates} == {EstimateStatus.CONVERGED}
+    beyond = np.array([np.hypot(*one.w.T) > limits for one in estimates])
+    assert np.mean(beyond) == pytest.approx(0.5, abs=4 * 0.5 / np.sqrt(beyond.size))
+    far = w[0] * (1.0 + 10 * estimates[0].bend_sd(0) / limits[:, None])
+    found = estimate_configuration(tangle(far, arm), arm, 3 * SD)
+    assert found.status is EstimateStatus.BEYOND_LIMIT
 
 
 @each_count
 def test_an_independent_search_finds_nothing_more_likely(n_sections: int) -> None:
     arm = mixed_arm(n_sections)
     random = np.random.default_rng(n_sections)
-    for w in 0.8 * random_postures(arm, 5, seed=n_sections):
+    for w in random_postures(arm, 5, seed=n_sections):
         totals = tangle(w, arm) + 3e-3 * random.normal(size=len(arm.cable_names))
         found = estimate_configuration(totals, arm, 3e-3)
         search = least_squares(
@@ -163,7 +177,7 @@ def test_two_cables_of_a_section_do_not_determine_it(n_sections: int) -> None:
 @each_number_of_cables
 @each_count
 def test_a_length_that_is_wrong_is_beyond_the_tolerance(n_sections: int, n_cables: int) -> None:
-    """Of the last section one cable: nothing but two coordinates can follow it."""
+    """Of the last section one cable: nothing but two coordinates can follow it, here without crossing their limit."""
     arm = arm_with(n_sections, n_cables)
     for w in 0.8 * random_postures(arm, 20, seed=3):
         totals = tangle(w, arm)

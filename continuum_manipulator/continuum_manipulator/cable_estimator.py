@@ -110,7 +110,7 @@ class CableEstimatorNode(CheckedNode):
 
         Raises:
             MessageFault: a residual is beyond the tolerance, or there is no estimate.
-            InvalidValueError: a section is bent beyond its limit.
+            InvalidValueError: a section is bent beyond its limit by more than noise explains.
         """
         if found.status is EstimateStatus.BEYOND_TOLERANCE:
             i = int(np.nanargmax(np.abs(found.residuals)))
@@ -119,9 +119,10 @@ class CableEstimatorNode(CheckedNode):
                 f"residual of {self._cables[i]} is {found.residuals[i]:.4g} m, measured less estimated; "
                 f"allowed: up to the tolerance, {self._tolerance:g} m",
             )
+        if found.status is EstimateStatus.BEYOND_LIMIT:
+            check_configuration(found.w, self.arm.sections)
         if found.status not in STATUSES:
             raise MessageFault(NO_POSTURE, "no most likely posture was found")
-        check_configuration(found.w, self.arm.sections)
         if found.status is EstimateStatus.INCONSISTENT:
             detail = f"chi-square is {found.chi_square:.3g} with {found.degrees_of_freedom} degrees of freedom"
             self.diagnostics.warnings.note("inconsistent lengths", detail)

@@ -134,7 +134,7 @@ def test_what_is_no_measurement_of_a_posture_is_refused_in_one_line(bench):
     wrong, beyond, unknown, infinite, of_a_section, zero = (measured(300, LENGTHS[0]) for _ in range(6))
     wrong.position[list(wrong.name).index(CABLES[9])] += 0.05
     bent = np.zeros((3, 2))
-    bent[1] = 1.05 * ARM.sections[1].bend_limit, 0.0
+    bent[1] = 1.2 * ARM.sections[1].bend_limit, 0.0
     beyond.position = list(tangle(bent, ARM)[[CABLES.index(name) for name in beyond.name]])
     unknown.name = ["elbow", *list(unknown.name)[1:]]
     infinite.position[0] = np.inf

@@ -3,7 +3,7 @@
     python3 -m tools.bench_ik.cable_estimate
 
 Overwrites two tables of docs/cable-estimate.md. Arms of 1 to 6 sections of the prototype stand in random postures, bent
-up to 0.8 of their limits, so that the noise moves none of them beyond.
+up to their limits.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.kinematics.cable_estimate import CableEstimate, EstimateStatus, estimate_configuration
-from continuum.kinematics.configuration import allen_from_jones, bend
+from continuum.kinematics.configuration import allen_from_jones
 from continuum.kinematics.routing import tangle
 from tools.bench_ik.sample import prototype_arm
 from tools.markdown import replace_between, table
@@ -29,7 +29,6 @@ BEGIN, END = "<!-- {} made by `python3 -m tools.bench_ik.cable_estimate` -->", "
 POSTURES, SECTIONS, CABLES = 500, range(1, 7), (3, 4, 6)
 NOISE = (0.0, 0.5e-3, 1e-3, 2e-3, 3e-3)  # standard deviations [m]
 LEAST_SD = 1e-6  # what the node `cable_estimator` permits [m]
-PART_OF_LIMIT = 0.8
 
 
 @dataclass(frozen=True)
@@ -43,10 +42,9 @@ class Trial:
 
     @property
     def refused(self) -> int:
-        """Estimates that the node `cable_estimator` does not publish: lengths that do not fit, a limit crossed."""
-        limits = [section.bend_limit for section in self.arm.sections]
+        """Estimates that the node `cable_estimator` does not publish."""
         published = (EstimateStatus.CONVERGED, EstimateStatus.INCONSISTENT)
-        return sum(one.status not in published or bool(np.any(bend(one.w) > limits)) for one in self.estimates)
+        return sum(one.status not in published for one in self.estimates)
 
     @property
     def error(self) -> float:
@@ -76,7 +74,7 @@ def trial(n_sections: int, n_cables: int, noise: float) -> Trial:
     random = np.random.default_rng([n_sections, n_cables])
     azimuths = tuple(2 * np.pi * j / n_cables for j in range(n_cables))
     arm = Arm(tuple(replace(section, cable_azimuths=azimuths) for section in prototype_arm(n_sections).sections))
-    limits = PART_OF_LIMIT * np.array([section.bend_limit for section in arm.sections])
+    limits = np.array([section.bend_limit for section in arm.sections])
     shape = (POSTURES, n_sections)
     postures = allen_from_jones(random.uniform(-np.pi, np.pi, shape), random.uniform(0.0, limits, shape))
     lengths = tangle(postures, arm)

@@ -20,6 +20,7 @@ from scipy.special import chdtrc
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
+from continuum.kinematics.configuration import bend
 from continuum.kinematics.routing import tangle, tangle_jacobian, untangle
 
 FEWEST_CABLES = 3
@@ -36,6 +37,7 @@ IMPROBABLE = 1e-6
 """Probability of a larger chi-square below which lengths are inconsistent: one false alarm in two hours at 120 Hz."""
 
 _STEP = 1e-4  # the last step changes no length by more, in standard deviations or, where larger, largest residuals
+_ROUNDING = 1e-9  # of a bend [rad]
 _MOST_ITERATIONS = 50  # noise takes 5 at most; lengths that no posture has may take more than these
 
 
@@ -52,6 +54,8 @@ class EstimateStatus(IntEnum):
     """No residual is beyond the tolerance, but a minimum was not reached."""
     UNDETERMINED = 4
     """A section has fewer than three measured cables, or lengths that do not fix it: there are no configurations."""
+    BEYOND_LIMIT = 5
+    """A section is bent beyond its limit by more than noise explains."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +64,7 @@ class CableEstimate:
 
     Attributes:
         status: what became of it.
-        w: configurations (n_sections, 2) [rad]; NaN where undetermined. They may be beyond bend limits.
+        w: configurations (n_sections, 2) [rad]; NaN where undetermined. Noise may put them beyond a limit.
         covariance: of u, v of section 1, of section 2, ..., (2 n_sections, 2 n_sections) [rad^2].
         residuals: measured minus estimated total length of each cable (n_cables,) [m]; NaN where not measured.
         chi_square: sum of (residual / sd)^2.
@@ -80,6 +84,12 @@ class CableEstimate:
         """Covariance (2, 2) [rad^2] of u and v of section ``index`` (0 at the base)."""
         of_section = slice(2 * index, 2 * index + 2)
         return self.covariance[of_section, of_section]
+
+    def bend_sd(self, index: int) -> float:
+        """Standard deviation [rad] of the bend of section ``index``, along its direction."""
+        u, v = self.w[index]
+        outward = np.array([u, v]) / max(np.hypot(u, v), np.finfo(float).tiny)
+        return float(np.sqrt(outward @ self.section_covariance(index) @ outward))
 
 
 def estimate_configuration(totals: ArrayLike, arm: Arm, sd: float, tolerance: float | None = None) -> CableEstimate:
@@ -114,15 +124,33 @@ def estimate_configuration(totals: ArrayLike, arm: Arm, sd: float, tolerance: fl
     residuals = np.full(totals.shape, np.nan)
     residuals[known] = fit.residuals
     freedom = len(fit.residuals) - fit.w.size
-    if not np.abs(fit.residuals).max() <= (TOLERANCE * sd if tolerance is None else tolerance):
-        status = EstimateStatus.BEYOND_TOLERANCE
-    elif not fit.converged:
-        status = EstimateStatus.NO_CONVERGENCE
-    elif chdtrc(freedom, chi_square) < IMPROBABLE:
-        status = EstimateStatus.INCONSISTENT
-    else:
-        status = EstimateStatus.CONVERGED
-    return CableEstimate(status, fit.w, covariance, residuals, chi_square, freedom, fit.iterations)
+    found = CableEstimate(EstimateStatus.CONVERGED, fit.w, covariance, residuals, chi_square, freedom, fit.iterations)
+    largest = float(np.abs(fit.residuals).max())
+    status = _status(found, largest, TOLERANCE * sd if tolerance is None else tolerance, arm, converged=fit.converged)
+    return replace(found, status=status)
+
+
+def _status(found: CableEstimate, largest: float, tolerance: float, arm: Arm, *, converged: bool) -> EstimateStatus:
+    """What became of an estimate whose ``largest`` residual [m] is to be within the ``tolerance`` [m]."""
+    if not largest <= tolerance:
+        return EstimateStatus.BEYOND_TOLERANCE
+    if not converged:
+        return EstimateStatus.NO_CONVERGENCE
+    if _is_beyond_a_limit(found, arm):
+        return EstimateStatus.BEYOND_LIMIT
+    if chdtrc(found.degrees_of_freedom, found.chi_square) < IMPROBABLE:
+        return EstimateStatus.INCONSISTENT
+    return EstimateStatus.CONVERGED
+
+
+def _is_beyond_a_limit(found: CableEstimate, arm: Arm) -> bool:
+    """A bend exceeds its section's limit by more than `TOLERANCE` standard deviations and rounding.
+
+    Estimates are unbiased, not pulled back to a limit: half of those of a posture at the limit are beyond it.
+    """
+    excess = bend(found.w) - [section.bend_limit for section in arm.sections]
+    sd = np.array([found.bend_sd(i) for i in range(arm.n_sections)])
+    return bool(np.any(excess > TOLERANCE * sd + _ROUNDING))
 
 
 @lru_cache
