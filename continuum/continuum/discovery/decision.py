@@ -120,12 +120,15 @@ def is_needless(one: Candidate, others: Sequence[Candidate], alike: float) -> bo
     return any(not is_farther(part, one, alike) or not is_probable(one, part) for part in parts)
 
 
-def noise_limit(floor: float, observations: float) -> float:
+def noise_limit(floor: float, observations: float, floor_error: float = 0.0) -> float:
     """Error up to which so many independent residuals are no more than the noise, by a one-sided test [rad].
 
-    The standard deviation of n normal residuals has a relative standard deviation of 1 / sqrt(2 n).
+    The standard deviation of n normal residuals has a relative standard deviation of 1 / sqrt(2 n). That of the floor,
+    where it was estimated from the same recordings, is ``floor_error``.
     """
-    return floor * (1 + float(ndtri(1 - CHANCE)) / sqrt(2 * observations)) if observations > 0 else floor
+    if observations <= 0:
+        return floor
+    return floor * (1 + float(ndtri(1 - CHANCE)) * sqrt(1 / (2 * observations) + floor_error**2))
 
 
 def is_worth(gain: float, observations: float, effects: int = 1, occam: float = 0.0) -> bool:

@@ -25,6 +25,7 @@ from continuum.discovery.refit import check_recordings, refitted
 from continuum.discovery.search import Found, Progress
 from continuum.dynamics.model import Model
 from continuum.dynamics.parameters import PARAMETERS
+from continuum.estimation.sensor_noise import white_noise_error
 from continuum.identification.estimate import Z_95, Estimate
 from continuum.identification.free import THESIS_PARAMETERS
 from continuum.identification.identified import Identified, with_identified
@@ -71,7 +72,7 @@ def fit_parameters(
     singly = {PARAMETER[name] for name, joint in judge.problem.coordinates.all if joint >= 0}
     key = tuple(h.key for h in found.chosen)
     values = _estimates(judge.problem, fit, key, model, singly | set(_DIFFERENCES.values()) if per_joint else singly)
-    limit = noise_limit(judge.floor, fit.observations)
+    limit = noise_limit(judge.floor, fit.observations, white_noise_error(judge.problem.runs))
     return Identified(
         "output error", with_identified(model, values, "identified from recordings by output error"), values,
         fit.error / judge.floor, limit / judge.floor, _undetermined(fit),
