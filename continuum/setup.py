@@ -32,6 +32,7 @@ setup(
     version=ElementTree.parse(HERE / "package.xml").findtext("version"),
     packages=find_packages(exclude=["test"]),
     package_data={
+        "continuum": ["arms/*.yaml"],
         "continuum.dynamics": ["models/*.yaml"],
         "continuum.discovery.report": ["templates/*", "track_record.json"],
         "continuum.urdf": ["*.xacro"],

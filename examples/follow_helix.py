@@ -2,7 +2,7 @@
 
     python3 examples/follow_helix.py [FOLDER]
 
-Prints the tip's error, and how far the cable rates are from the slopes of the cable lengths. Writes helix.csv and
+Prints the tip's error, and how far the cable rates are from the differences of the cable lengths. Writes helix.csv and
 helix.png to FOLDER (default out/examples/follow_helix).
 """
 
@@ -40,9 +40,9 @@ def main(out: Path) -> None:
     rates = tangle_rates(w, w_rate, ARM)  # dl/dt = J_lw(w) dw/dt, (n, 12) [m/s]
 
     print(f"{path.solved.sum()} of {t.size} poses reached, tip error at most {1e9 * path.distances.max():.2g} nm")
-    slopes = np.gradient(lengths, t, axis=0)
+    differences = np.gradient(lengths, t, axis=0)
     print(f"cable rates up to {1e3 * abs(rates).max():.1f} mm/s; median distance to the slope of the length")
-    print(f"  {1e3 * np.median(abs(rates - slopes)):.2g} mm/s")
+    print(f"  {1e3 * np.median(abs(rates - differences)):.2g} mm/s")
 
     table = np.column_stack([t, lengths])
     np.savetxt(out / "helix.csv", table, "%.6f", ",", header=",".join(["t_s", *ARM.cable_names]), comments="")

@@ -15,7 +15,7 @@ import pytest
 from harness import wait_until
 from PIL import Image
 
-from tools.browser.place import EXTRA, chromium, environment
+from tools.setup.browser.place import EXTRA, chromium, environment
 
 PICTURES = Path(__file__).resolve().parent.parent / "out" / "test_artefacts" / "viewer"
 

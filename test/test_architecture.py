@@ -18,6 +18,7 @@ LONGEST_FILE = 300
 CODE = ("*.py", "*.xml", "*.xacro", "*.yaml", "*.msg", "*.cfg", "CMakeLists.txt")
 
 PLAIN_PYTHON = {  # what a module is called in package.xml (rosdep's keys)
+    "argcomplete": "python3-argcomplete",
     "casadi": "casadi-pip",
     "jinja2": "python3-jinja2",
     "llvmlite": "python3-numba",  # comes with it

@@ -1,4 +1,4 @@
-"""`make bench-demo` up to its recordings: they are runs that `continuum diagnose` can read, of an arm told rightly."""
+"""`make bench-demo` up to its recordings: runs that `continuum diagnose` can read, with the arm's true angles."""
 
 import os
 import re
@@ -11,8 +11,8 @@ import pytest
 
 from continuum.inertial.calibration import load_calibration
 from continuum.recordings.recording_bag import read_recording_bag
-from tools.bench_demo.command import main
-from tools.bench_demo.runs import RUNS
+from tools.demo.bench.command import main
+from tools.demo.bench.runs import RUNS
 
 pytestmark = pytest.mark.ros
 
@@ -21,11 +21,11 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def test_bench_is_calibrated_pulled_released_and_recorded(domain, tmp_path):
     out = tmp_path / "out"
-    words = [sys.executable, "-m", "tools.bench_demo", "--no-diagnosis", "--out", str(out)]
+    words = [sys.executable, "-m", "tools.demo.bench", "--no-diagnosis", "--out", str(out)]
     environment = os.environ | {"ROS_DOMAIN_ID": str(domain)}
     done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr + (out / "nodes.log").read_text()
-    off = [float(text) for text in re.findall(r"angles ([\d.]+) degrees RMS off the truth", done.stdout)]
+    off = [float(text) for text in re.findall(r"measured angles err by ([\d.]+) degrees RMS", done.stdout)]
     assert len(off) == len(RUNS)
     assert max(off) < 0.5
     assert load_calibration(out / "sensors.yaml").n_sensors == 5
@@ -41,7 +41,7 @@ def test_bench_is_calibrated_pulled_released_and_recorded(domain, tmp_path):
 
 def test_a_bench_that_is_not_there_ends_the_demo_in_one_line(domain, tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-    monkeypatch.setattr("tools.bench_demo.conductor.PATIENCE", 6.0)
+    monkeypatch.setattr("tools.demo.bench.conductor.PATIENCE", 6.0)
     assert main(["--port", str(tmp_path / "nowhere"), "--no-diagnosis", "--out", str(tmp_path / "out")]) == 1
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith("bench-demo: bench_bridge/calibrate_bias: ")

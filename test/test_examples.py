@@ -129,7 +129,9 @@ def shape(output: dict[str, Any]) -> tuple[object, ...]:
 @pytest.mark.slow
 def test_the_notebook_runs_and_says_what_is_saved_in_it(tmp_path: Path) -> None:
     again = Path(shutil.copy(NOTEBOOK, tmp_path))
-    done = subprocess.run([sys.executable, "-m", "tools.notebook", again], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-m", "tools.docs.notebook", again], cwd=ROOT, capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr
     assert [[*map(shape, cell)] for cell in saved(again)] == [[*map(shape, cell)] for cell in saved(NOTEBOOK)]
 

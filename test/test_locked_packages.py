@@ -7,7 +7,7 @@ import pytest
 
 from tools.setup.layout import LOCK, OLD_LOCK, ROOT, tool_pins
 
-OF_TOOLS = sorted(ROOT.glob("tools/*/requirements.txt"))
+OF_TOOLS = sorted(ROOT.glob("tools/**/requirements.txt"))
 LOCKED = [LOCK, OLD_LOCK, *OF_TOOLS]
 
 each_locked = pytest.mark.parametrize("locked", LOCKED, ids=lambda path: str(path.relative_to(ROOT)))
@@ -47,6 +47,6 @@ def test_what_single_tools_add_is_what_they_ask_for() -> None:
 
 def test_pip_is_asked_to_check_the_hashes() -> None:
     recipes = (ROOT / "Makefile").read_text(encoding="utf-8")
-    asked = re.findall(r"(\S+) -r (tools/\w+/requirements\.txt)", recipes)
+    asked = re.findall(r"(\S+) -r (tools/[\w/]+/requirements\.txt)", recipes)
     assert sorted(ROOT / file for _, file in asked) == OF_TOOLS
     assert {option for option, _ in asked} == {"--require-hashes"}

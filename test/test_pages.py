@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 from readme.blocks import outside_of_blocks
 
+from tools.docs.site.source import KINDS
+
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"
 INDEX = DOCS / "README.md"
@@ -45,9 +47,10 @@ def leads_nowhere(page: Path, link: str) -> bool:
     return not target.exists() or bool(anchor and target.suffix == ".md" and anchor not in anchors(target))
 
 
-def rows(heading: str) -> dict[str, str]:
-    """Of the index's table under a heading: the command of each row, empty where there is none, by the file's name."""
-    table = INDEX.read_text(encoding="utf-8").partition(f"# {heading}\n")[2].partition("\n#")[0]
+def rows(*headings: str) -> dict[str, str]:
+    """Of the index's tables under headings: the command of each row, empty where there is none, by the file's name."""
+    text = INDEX.read_text(encoding="utf-8")
+    table = "".join(text.partition(f"## {heading}\n")[2].partition("\n#")[0] for heading in headings)
     return dict(re.findall(r"^\| \[([\w.-]+)\]\([^)]*\) \|[^|]*\| *(?:`make ([\w-]+)`)? *\|$", table, re.MULTILINE))
 
 
@@ -77,22 +80,22 @@ def test_pictures_are_small(picture: Path) -> None:
 
 
 def test_the_index_has_every_page_and_picture() -> None:
-    assert rows("Pages").keys() == {page.name for page in DOCS.glob("*.md")} - {INDEX.name}
+    assert rows(*KINDS).keys() == {page.name for page in DOCS.glob("*.md")} - {INDEX.name}
     assert rows("Pictures").keys() == {picture.name for picture in PICTURES}
 
 
 def test_the_index_names_targets_of_make() -> None:
-    assert {*rows("Pages").values(), *rows("Pictures").values()} - {""} <= targets()
+    assert {*rows(*KINDS).values(), *rows("Pictures").values()} - {""} <= targets()
     assert "" not in rows("Pictures").values()
 
 
-@pytest.mark.parametrize(("page", "target"), [row for row in rows("Pages").items() if row[1]])
+@pytest.mark.parametrize(("page", "target"), [row for row in rows(*KINDS).items() if row[1]])
 def test_a_page_names_the_command_that_makes_its_figures(page: str, target: str) -> None:
     assert f"`make {target}`" in (DOCS / page).read_text(encoding="utf-8")
 
 
 def test_a_page_that_shows_a_picture_is_made_by_its_command() -> None:
-    commands = rows("Pages")
+    commands = rows(*KINDS)
     shown = {(page.name, Path(address).name) for page in PAGES if page.name in commands for address in pictures(page)}
     assert len(shown) >= 3
     assert {(page, picture) for page, picture in shown if commands[page] != rows("Pictures")[picture]} == set()

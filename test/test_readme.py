@@ -19,7 +19,7 @@ from readme.scene import Scene
 from readme.ways import Checked, Run, Way, way_of
 
 from continuum.cli.diagnose import EXIT_CODES
-from tools.api.links import problems
+from tools.docs.api.links import problems
 
 ROOT = Path(__file__).resolve().parents[1]
 BLOCKS = blocks((ROOT / "README.md").read_text(encoding="utf-8"))
@@ -140,7 +140,7 @@ def test_python_does_what_the_page_says(block: Block) -> None:
 
 
 @pytest.mark.ros
-def test_the_page_of_a_diagnosis_tells_how_it_was_made_and_loads_nothing_from_elsewhere(checkout: Path) -> None:
+def test_the_page_of_a_diagnosis_says_how_it_was_made_and_loads_nothing_from_elsewhere(checkout: Path) -> None:
     """Made by the block of `continuum diagnose` above; skipped where that was not run."""
     page = checkout / "out" / "diagnosis.html"
     if not page.exists():

@@ -108,7 +108,7 @@ def endless(tmp_path: Path) -> Path:
     return trajectory_file(tmp_path, LONG_REST)
 
 
-def test_a_node_that_dies_at_start_is_told(domain: int, tmp_path: Path, trajectory: Path) -> None:
+def test_a_node_that_dies_at_start_is_reported(domain: int, tmp_path: Path, trajectory: Path) -> None:
     """The library takes the block of an arm alone; ROS wants it within a node's parameters."""
     arm = tmp_path / "arm.yaml"
     arm.write_text(yaml.safe_dump({"arm": arm_to_mapping(load_arm(ARMS / "prototype.yaml"))}))
@@ -121,7 +121,7 @@ def test_a_node_that_dies_at_start_is_told(domain: int, tmp_path: Path, trajecto
     )
 
 
-def test_a_node_that_is_killed_is_told(domain: int, tmp_path: Path, endless: Path) -> None:
+def test_a_node_that_is_killed_is_reported(domain: int, tmp_path: Path, endless: Path) -> None:
     with DemoProcess(tmp_path / "out", domain, trajectory=endless) as demo:
         demo.wait_for_node_line(" begins")
         (robot,) = demo.processes("lib/continuum_manipulator/robot")
@@ -163,7 +163,7 @@ def test_who_only_listens_is_welcome(domain: int) -> None:
         assert demo_domain.speakers(domain) == []
 
 
-def test_without_a_domain_of_ones_own_a_free_one_is_taken(
+def test_without_a_given_domain_a_free_one_is_taken(
     domain: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
@@ -232,7 +232,7 @@ def test_what_the_demo_before_left_is_kept_until_there_is_more(
         ({"out": Path("/dev/null/out")}, "/dev/null/out cannot be made", None),
     ],
 )
-def test_what_cannot_begin_is_told_in_one_line(
+def test_what_cannot_begin_is_reported_in_one_line(
     tmp_path: Path, trajectory: Path, domain: int, options: dict[str, Path], problem: str, number: str | None
 ) -> None:
     with DemoProcess(tmp_path / "out", number or str(domain), **{"trajectory": trajectory} | options) as demo:

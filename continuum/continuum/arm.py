@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 from continuum import joint_names
+from continuum.did_you_mean import did_you_mean
 from continuum.errors import FileError, InvalidValueError
 from continuum.parameter_file import read_parameter_file
 from continuum.parameter_spec import ParameterSpec
+from continuum.shipped_files import ARMS, find_file
 
 FOUR_CABLES = [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]
 """Azimuths of four cables, a quarter turn apart, as on the prototype [rad]."""
@@ -209,9 +210,8 @@ def _section_from_mapping(name: str, values: object) -> Section:
 def _refuse_unknown(where: str, mapping: Mapping[str, object], known: list[str]) -> None:
     for name in mapping:
         if name not in known:
-            near = get_close_matches(str(name), known, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known: {', '.join(known)}"
-            raise InvalidValueError(f"{where}.{name}", mapping[name], f"no parameter of this name; {hint}")
+            hint = did_you_mean(str(name), known) or f"; known: {', '.join(known)}"
+            raise InvalidValueError(f"{where}.{name}", mapping[name], f"no parameter of this name{hint}")
 
 
 def arm_to_mapping(arm: Arm) -> dict[str, object]:
@@ -226,11 +226,13 @@ def arm_to_mapping(arm: Arm) -> dict[str, object]:
 def load_arm(path: str | Path) -> Arm:
     """Read an arm from YAML: a ROS 2 parameter file (``/**: ros__parameters: arm: ...``) or its ``arm`` block alone.
 
+    A bare name that is no file here is an arm that comes with the library.
+
     Raises:
         FileError: the file cannot be read or holds no arm.
         InvalidValueError: the arm in it is not valid.
     """
-    block = read_parameter_file(path)
+    block = read_parameter_file(find_file(path, ARMS))
     arm = block.get("arm", block)
     if "n_joints" in block and "parameters" in block:
         raise FileError(

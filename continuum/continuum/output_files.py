@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from continuum.errors import FileError
@@ -13,24 +14,50 @@ from continuum.whole_file import target_of
 def check_writable(path: str | Path | None) -> None:
     """Open the file for writing, and leave everything as it was; nothing where there is no ``path``.
 
+    Missing folders are made for that, and removed.
+
     Raises:
-        FileError: it cannot be written.
+        FileError: it cannot be written, or its folders cannot be made.
     """
     if path is None:
         return
     if str(path).endswith(os.sep):
         raise FileError(path, "is a folder: name a file in it")
+    with folder_of(path):
+        try:
+            file = target_of(path)
+            there = file.exists()
+            if there and not file.is_file() and not file.is_dir():
+                return  # a pipe or a terminal: whoever reads would see it closed
+            with file.open("ab"):
+                pass
+            if not there:
+                file.unlink()
+        except OSError as error:
+            raise FileError(path, f"cannot be written ({error.strerror or error})") from error
+
+
+@contextmanager
+def folder_of(path: str | Path) -> Iterator[None]:
+    """Make the folders that a file needs; those that are still empty afterwards are removed.
+
+    Raises:
+        FileError: one cannot be made.
+    """
+    folder = Path(path).parent
+    missing: list[Path] = []
     try:
-        file = target_of(path)
-        there = file.exists()
-        if there and not file.is_file() and not file.is_dir():
-            return  # a pipe or a terminal: whoever reads would see it closed
-        with file.open("ab"):
-            pass
-        if not there:
-            file.unlink()
-    except OSError as error:
-        raise FileError(path, f"cannot be written ({error.strerror or error})") from error
+        try:
+            missing += [one for one in (folder, *folder.parents) if not one.exists()]
+            if missing:
+                folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise FileError(path, f"cannot be written ({error.strerror or error})") from error
+        yield
+    finally:
+        for one in missing:
+            with suppress(OSError):  # something is in it
+                one.rmdir()
 
 
 def check_apart(outputs: Sequence[str | Path | None], inputs: Sequence[str | Path | None]) -> None:
@@ -56,7 +83,18 @@ def check_apart(outputs: Sequence[str | Path | None], inputs: Sequence[str | Pat
         written.append(file)
 
 
-def check_picture(path: str | None) -> None:
+def check_page(path: str | Path | None) -> None:
+    """As :func:`check_writable`; it must end in .html too.
+
+    Raises:
+        FileError: it cannot be written, or does not end in .html.
+    """
+    if path is not None and Path(path).suffix.lower() != ".html":
+        raise FileError(path, "does not end in .html: a report is a page for a browser")
+    check_writable(path)
+
+
+def check_picture(path: str | Path | None) -> None:
     """As :func:`check_writable`; its suffix must be that of a picture too.
 
     Raises:

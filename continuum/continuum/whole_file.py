@@ -8,6 +8,7 @@ import io
 import os
 import secrets
 import shutil
+import warnings
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 _NO_PLACE_IN_FOLDER = (errno.EACCES, errno.EPERM, errno.EROFS, errno.EBUSY)
 """A folder that one may not write to, or a file that is mounted by itself."""
+
+_NO_GLYPH = r"Glyph \d+ .*missing from "
+"""Matplotlib's warning of a character that its font does not have."""
 
 
 def write_whole(path: str | Path, content: str | bytes) -> None:
@@ -57,12 +61,16 @@ def write_table(path: str | Path, rows: Iterable[Iterable[object]]) -> None:
 def write_figure(path: str | Path, figure: Figure, dpi: int) -> None:
     """Write a picture in the format that the suffix names, PNG without one.
 
+    A character of a name that Matplotlib's font does not have is drawn as an empty box, without a warning.
+
     Raises:
         FileError: it cannot be written, or Matplotlib does not know the format.
     """
     picture = io.BytesIO()
     try:
-        figure.savefig(picture, format=Path(path).suffix.removeprefix(".").lower() or "png", dpi=dpi)
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", _NO_GLYPH, UserWarning)
+            figure.savefig(picture, format=Path(path).suffix.removeprefix(".").lower() or "png", dpi=dpi)
     except ValueError as error:
         raise FileError(path, f"cannot be drawn ({error})") from error
     write_whole(path, picture.getvalue())

@@ -13,11 +13,9 @@ from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
-from continuum.dynamics.planar.eq12_gravity_torque import gravity_potential
-from continuum.dynamics.planar.eq12_inertia_matrix import inertia_matrix
-from continuum.dynamics.planar.eq12_spring_torque import spring_potential
-from continuum.dynamics.planar.instant import Instant
-from continuum.dynamics.planar.motion import Motion
+from continuum.dynamics.planar.instant import Instant, Motion
+from continuum.dynamics.planar.rigid_body import gravity_potential, inertia_matrix
+from continuum.dynamics.planar.springs_and_friction import spring_potential
 
 _RANGES = {
     "mass": (0.1, 0.4),

@@ -28,7 +28,7 @@ PULLS = Tensions([0.0, 0.14, 0.16, 0.24, 0.31], [[0.0, 0.0], [0.0, 0.0], [9.0, 1
 
 EXACT = Tolerances(1e-8, 1e-9, 0.01)
 SUDDEN = {"slack_cable": Tolerances(3e-11, 3e-12, 0.0001)}
-"""Where motors switch within a millisecond: differences of less exact runs are rougher than their slopes."""
+"""Where motors switch within a millisecond: differences of less exact runs are rougher than their derivatives."""
 
 
 @lru_cache

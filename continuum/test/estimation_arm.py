@@ -12,7 +12,7 @@ from dynamics_laws import random_model, random_parameters
 from continuum.dynamics.balance import balance
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.motion import Motion
+from continuum.dynamics.planar.instant import Motion
 from continuum.dynamics.values import parameter_vector, with_vector
 from continuum.estimation.columns import Scene
 from continuum.estimation.effect_states import SubstepMotion

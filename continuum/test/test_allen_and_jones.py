@@ -67,7 +67,7 @@ def test_jones_rates_undo_allen_rates() -> None:
     )
 
 
-def test_jones_rates_are_slopes_in_time() -> None:
+def test_jones_rates_are_derivatives_in_time() -> None:
     w = postures(PROTOTYPE)
     w = w[bend(w) > 1e-9]
     w_rate = np.array([0.3, -0.8]) * bend(w)[:, None]
@@ -85,7 +85,7 @@ def test_a_straight_section_starts_to_bend_with_the_rate() -> None:
 
 
 @pytest.mark.parametrize("section", SECTIONS, ids=lambda section: section.name)
-def test_arc_rates_are_slopes(section: Section) -> None:
+def test_arc_rates_are_derivatives(section: Section) -> None:
     theta = bends(section)
     theta = theta[theta < 0.8 * np.pi * section.n_joints]  # the curvature is infinite at pi n_joints
     kappa_rate, s_rate = arc_rates(theta, np.full_like(theta, 2.0), section)

@@ -82,7 +82,7 @@ def test_bend_limit_beyond_contact_is_refused_with_the_largest_that_is_allowed()
         Section("s", 5, 0.02, 0.03, bend_limit=limit)
 
 
-def test_a_default_that_the_section_does_not_allow_is_told_to_be_one() -> None:
+def test_a_default_that_the_section_does_not_allow_is_reported_to_be_one() -> None:
     short = {"n_joints": 2, "b": 0.01, "a": 0.02}
     output = "it was left out, and this is its default: set it"
     with pytest.raises(InvalidValueError, match=rf"^arm\.s\.bend_limit is 3\.14.* rad, .*; {output}$"):

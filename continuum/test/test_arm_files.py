@@ -83,7 +83,7 @@ def test_a_damaged_arm_is_an_arm_or_refused(scratch: Path, at: int, width: int, 
     assert isinstance(found, FileError | InvalidValueError) or found.n_sections == 1
 
 
-def test_a_slip_in_a_name_is_told_with_the_right_one(scratch: Path) -> None:
+def test_a_slip_in_a_name_is_reported_with_the_right_one(scratch: Path) -> None:
     scratch.write_text(ONE_SECTION.replace("n_joints", "n_joint"), encoding="utf-8")
     with pytest.raises(InvalidValueError, match=r"arm\.s\.n_joint .* did you mean n_joints\?$"):
         load_arm(scratch)

@@ -62,7 +62,7 @@ def test_publishers_of_a_topic_define_its_type_alike_or_are_refused(
         if is_read:
             assert [one.x for one in bag.messages("/place", kind)] == [2.5, 2.5]
         else:
-            with pytest.raises(FileError, match=f"publishers on /place with unlike definitions of {kind}"):
+            with pytest.raises(FileError, match=f"publishers on /place that define {kind} differently"):
                 [*bag.messages("/place", kind)]
 
 
@@ -104,7 +104,7 @@ def short_recording(request: pytest.FixtureRequest, tmp_path_factory: pytest.Tem
 
 
 @given(st.booleans(), st.floats(0, 1), st.floats(0, 1), st.binary(max_size=16))
-def test_damage_is_told_in_one_line(
+def test_damage_is_reported_in_one_line(
     short_recording: Path, in_metadata: bool, place: float, removed: float, put_in: bytes
 ) -> None:
     (file,) = (path for path in short_recording.iterdir() if (path.name == "metadata.yaml") == in_metadata)

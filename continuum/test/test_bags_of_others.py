@@ -62,7 +62,7 @@ def test_two_that_publish_one_arm_are_refused(tmp_path: Path, every: int, late: 
         topics["/joint_states"].insert(topics["/joint_states"].index(one) + 1, other)
     folder = write(tmp_path / "swing", topics)
     for reader in (read_recording_bag, read_tracks):
-        with pytest.raises(FileError, match="jump there and back"):
+        with pytest.raises(FileError, match="jump back and forth"):
             reader(folder)
 
 
@@ -73,7 +73,8 @@ def test_others_among_the_cables_are_left_out_and_counted(tmp_path: Path) -> Non
     folder = write(tmp_path / "swing", topics)
     found = read_recording_bag(folder)
     np.testing.assert_allclose(found.pull.values, PULL, rtol=0, atol=1e-12)
-    assert found.notes == read_tracks(folder).notes == ("1 message of others on /cable_states (winch), left out",)
+    note = "1 message of other publishers on /cable_states (winch), left out"
+    assert found.notes == read_tracks(folder).notes == (note,)
 
 
 def test_degrees_are_not_shown_as_radians(tmp_path: Path) -> None:
@@ -132,5 +133,5 @@ def test_sections_without_a_common_stamp_are_refused(tmp_path: Path) -> None:
     for one, stamp in zip(parts[1], RUN_STAMPS, strict=True):
         stamped(one, stamp + 200_000)
     arriving = [part for parts_of_one in zip(*parts, strict=True) for part in parts_of_one]
-    with pytest.raises(FileError, match="0 of which have a stamp that all 2 have"):
+    with pytest.raises(FileError, match="0 of which have a stamp that all 2 sections share"):
         read_tracks(write(tmp_path / "parts", {"/joint_states": arriving}))

@@ -18,7 +18,7 @@ def clock():
     return Clock()
 
 
-def test_first_event_is_told_at_once_and_the_rest_once_it_is_quiet(clock):
+def test_first_event_is_reported_at_once_and_the_rest_once_it_is_quiet(clock):
     lines = []
     log = BurstLog(lines.append, clock, prefix="dropped, ")
     for i in range(50):
@@ -52,7 +52,7 @@ def test_long_burst_is_summed_up_now_and_then(clock):
     assert log.total == 200
 
 
-def test_next_burst_is_told_again(clock):
+def test_next_burst_is_reported_again(clock):
     lines = []
     log = BurstLog(lines.append, clock)
     for _ in range(2):

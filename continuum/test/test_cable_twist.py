@@ -47,7 +47,7 @@ def test_for_rates_of_a_motion_it_is_every_other_left_inverse(n_sections: int) -
 
 @LAW
 @given(drawn=arms_and_postures())
-def test_it_is_a_left_inverse_of_the_slope_of_the_lengths(drawn: tuple[Arm, np.ndarray]) -> None:
+def test_it_is_a_left_inverse_of_the_derivative_of_the_lengths(drawn: tuple[Arm, np.ndarray]) -> None:
     arm, w = drawn
     there_and_back = arm_configuration_cable_jacobian(w, arm) @ tangle_jacobian(w, arm)
     np.testing.assert_allclose(there_and_back, np.eye(2 * arm.n_sections), atol=1e-9)

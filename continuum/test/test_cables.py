@@ -12,8 +12,8 @@ from continuum.kinematics.cables import (
     cable_lengths,
     configuration_cable_jacobian,
     configuration_from_cables,
+    hole_points,
 )
-from continuum.kinematics.cables.hole_points import hole_points
 from continuum.kinematics.configuration import jones_from_allen
 
 each_section = pytest.mark.parametrize("section", SECTIONS, ids=lambda section: section.name)
@@ -39,7 +39,7 @@ def test_hole_points_are_the_holes_of_discs(section: Section) -> None:
 
 
 @each_section
-def test_jacobian_is_the_slope_of_the_lengths(section: Section) -> None:
+def test_jacobian_is_the_derivative_of_the_lengths(section: Section) -> None:
     w = postures(section)
     assert_same_derivatives(cable_jacobian(w, section), differences(lambda q: cable_lengths(q, section), w))
 
@@ -51,7 +51,7 @@ def test_configuration_to_cables_and_back(section: Section) -> None:
 
 
 @each_section
-def test_jacobian_from_cables_is_the_slope(section: Section) -> None:
+def test_jacobian_from_cables_is_the_derivative(section: Section) -> None:
     lengths = cable_lengths(postures(section, largest=0.9 * section.contact_bend), section)
     numeric = differences(lambda q: configuration_from_cables(q, section), lengths, step=5e-4)
     assert_same_derivatives(configuration_cable_jacobian(lengths, section), numeric)

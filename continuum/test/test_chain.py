@@ -38,7 +38,7 @@ def test_base_frames_are_those_of_the_first_discs(drawn: tuple[Arm, np.ndarray])
 
 @each_count
 @pytest.mark.parametrize("largest", [0.0, 1e-12, 1e-3, 3.0, 6.0])
-def test_jacobian_is_the_slope_of_the_tip(n_sections: int, largest: float) -> None:
+def test_jacobian_is_the_derivative_of_the_tip(n_sections: int, largest: float) -> None:
     arm = mixed_arm(n_sections)
     w = random_postures(arm, 5, seed=n_sections, largest=largest)
     w[1::2, n_sections // 2] = 0.0  # one section straight among bent ones

@@ -1,17 +1,16 @@
-"""Chains of any length under joint torques: an independent engine of rigid bodies, work and energy, exact slopes."""
+"""Chains of any length under joint torques: an independent engine of rigid bodies, work, energy, exact derivatives."""
 
 import numpy as np
 import pytest
 from mujoco_chain import Engine
 from scipy.integrate import solve_ivp
 
+from continuum.dynamics.balance import numpy_state_space
 from continuum.dynamics.compiled.equations import CompiledEquations
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.joint_torques import JointTorques
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import InputKind, Model
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.eq18_state_space import numpy_state_space
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.dynamics.values import shared_directions
@@ -82,7 +81,7 @@ def test_compiled_rates_are_those_of_the_equations_as_written(n: int) -> None:
         equations.rates(np.zeros(2 * n), np.zeros(n + 1))
 
 
-def test_slopes_by_lengths_and_inertias_are_those_of_differences() -> None:
+def test_derivatives_by_lengths_and_inertias_are_those_of_differences() -> None:
     model, drive, step = chain(3, 7), torques(3), 1e-5
     names = ["link_length", "rotor_inertia", "mass", "center_of_mass"]
     simulator, free = Simulator(model, TIGHT), shared_directions(model, names)

@@ -15,11 +15,11 @@ from recorded_runs import ARM, arm_file, run, tips, write
 
 from continuum.arm import Arm, arm_to_mapping, load_arm
 from continuum.cli import main
-from continuum.dynamics.model_path import model_path
+from continuum.shipped_files import MODELS
 
 pytestmark = pytest.mark.slow
 
-MODEL = model_path("lamecc_prototype.yaml")
+MODEL = MODELS / "lamecc_prototype.yaml"
 ARM_FILES = sorted(CONFIG.glob("*.yaml"))
 
 
@@ -50,10 +50,7 @@ def test_help_says_what_can_be_done_next(capsys: Captured) -> None:
     "words", [(), ("nonsense",), ("solve", THREE, "1", "x", "0"), ("solve", THREE), ("diagnose", "--foo", "run.csv")]
 )
 def test_wrong_usage(capsys: Captured, words: tuple[str, ...]) -> None:
-    assert code(*words) == 2
-    errors = capsys.readouterr().err
-    assert errors.startswith("usage: continuum")
-    assert "Traceback" not in errors
+    refused(capsys, *words)
 
 
 def test_the_installed_command() -> None:
@@ -105,7 +102,7 @@ def test_a_diagnosis_overwrites_neither_what_it_reads_nor_what_it_writes(capsys:
     for words in (("--json", data), ("--extended", tmp_path / "." / "run.csv"), ("--report", folder / "report.html")):
         assert "is read, and would be overwritten" in refused(capsys, "diagnose", data, folder, *words)
     assert "is read" in refused(capsys, "diagnose", data, "--model", model, "--extended", model)
-    both = ("--json", tmp_path / "out", "--report", tmp_path / "out")
+    both = ("--json", tmp_path / "out.html", "--report", tmp_path / "out.html")
     assert "would be written twice" in refused(capsys, "diagnose", data, *both)
     assert data.read_text() == "measured"
 
@@ -127,7 +124,7 @@ def test_a_model_is_no_arm_and_an_arm_no_model(capsys: Captured) -> None:
 
 
 @pytest.mark.parametrize("file", ARM_FILES, ids=lambda path: path.stem)
-def test_info_tells_what_the_file_says_in_80_columns(capsys: Captured, file: Path) -> None:
+def test_info_prints_the_file_s_values_in_80_columns(capsys: Captured, file: Path) -> None:
     assert code("info", file) == 0
     output = capsys.readouterr().out
     arm = load_arm(file)
@@ -169,10 +166,10 @@ def test_every_command_refuses_a_missing_file(capsys: Captured, tmp_path: Path, 
         assert "is not a readable rosbag2 recording" in refused(capsys, "report", path, "--arm", THREE)
 
 
-def test_report_tells_figures_and_losses(capsys: Captured, recording: str, arm: str, tmp_path: Path) -> None:
+def test_report_prints_figures_and_losses(capsys: Captured, recording: str, arm: str, tmp_path: Path) -> None:
     assert code("report", recording, "--arm", arm, "--out", tmp_path / "new" / "out") == 0
     output = capsys.readouterr().out
-    assert max(map(len, output.splitlines()[:-1])) <= 80
+    assert max(len(line) for line in output.splitlines() if not line.startswith("written: ")) <= 80
     n = len(tips())
     output = dict(re.findall(r"^(\S.*?\S) {2,}(\S.*?) *$", output, re.MULTILINE))
     assert output["poses"] == f"{n} at 100.0 Hz over {(n - 1) / 100:.1f} s"
@@ -208,8 +205,9 @@ def test_report_refuses(capsys: Captured, recording: str, arm: str, tmp_path: Pa
     assert "--expected is -1; allowed: a whole number >= 0" in refused(
         capsys, "report", recording, "--arm", arm, "--expected", -1
     )
-    assert code("report", recording, "--arm", arm, "--out", in_the_way) == 2
-    assert capsys.readouterr().err == f"continuum: {in_the_way}: cannot be written (File exists)\n"
+    assert "cannot be written (Not a directory)" in refused(
+        capsys, "report", recording, "--arm", arm, "--out", in_the_way
+    )
 
 
 @pytest.mark.parametrize("command", ["report", "view"])

@@ -14,7 +14,7 @@ from continuum.kinematics.configuration import allen_from_jones
 from continuum.kinematics.routing import tangle
 
 
-def test_solve_tells_a_posture_that_reaches_the_point(capsys: Captured) -> None:
+def test_solve_prints_a_posture_that_reaches_the_point(capsys: Captured) -> None:
     target = [0.15, 0.05, 0.20]
     assert code("solve", THREE, *target) == 0
     output = capsys.readouterr().out
@@ -89,13 +89,13 @@ def test_solve_stays_near_a_start_and_bends_little(capsys: Captured) -> None:
     assert np.linalg.norm(found["least_bending"]) < 0.99 * np.linalg.norm(w)
 
 
-def test_a_start_beyond_a_limit_is_told(capsys: Captured) -> None:
+def test_a_start_beyond_a_limit_is_reported(capsys: Captured) -> None:
     assert code("solve", THREE, 0.1, 0, 0.4, "--start", 10, 0, -200, 0, 180, 0) == 0
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith("continuum: --start bends section_2 by 200 degrees; its limit is 180")
 
 
-def test_a_direction_beside_a_file_is_wrong_usage(capsys: Captured, tmp_path: Path) -> None:
+def test_a_direction_next_to_a_file_is_wrong_usage(capsys: Captured, tmp_path: Path) -> None:
     file = tmp_path / "targets.txt"
     file.write_text("0.1 0 0.4\n")
     assert code("solve", THREE, "--targets", file, "--direction", 0, 0, 1) == 2

@@ -7,8 +7,15 @@ import pytest
 from command_line import THREE, Captured, code, refused
 
 
-def test_an_arm_beside_an_arm_is_refused(capsys: Captured) -> None:
+def test_an_arm_next_to_an_arm_is_refused(capsys: Captured) -> None:
     assert "--arm" in refused(capsys, "view", THREE, "--arm", THREE)
+
+
+def test_a_name_of_no_file_is_that_of_an_arm(capsys: Captured, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+    line = refused(capsys, "view", "three_sectons")
+    assert line.endswith("; did you mean three_sections?\n")
+    assert "three_sections.yaml" in line
 
 
 def test_a_recording_is_named_while_one_waits_for_it(

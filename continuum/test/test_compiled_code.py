@@ -127,7 +127,7 @@ def test_what_was_installed_is_read_and_more_is_kept_elsewhere(
     assert compiled_by(make(), 3.0, 3) == 0
 
 
-def test_a_folder_that_numba_is_told_to_use_is_used(
+def test_a_folder_that_numba_is_configured_to_use_is_used(
     make: Callable[[], Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path / "named"))

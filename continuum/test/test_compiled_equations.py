@@ -41,7 +41,7 @@ def test_tip_and_jacobian_are_those_of_the_chain(arm: Arm) -> None:
 
 
 @pytest.mark.parametrize("kind", [POSITION, DIRECTION, POSE], ids=["position", "direction", "pose"])
-def test_the_task_tells_distance_and_angle_and_the_descent_of_its_squared_error(kind: int) -> None:
+def test_the_task_gives_distance_and_angle_and_the_descent_of_its_squared_error(kind: int) -> None:
     arm, weight = mixed_arm(3), 0.07
     targets = targets_at(arm, random_postures(arm, 6, seed=1), kind)
     postures = random_postures(arm, 6, seed=1) + 0.2 * random_postures(arm, 6, seed=2)

@@ -60,7 +60,7 @@ def values(distance: Distance) -> tuple[float, float]:
     return distance.value, distance.sd
 
 
-def test_what_the_measurement_does_not_resolve_is_not_told() -> None:
+def test_what_the_measurement_does_not_resolve_is_left_open() -> None:
     assert of(BETWEEN).nearer is Nearer.UNDECIDED
     assert of(HELD, np.radians(6.0)).nearer is of(EVEN, np.radians(6.0)).nearer is Nearer.UNDECIDED
     for total in np.radians([0.0, 1.0, -2.0]):  # nearly straight, both models are the same
@@ -68,7 +68,7 @@ def test_what_the_measurement_does_not_resolve_is_not_told() -> None:
         assert of(rest).nearer is of(np.full(N, total / N)).nearer is Nearer.UNDECIDED
 
 
-def test_models_that_the_measurement_does_not_tell_apart_are_not_told_apart_by_an_arm_far_from_both() -> None:
+def test_models_that_the_measurement_does_not_separate_are_not_separated_by_an_arm_far_from_both() -> None:
     total = np.radians(4)
     rest, even = held_posture(ARM, total, None, 1).theta, np.full(N, total / N)
     far = even + 20 * (rest - even)
@@ -94,7 +94,7 @@ def test_intervals_hold_the_true_differences_and_no_more_than_chance_is_wrong(sh
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_errors_are_propagated_by_the_exact_slopes(seed: int) -> None:
+def test_errors_are_propagated_by_the_exact_derivatives(seed: int) -> None:
     """Of distances and their difference, by finite differences about a posture that is held by one tension."""
     rng = np.random.default_rng(seed)
     theta, tension = BETWEEN + rng.normal(0, 0.02, N), np.array([20.0, 0.0])
@@ -132,7 +132,7 @@ def test_one_hold_again_and_again_is_answered_as_the_one() -> None:
     assert several.counts == {Nearer.DYNAMIC: 4, Nearer.CONSTANT: 0, Nearer.UNDECIDED: 0}
 
 
-def test_independent_holds_are_more_certain_together_and_contradicting_ones_tell_nothing() -> None:
+def test_independent_holds_are_more_certain_together_and_contradicting_ones_decide_nothing() -> None:
     one = of(0.6 * HELD + 0.4 * EVEN, np.radians(0.8))
     four = overall([one] * 4, errors_of(*[one.covariance] * 4))
     assert one.nearer is Nearer.UNDECIDED

@@ -79,7 +79,7 @@ def test_a_mirrored_arm_is_held_in_the_mirrored_posture(total: float, tension: l
 
 
 @pytest.mark.parametrize("tension", [None, [20.0, 0.0]])
-def test_the_slope_is_the_change_with_the_bend(tension: list[float] | None) -> None:
+def test_the_derivative_is_the_change_with_the_bend(tension: list[float] | None) -> None:
     """Exact where friction changes; where the tension does, to some hundredths, as its lever is not the same at all."""
     total, step = np.radians(80), 1e-4
     change = (held(total + step, tension).theta - held(total - step, tension).theta) / (2 * step)

@@ -13,7 +13,6 @@ from identification_laws import BENDS, FINE, N, recorded
 
 from continuum.cli import main
 from continuum.cli.diagnose import EXIT_CODES
-from continuum.cli.progress import progress_bar as progress
 from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.simulator import Simulator
 from continuum.recordings.motion_table import write_measured_motion
@@ -33,7 +32,7 @@ def test_bad_data_are_refused_in_one_line(tmp_path: Path, capsys: Captured) -> N
     assert not (tmp_path / "out.json").exists()
 
 
-def test_what_was_not_understood_is_told_before_the_search(
+def test_what_was_not_understood_is_reported_before_the_search(
     tmp_path: Path, capsys: Captured, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A pulled run whose tensions have another name is another run."""
@@ -46,7 +45,7 @@ def test_what_was_not_understood_is_told_before_the_search(
 
     monkeypatch.setattr("continuum.discovery.diagnose", stopped)
     main(["diagnose", str(table)])
-    assert capsys.readouterr().err.startswith("continuum: run: columns that are not understood, and not used: pull\n")
+    assert capsys.readouterr().err.startswith("continuum: run: unknown columns, not used: pull\n")
 
 
 @pytest.fixture
@@ -69,14 +68,16 @@ def releases(folder: Path, **truth: float) -> list[str]:
     return files
 
 
-def test_a_diagnosis_is_told_and_written(tmp_path: Path, model: Path, capsys: Captured) -> None:
+def test_a_diagnosis_is_reported_and_written(tmp_path: Path, model: Path, capsys: Captured) -> None:
     files = releases(tmp_path, stiffness=1.3)
-    out = {name: tmp_path / f"out.{name}" for name in ("json", "html", "yaml")}
+    out = {name: tmp_path / "new" / f"out.{name}" for name in ("json", "html", "yaml")}
     words = ["--json", str(out["json"]), "--report", str(out["html"]), "--extended", str(out["yaml"])]
     code = main(["diagnose", *files, "--model", str(model), *words])
     output = json.loads(out["json"].read_text(encoding="utf-8"))
     assert code == EXIT_CODES[output["verdict"]]
-    assert capsys.readouterr().out.startswith(output["verdict"].upper() + "\n")
+    printed = capsys.readouterr().out
+    assert printed.startswith(output["verdict"].upper() + "\n")
+    assert {f"written: {file}" for file in out.values()} == {*printed.splitlines()[-3:]}
     made = output["made"]
     assert (made["recordings"], made["model"]) == (["run_1.csv", "run_2.csv"], "small.yaml")
     page = unescape(out["html"].read_text(encoding="utf-8"))
@@ -128,17 +129,9 @@ def test_an_arm_of_another_number_of_joints_is_refused(tmp_path: Path, capsys: C
 
 @pytest.mark.parametrize("option", ["--json", "--report", "--extended"])
 def test_what_cannot_be_written_is_refused_before_the_search(tmp_path: Path, capsys: Captured, option: str) -> None:
-    words = [option, str(tmp_path / "nowhere" / "out")]
+    (tmp_path / "file").touch()
+    words = [option, str(tmp_path / "file" / "folder" / "out.html")]
     assert main(["diagnose", *releases(tmp_path), *words]) == 2
     output = capsys.readouterr().err
     assert "cannot be written" in output
     assert output.count("\n") == 1
-
-
-def test_each_stage_is_one_line_where_standard_error_is_no_terminal(capsys: Captured) -> None:
-    with progress() as tell:
-        for what, part in (("refitting", 0.0), ("effects", 0.1), ("effects", 0.5), ("done", 1.0)):
-            tell(what, part)
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    assert captured.err.splitlines() == ["continuum: refitting", "continuum: effects", "continuum: done"]

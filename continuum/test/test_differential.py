@@ -100,7 +100,7 @@ def test_one_section_at_its_limit_is_held() -> None:
 
 
 @pytest.mark.parametrize("bend_of_all", [0.0, 1e-300, 1e-12, 1e-6, 1e-3])
-def test_near_the_straight_arm_the_rate_stays_small_and_the_lack_is_told(bend_of_all: float) -> None:
+def test_near_the_straight_arm_the_rate_stays_small_and_the_lack_is_reported(bend_of_all: float) -> None:
     """The straight arm cannot move along its axis; asked to, it neither jumps nor fails."""
     arm = arm_of(3)
     w = np.full((3, 2), bend_of_all)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from continuum.discovery.baseline import problem_of
 from continuum.discovery.problem import Problem, State, point_of
-from continuum.dynamics.dry_friction import with_dry_friction
+from continuum.dynamics.model import with_dry_friction
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.values import with_vector

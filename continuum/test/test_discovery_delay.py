@@ -12,9 +12,8 @@ from continuum.discovery.candidates import examine
 from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.problem import State
 from continuum.discovery.unknowns import Unknown
-from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.effect_lookup import effect_named
-from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.model import ActiveEffect, Model, with_dry_friction
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
@@ -74,7 +73,7 @@ def test_the_derivative_by_a_delay_is_a_difference(recording: Recording) -> None
 
 
 @pytest.mark.parametrize("held", [True, False])
-def test_inputs_that_hold_are_told_from_those_that_change_linearly(held: bool) -> None:
+def test_inputs_that_hold_are_reported_from_those_that_change_linearly(held: bool) -> None:
     """At 60 rows a second either taken for the other is 8 ms early or late."""
     times = np.arange(0, 0.8, 1 / 60)
     tensions = Tensions(times, pull(times), held=held)

@@ -75,7 +75,7 @@ def test_friction_of_the_file_is_refitted_and_not_named() -> None:
 
 
 @pytest.mark.parametrize("joint", [1])
-def test_a_rotor_is_told_from_a_heavier_link_beyond_the_first_joint(joint: int) -> None:
+def test_a_rotor_is_reported_from_a_heavier_link_beyond_the_first_joint(joint: int) -> None:
     rotor = np.where(np.arange(2) == joint, 0.004, 0.0)
     result, values = answer(
         swings(pendulum(**RUBBING, rotor_inertia=rotor)), pendulum(**RUBBING), "inertia", "rotor_inertia"

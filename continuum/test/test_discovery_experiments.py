@@ -47,7 +47,7 @@ def proposed(*labels: str) -> dict[str, Experiment]:
     return {one.name: one for one in experiments(found, sets, sets[0].found.lin.library, recordings, ())}
 
 
-def test_zeros_by_protractor_tell_a_sensor_from_a_spring_better_than_a_release_does() -> None:
+def test_zeros_by_protractor_separate_a_sensor_from_a_spring_better_than_a_release_does() -> None:
     found = proposed("rest_angle@3", "angle_offset@3")
     by_hand, release = found["release with zeros by protractor"], found["release from the other side"]
     assert by_hand.runs == 1

@@ -90,7 +90,7 @@ def test_a_step_is_that_of_all_unknowns_at_once(seed: int) -> None:
 
 @LAW
 @given(st.integers(0, 10**6))
-def test_spreads_are_those_of_the_whole_information(seed: int) -> None:
+def test_standard_deviations_are_those_of_the_whole_information(seed: int) -> None:
     drawn = Drawn(seed)
     whole = np.linalg.inv(drawn.dense()[0])
     np.testing.assert_allclose(drawn.normal.covariance, whole[:COMMON, :COMMON], rtol=1e-6, atol=1e-10)
@@ -144,7 +144,7 @@ def test_a_cost_falls_where_its_gradient_points(seed: int, stretch: float) -> No
 
 
 @pytest.mark.parametrize("rho", [-0.3, 0.0, 0.5, 0.9])
-def test_rows_that_are_alike_count_as_few_as_their_mean_tells(rho: float) -> None:
+def test_correlated_rows_count_as_few_as_their_mean_implies(rho: float) -> None:
     """The mean of a series that forgets by rho a row varies as that of as many independent rows; none count twice."""
     rows = np.arange(3000)
     variance = np.sum(rho ** np.abs(rows[:, None] - rows)) / rows.size if rho > 0 else 1.0

@@ -17,9 +17,8 @@ from continuum.discovery.problem import Linearised, linearise, point_of
 from continuum.discovery.search import Found
 from continuum.discovery.segment import Segment, cut
 from continuum.discovery.unknowns import Unknowns
-from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.integration.tolerances import Tolerances
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import Model, with_dry_friction
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.estimation.structure import Structure

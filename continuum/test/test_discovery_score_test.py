@@ -17,9 +17,8 @@ from continuum.discovery.power import powers
 from continuum.discovery.problem import linearise
 from continuum.discovery.score_test import promises
 from continuum.discovery.search import RUNNER_UP, Found
-from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.effect_lookup import effect_named
-from continuum.dynamics.model import ActiveEffect
+from continuum.dynamics.model import ActiveEffect, with_dry_friction
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.estimation.structure import Structure, absent_values

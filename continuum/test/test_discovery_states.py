@@ -12,10 +12,9 @@ from continuum.discovery.baseline import fitted_baseline, problem_of
 from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.problem import State
 from continuum.discovery.unknowns import Unknown, shifted
-from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.integration.tolerances import Tolerances
-from continuum.dynamics.model import ActiveEffect
+from continuum.dynamics.model import ActiveEffect, with_dry_friction
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions

@@ -10,7 +10,7 @@ from continuum.discovery.problem import Linearised, State, linearise
 from continuum.discovery.search import Found
 from continuum.discovery.sensitivities import is_linear
 from continuum.discovery.unknowns import Unknowns
-from continuum.dynamics.dry_friction import with_dry_friction
+from continuum.dynamics.model import with_dry_friction
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.estimation.friction_modes import friction_modes

@@ -94,7 +94,7 @@ def test_names_of_values() -> None:
         {"hang_angle": 4.0},
     ],
 )
-def test_bad_values_are_told(changed: dict[str, object]) -> None:
+def test_bad_values_are_reported(changed: dict[str, object]) -> None:
     with pytest.raises(InvalidValueError, match="allowed"):
         PLAIN.with_values(changed)
 

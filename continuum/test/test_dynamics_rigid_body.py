@@ -7,13 +7,16 @@ from dynamics_laws import moving, prototype_model, random_parameters
 from mujoco_chain import Engine
 
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.eq12_balance import rigid_body_torque
-from continuum.dynamics.planar.eq12_coriolis_matrix import coriolis_matrix
-from continuum.dynamics.planar.eq12_gravity_torque import gravity_potential, gravity_torque
-from continuum.dynamics.planar.eq12_inertia_matrix import inertia_matrix
-from continuum.dynamics.planar.eq12_spring_torque import spring_potential, spring_torque
-from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, dry_friction, joint_friction
+from continuum.dynamics.planar.balance import rigid_body_torque
 from continuum.dynamics.planar.instant import Instant
+from continuum.dynamics.planar.rigid_body import coriolis_matrix, gravity_potential, gravity_torque, inertia_matrix
+from continuum.dynamics.planar.springs_and_friction import (
+    break_away_torque,
+    dry_friction,
+    joint_friction,
+    spring_potential,
+    spring_torque,
+)
 
 each_size = pytest.mark.parametrize("n", [1, 2, 5, 8])
 
@@ -37,7 +40,7 @@ def test_rate_of_inertia_less_twice_coriolis_is_skew(n: int) -> None:
 
 
 @each_size
-def test_gravity_and_springs_are_slopes_of_their_potentials(n: int) -> None:
+def test_gravity_and_springs_are_derivatives_of_their_potentials(n: int) -> None:
     for p, theta, _, _ in cases(n, 3):
         slope = differences(lambda q: gravity_potential(np.cumsum(q), p), theta)[0]  # noqa: B023
         np.testing.assert_allclose(gravity_torque(np.cumsum(theta), p), slope, rtol=1e-9, atol=1e-12)

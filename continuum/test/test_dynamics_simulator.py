@@ -75,7 +75,7 @@ def test_the_prototypes_release_at_the_theses_tolerances(method: object) -> None
 
 @pytest.mark.parametrize("simulator", [two_joints, with_states])
 @pytest.mark.parametrize("method", [third_order, fourth_order])
-def test_slopes_by_every_parameter_and_by_the_initial_state_are_those_of_runs_nearby(
+def test_derivatives_by_every_parameter_and_by_the_initial_state_are_those_of_runs_nearby(
     simulator: object, method: object
 ) -> None:
     """Without an estimate of the error all runs take the same steps, so that their differences are smooth."""
@@ -96,7 +96,7 @@ def test_slopes_by_every_parameter_and_by_the_initial_state_are_those_of_runs_ne
     np.testing.assert_array_equal(found[0], free_initial)
 
 
-def test_slopes_do_not_depend_on_the_steps() -> None:
+def test_derivatives_do_not_depend_on_the_steps() -> None:
     """Those of the adaptive steps are, within its tolerance, those of much finer ones."""
     model, times, x0 = two_joints().model, [0.0, 0.05], start(two_joints())
     free = shared_directions(model, ["stiffness", "viscous_friction", "mass", "half_spacing"])
@@ -131,7 +131,7 @@ def test_a_short_pull_is_not_stepped_over() -> None:
 
 
 @pytest.mark.parametrize("gap", [0.0, 5e-17, 1e-13, -1e-13, 1e-11])
-def test_tensions_that_bend_or_jump_beside_an_output_are_met(gap: float) -> None:
+def test_tensions_that_bend_or_jump_next_to_an_output_are_met(gap: float) -> None:
     """As 3 * 0.1 and 0.3 do, which are two numbers."""
     fast, x0, times = two_joints(), start(two_joints()), np.linspace(0.0, 0.15, 4)
     steady = Tensions(np.zeros(1), np.array([[9.0, 2.0]]))
@@ -230,7 +230,7 @@ def test_values_that_are_no_numbers_never_give_a_trajectory(name: str, bad: floa
         {"free_initial": np.zeros((4, 2))},
     ],
 )
-def test_bad_input_is_told(wrong: Mapping[str, object]) -> None:
+def test_bad_input_is_reported(wrong: Mapping[str, object]) -> None:
     right = {"initial": np.zeros(2), "times": np.array([0.0, 0.1])}
     with pytest.raises(InvalidValueError, match="allowed"):
         two_joints().run(**(right | wrong))  # type: ignore[arg-type]
@@ -238,6 +238,6 @@ def test_bad_input_is_told(wrong: Mapping[str, object]) -> None:
 
 @pytest.mark.parametrize("name", ["relative", "absolute", "max_step"])
 @pytest.mark.parametrize("bad", [0.0, np.nan])
-def test_bad_tolerances_are_told(name: str, bad: float) -> None:
+def test_bad_tolerances_are_reported(name: str, bad: float) -> None:
     with pytest.raises(InvalidValueError, match=name):
         Tolerances(**{name: bad})

@@ -20,10 +20,9 @@ from effects_laws import effect_of
 
 from continuum.dynamics.balance import balance
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cables import chord_jacobian, chord_lengths
-from continuum.dynamics.planar.eq12_cable_torque import cable_torque
-from continuum.dynamics.planar.eq12_gravity_torque import gravity_potential, gravity_torque
-from continuum.dynamics.planar.eq12_spring_torque import spring_potential, spring_torque
+from continuum.dynamics.planar.cables import cable_torque, chord_jacobian, chord_lengths
+from continuum.dynamics.planar.rigid_body import gravity_potential, gravity_torque
+from continuum.dynamics.planar.springs_and_friction import spring_potential, spring_torque
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.statics.equilibrium import Equilibrium, EquilibriumStatus, equilibrium
 from continuum.dynamics.statics.resting_arm import Load, RestingArm
@@ -94,7 +93,7 @@ def test_an_equilibrium_without_losses_is_a_minimum_of_the_energy(seed: int) -> 
 
 
 @pytest.mark.parametrize("effects", [False, True])
-def test_stiffness_is_the_slope_of_the_torques(effects: bool) -> None:
+def test_stiffness_is_the_derivative_of_the_torques(effects: bool) -> None:
     model = model_of(5, effects)
     found = found_at(model, Load(PULL))
 
@@ -149,7 +148,7 @@ def test_springs_relaxed_elsewhere_by_an_effect_lead_to_the_same_equilibrium() -
     np.testing.assert_allclose(found[1].theta, found[0].theta, rtol=0, atol=1e-9)
 
 
-def test_no_equilibrium_is_told() -> None:
+def test_no_equilibrium_is_reported() -> None:
     arm = RestingArm(random_model(33, 1, (active(Broken(), limit=-1.0),)))
     found = equilibrium(arm, Load(np.zeros(2)))
     assert found.status is EquilibriumStatus.NOT_FOUND
@@ -233,12 +232,12 @@ def test_friction_that_an_effect_changes_counts() -> None:
         {"tension": np.zeros(2), "approach": 2},
     ],
 )
-def test_bad_loads_are_told(wrong: Mapping[str, object]) -> None:
+def test_bad_loads_are_reported(wrong: Mapping[str, object]) -> None:
     with pytest.raises(InvalidValueError, match="allowed"):
         Load(**wrong)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("start", [np.zeros(2), np.full(3, np.inf), "x"])
-def test_bad_starts_are_told(start: object) -> None:
+def test_bad_starts_are_reported(start: object) -> None:
     with pytest.raises(InvalidValueError, match="start"):
         equilibrium(compiled(False), Load(np.zeros(2)), start)  # type: ignore[arg-type]

@@ -55,7 +55,7 @@ def numeric(model: Model, packed: np.ndarray) -> np.ndarray:
 
 
 @each_model
-def test_derivatives_are_slopes_of_the_balance(name: str) -> None:
+def test_derivatives_are_derivatives_of_the_balance(name: str) -> None:
     model, symbols = model_and_symbols(name)
     nx, nv = 2 * model.n_joints + model.n_states, model.n_joints + model.n_states
     for seed in range(2):

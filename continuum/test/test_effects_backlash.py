@@ -10,9 +10,8 @@ from effects_laws import LOOSE, RELEASED, N, effect_of, extended, resting_state,
 from scipy.integrate import solve_ivp
 
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.eq12_spring_torque import spring_torque
-from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, joint_friction
 from continuum.dynamics.planar.instant import Instant
+from continuum.dynamics.planar.springs_and_friction import break_away_torque, joint_friction, spring_torque
 
 GAP = 0.05
 TIMES = np.linspace(0.0, 1.0, 1001)

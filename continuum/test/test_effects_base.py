@@ -11,7 +11,7 @@ from effects_laws import LOOSE, RELEASED, N, effect_of, extended, resting_state,
 from continuum.dynamics.balance import balance
 from continuum.dynamics.model import Model
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.eq12_gravity_torque import gravity_potential
+from continuum.dynamics.planar.rigid_body import gravity_potential
 from continuum.dynamics.values import parameter_vector
 
 

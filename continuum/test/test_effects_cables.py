@@ -13,10 +13,10 @@ from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions, slack
 from continuum.dynamics.trajectory import SimulationStatus
-from continuum.effects.parts.cables import lengthening, lengthening_rate
+from continuum.effects._parts import lengthening, lengthening_rate
 
 
-def test_a_held_cable_is_the_slope_of_its_energy() -> None:
+def test_a_held_cable_is_the_derivative_of_its_energy() -> None:
     p = replace(random_parameters(np.random.default_rng(9), N), capstan_friction=np.zeros(1))
     slacks = {"slack_1": 0.01, "slack_2": 0.03}
     for theta in (np.array([0.4, 0.3, 0.5, 0.1, 0.2]), -np.array([0.4, 0.3, 0.5, 0.1, 0.2])):
@@ -77,7 +77,7 @@ def test_an_elastic_cable_of_an_arm_that_is_held_is_a_lag_and_of_a_motor_that_is
     np.testing.assert_allclose(elastic.effect.state_balance(drawn, elastic.values, state, rate), 0, atol=1e-9)
 
 
-def test_a_cable_that_would_push_stays_loose_and_one_that_is_told_nothing_resists() -> None:
+def test_a_cable_that_would_push_stays_loose_and_one_that_is_reported_nothing_resists() -> None:
     """Both while an arm that was bent to cable 1 swings back: that is drawn off its drum, the other comes loose."""
     model, times = extended(prototype_model(N), "elastic_cable", {"lag": 0.05, "stiffness": 500.0}), np.linspace(0, 0.1)
     output = Tensions([0.0], [[0.0, 0.0]])

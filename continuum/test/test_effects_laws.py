@@ -1,4 +1,4 @@
-"""What every effect owes, whoever wrote it: found by its entry point, absent at its defaults, exact slopes, a file."""
+"""Laws of every effect, whoever wrote it: its entry point finds it, absent at its defaults, derivatives, a file."""
 
 import re
 import sys
@@ -33,10 +33,9 @@ from continuum.dynamics.effect import Effect
 from continuum.dynamics.measuring import lateness
 from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model, save_model
-from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
-from continuum.dynamics.trajectory import SimulationStatus
+from continuum.dynamics.trajectory import Reading, SimulationStatus
 from continuum.dynamics.values import parameter_slots, parameter_vector, with_vector
 
 pytestmark = pytest.mark.slow
@@ -131,7 +130,7 @@ def test_states_rest_where_they_begin_and_their_equations_have_a_solution(name: 
 
 @each_effect
 def test_compiled_equations_are_those_of_numbers(name: str) -> None:
-    """As written and as compiled alike, and exact slopes along random ways by differences of the former."""
+    """As written and as compiled alike, and exact derivatives along random ways by differences of the former."""
     for seed in range(2):
         model = random_with(name, seed)
         x, v = moving_state(seed, model.n_states)
@@ -154,7 +153,7 @@ def test_compiled_equations_are_those_of_numbers(name: str) -> None:
 
 @each_effect
 @pytest.mark.parametrize("times_typical", [0.0, 3.0])
-def test_a_release_of_the_prototype_and_its_slopes(name: str, times_typical: float) -> None:
+def test_a_release_of_the_prototype_and_its_derivatives(name: str, times_typical: float) -> None:
     """By the effect's own parameters, against differences of runs; at the lower bound to one side."""
     model = prototype_with(name, times_typical)
     fast, params = simulator(name, SUDDEN.get(name, EXACT)).around(model), effect_of(name).parameters
@@ -279,7 +278,7 @@ class Halved(Effect):
         return u / 2
 
 
-def test_an_effect_with_states_is_told_what_the_effect_before_it_pulls() -> None:
+def test_an_effect_with_states_receives_the_tension_of_the_effect_before_it() -> None:
     lag = extended(prototype_model(N), "actuator_lag", {"lag": 0.1})
     model = replace(lag, effects=(replace(lag.effects[0], effect=Halved(), values={}), *lag.effects))
     x, v = moving_state(9, 2)

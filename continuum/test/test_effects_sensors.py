@@ -7,7 +7,7 @@ import pytest
 from dynamics_laws import active
 from effects_laws import effect_of
 
-from continuum.dynamics.reading import Reading
+from continuum.dynamics.trajectory import Reading
 
 
 def seen_by(name: str, reading: Reading, **values: float) -> Reading:

@@ -11,9 +11,9 @@ from effects_laws import LOOSE, N, effect_of, instants, torque_of
 from scipy.integrate import solve_ivp
 
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, dry_friction, joint_friction
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.joint_force import joint_force
+from continuum.dynamics.planar.springs_and_friction import break_away_torque, dry_friction, joint_friction
+from continuum.effects._parts import joint_force
 
 pytestmark = pytest.mark.slow
 

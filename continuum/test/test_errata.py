@@ -249,44 +249,44 @@ def test_eq_24_arc_length_is_right_but_when_straight() -> None:
 
 
 @pytest.fixture
-def lengths_and_slopes() -> tuple[np.ndarray, np.ndarray]:
-    """Lengths (4, 4) [m] of one module's cables and their slopes (4, 4, 2) by (phi, theta), from the discs."""
+def lengths_and_derivatives() -> tuple[np.ndarray, np.ndarray]:
+    """Lengths (4, 4) [m] of one module's cables and their derivatives (4, 4, 2) by (phi, theta), from the discs."""
     q = np.stack([PHI, THETA], axis=-1)
     return module_length(q), differences(module_length, q)
 
 
-def test_eq_25_left_side(lengths_and_slopes: tuple[np.ndarray, np.ndarray]) -> None:
+def test_eq_25_left_side(lengths_and_derivatives: tuple[np.ndarray, np.ndarray]) -> None:
     """d l / d phi = (d l^2 / d phi) / 2l; printed with d l^2 / d phi on both sides."""
-    lengths, exact = lengths_and_slopes
+    lengths, exact = lengths_and_derivatives
     squares = differences(lambda q: module_length(q) ** 2, np.stack([PHI, THETA], axis=-1))
     right_side = squares / (2 * lengths[..., None])
     assert relative_error(right_side, squares) > WRONG
     assert_same_derivatives(right_side, exact)
 
 
-def slope_of_eq_26(lengths: np.ndarray, sine_power: int) -> np.ndarray:
+def derivative_of_eq_26(lengths: np.ndarray, sine_power: int) -> np.ndarray:
     """Entry d l / d phi of Eq. 26, with sin(theta / 2n) to the power 1 as printed, or 2."""
     apart = PHI[:, None] - ALPHA
     x = THETA[:, None] / (2 * N)
     return 4 * A * np.sin(apart) * (B * np.sin(2 * x) - 2 * A * np.sin(x) ** sine_power * np.cos(apart)) / (2 * lengths)
 
 
-def test_eq_26_missing_square(lengths_and_slopes: tuple[np.ndarray, np.ndarray]) -> None:
-    lengths, exact = lengths_and_slopes
-    assert relative_error(slope_of_eq_26(lengths, 1), exact[..., 0]) > WRONG
-    np.testing.assert_allclose(slope_of_eq_26(lengths, 2), exact[..., 0], rtol=1e-9, atol=1e-12)
+def test_eq_26_missing_square(lengths_and_derivatives: tuple[np.ndarray, np.ndarray]) -> None:
+    lengths, exact = lengths_and_derivatives
+    assert relative_error(derivative_of_eq_26(lengths, 1), exact[..., 0]) > WRONG
+    np.testing.assert_allclose(derivative_of_eq_26(lengths, 2), exact[..., 0], rtol=1e-9, atol=1e-12)
 
 
-def test_eq_26_second_entry_is_right(lengths_and_slopes: tuple[np.ndarray, np.ndarray]) -> None:
-    lengths, exact = lengths_and_slopes
+def test_eq_26_second_entry_is_right(lengths_and_derivatives: tuple[np.ndarray, np.ndarray]) -> None:
+    lengths, exact = lengths_and_derivatives
     c, sin, cos = np.cos(PHI[:, None] - ALPHA), np.sin(THETA / N)[:, None], np.cos(THETA / N)[:, None]
     printed = 2 / N * (A**2 * sin * c**2 - B**2 * sin - 2 * A * B * cos * c) / (2 * lengths)
     np.testing.assert_allclose(printed, exact[..., 1], rtol=1e-9, atol=1e-12)
 
 
-def test_eq_26_is_one_module(lengths_and_slopes: tuple[np.ndarray, np.ndarray]) -> None:
+def test_eq_26_is_one_module(lengths_and_derivatives: tuple[np.ndarray, np.ndarray]) -> None:
     """A section's cable moves n_j times as fast."""
-    _, module = lengths_and_slopes
+    _, module = lengths_and_derivatives
     section = cable_jacobian(W, PROTOTYPE) @ allen_rate_jacobian(PHI, THETA)
     assert relative_error(module, section) > WRONG
     assert_same_derivatives(N * module, section)

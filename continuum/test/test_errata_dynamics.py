@@ -4,11 +4,15 @@ import numpy as np
 import pytest
 from dynamics_laws import prototype_model
 
-from continuum.dynamics.planar.cables import SIDES, chord_jacobian
-from continuum.dynamics.planar.eq13_joint_friction import joint_friction
-from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation
-from continuum.dynamics.planar.eq16_link_wrenches import link_wrenches
-from continuum.dynamics.planar.eq17_serial_jacobian import serial_jacobian, turned
+from continuum.dynamics.planar.cables import (
+    SIDES,
+    chord_jacobian,
+    link_wrenches,
+    serial_jacobian,
+    tension_propagation,
+    turned,
+)
+from continuum.dynamics.planar.springs_and_friction import joint_friction
 
 P = prototype_model().with_values({"capstan_friction": 0.2}).parameters
 N = P.n_joints
@@ -48,7 +52,7 @@ def test_eq_15_wrap_and_direction(side: int) -> None:
         assert np.all(lost(tension_propagation(theta, direction, P), direction) > 0)
 
 
-def test_eq_16_is_right_in_a_frame_that_looks_back() -> None:
+def test_eq_16_is_right_in_a_frame_that_faces_backwards() -> None:
     """With y of each link towards the base; at the disc's centre, which is the centre of mass of Table 1's links."""
     tensions = np.random.default_rng(1).uniform(5, 20, (N, 2))
     found = link_wrenches(tensions, THETA, P) * np.array([1.0, -1.0, 1.0])

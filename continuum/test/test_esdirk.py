@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from dynamics_laws import FRICTIONLESS, prototype_model, random_model
 
-from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.integration.esdirk_tableau import Tableau, fourth_order, third_order
 from continuum.dynamics.integration.tolerances import Tolerances
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import Model, with_dry_friction
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus

@@ -10,7 +10,7 @@ from estimation_arm import N, drawn_motion, drawn_params, drawn_values, missing,
 from hypothesis import given
 from hypothesis import strategies as st
 
-from continuum.dynamics.reading import Reading
+from continuum.dynamics.trajectory import Reading
 from continuum.estimation.columns import (
     Change,
     LateInputs,
@@ -36,7 +36,7 @@ def directions_of(name: str) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_slope_is_the_derivative_of_the_torque(name: str) -> None:
+def test_a_derivative_is_the_derivative_of_the_torque(name: str) -> None:
     """By every parameter of Eq. 12 and of all effects without states, the slip rate as it is."""
     random = np.random.default_rng(NAMES.index(name))
     values, along, slot = drawn_values(random), drawn_motion(random, ROWS), structure().slots[name]
@@ -54,7 +54,7 @@ def test_a_slope_is_the_derivative_of_the_torque(name: str) -> None:
 
 @LAW
 @given(SEEDS, st.sampled_from(NAMES))
-def test_a_slope_along_directions_is_the_sum_of_its_parts_where_values_were_changed(seed: int, name: str) -> None:
+def test_a_derivative_along_directions_is_the_sum_of_its_parts_where_values_were_changed(seed: int, name: str) -> None:
     random = np.random.default_rng(seed)
     values, along = drawn_values(random), drawn_motion(random, ROWS)
     directions = random.normal(0, 1, (values.size, 2))
@@ -119,7 +119,7 @@ def sensed(random: np.random.Generator, with_rates: bool) -> tuple[Run, Trajecto
 
 @pytest.mark.parametrize(("effect", "name"), SENSORS, ids=[f"{effect.name}.{name}" for effect, name in SENSORS])
 @pytest.mark.parametrize("with_rates", [False, True])
-def test_a_sensor_slope_is_the_derivative_of_what_is_read(effect, name: str, with_rates: bool) -> None:  # type: ignore[no-untyped-def]
+def test_a_sensor_derivative_is_the_derivative_of_what_is_read(effect, name: str, with_rates: bool) -> None:  # type: ignore[no-untyped-def]
     """All sensors measure one after the other."""
     run, way, params = sensed(np.random.default_rng(len(name)), with_rates)
     scene = scene_along(drawn_motion(np.random.default_rng(0), 7), structure().values, params)

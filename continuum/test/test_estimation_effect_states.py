@@ -126,7 +126,7 @@ def test_joints_have_columns_of_their_own_that_add_up(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["actuator_lag", "elastic_cable"])
-def test_half_the_difference_of_neighbours_tends_to_the_slope_by_the_logarithm(name: str) -> None:
+def test_half_the_difference_of_neighbours_tends_to_the_derivative_by_the_logarithm(name: str) -> None:
     """Off by the square of their distance: what a Gauss-Newton step is made of, where states have no corners."""
     scene = scene_along(simulated(name, values_of(name, 1.0), prototype(), 2e-3), prototype())
     size = next(iter(structure().stateful[name].effect.parameters))

@@ -46,7 +46,7 @@ def test_one_pass_gives_the_dense_likelihood_at_any_coefficients(one: LinearRun,
 
 @LAW
 @given(RUNS, SEEDS, st.floats(0.1, 0.9), st.sampled_from([0.0, -3.0, 1e3, np.nan]))
-def test_an_unmeasured_reading_tells_nothing(one: LinearRun, seed: int, share: float, stand_in: float) -> None:
+def test_an_unmeasured_reading_has_no_information(one: LinearRun, seed: int, share: float, stand_in: float) -> None:
     """As one of very large variance, whatever stands in its place; but for a constant of the log-determinant."""
     partly, theta = one.with_unmeasured(seed, share, stand_in), some_thetas(seed)[-2]
     louder = replace(one.noise, sigma=3 * one.noise.sigma, white=2 * one.noise.white)

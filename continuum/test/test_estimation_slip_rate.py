@@ -45,7 +45,7 @@ def linear_parts(values: np.ndarray, x: np.ndarray, v: np.ndarray, u: np.ndarray
 
 @LAW
 @given(SEEDS)
-def test_estimated_equations_have_the_slopes_at_a_given_slip_rate(seed: int) -> None:
+def test_estimated_equations_have_the_derivatives_at_a_given_slip_rate(seed: int) -> None:
     random = np.random.default_rng(seed)
     values, along = drawn_values(random), drawn_motion(random, 1)
     x, v, u, slip = bent_one_way(random, along.motion[0, :2].ravel()), along.motion[0, 2], along.u[0], along.slip[0]
@@ -58,7 +58,7 @@ def test_estimated_equations_have_the_slopes_at_a_given_slip_rate(seed: int) -> 
 
 @LAW
 @given(SEEDS)
-def test_friction_s_slope_by_the_rate_is_the_viscous_one(seed: int) -> None:
+def test_friction_s_derivative_by_the_rate_is_the_viscous_one(seed: int) -> None:
     """Whatever dry friction there is, and whatever rate it sees; more viscous friction is more slope at its joint."""
     random = np.random.default_rng(seed)
     values, along, slots = drawn_values(random, with_effects=False), drawn_motion(random, 2), structure().slots
@@ -90,7 +90,7 @@ def test_what_an_effect_adds_to_the_joints_rates_dry_friction_sees_too(name: str
 
 
 @pytest.mark.parametrize("name", [None, *STATEFUL])
-def test_a_simulation_s_equations_keep_all_of_friction_s_slope(name: str | None) -> None:
+def test_a_simulation_s_equations_keep_all_of_friction_s_derivative(name: str | None) -> None:
     """They are those of the joints' own rate, and so are their derivatives."""
     random = np.random.default_rng(1)
     model = with_vector(structure().model, drawn_values(random)) if name is None else with_states(name, random)

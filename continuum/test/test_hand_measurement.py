@@ -98,7 +98,7 @@ def named(result: Diagnosis) -> set[str]:
     return {cause.label for causes in result.sets for cause in causes}
 
 
-def test_the_value_that_tells_two_sets_apart_is_one_about_which_they_differ() -> None:
+def test_the_value_that_separates_two_sets_is_one_in_which_they_differ() -> None:
     found, _ = examined()
     (test,) = hand_tests(found, [candidate("angle_offset@3"), candidate("rest_angle@3")])
     assert test.name == "rest_angle.angle[3]"

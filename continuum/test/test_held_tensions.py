@@ -39,7 +39,7 @@ def test_the_reference_integrator_sees_the_same_jumps() -> None:
     np.testing.assert_allclose(fast.theta, slow.theta, rtol=0, atol=5e-4)
 
 
-def test_rates_are_begun_anew_after_a_jump() -> None:
+def test_rates_are_begun_again_after_a_jump() -> None:
     """From rest, the first instants after a jump are a parabola; the rates before it would delay them."""
     step = Tensions(np.array([0.0, 0.05]), np.array([[0.0, 0.0], [30.0, 0.0]]), held=True)
     late = Simulator(MODEL).run(np.zeros(5), np.array([0.0, 0.05, 0.055]), step)
@@ -47,7 +47,7 @@ def test_rates_are_begun_anew_after_a_jump() -> None:
     np.testing.assert_allclose(late.theta[-1], now.theta[-1], rtol=0.02)
 
 
-def test_slopes_after_a_jump_are_those_of_the_trajectory() -> None:
+def test_derivatives_after_a_jump_are_those_of_the_trajectory() -> None:
     simulator, out = Simulator(MODEL, Tolerances(1e-7, 1e-8, 0.01)), np.array([0.0, 0.12])
     p = simulator.equations.values
     free = shared_directions(MODEL, ["stiffness"])

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from identification_laws import releases, small_simulator
 
 from continuum.dynamics.integration.tolerances import Tolerances
-from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
+from continuum.dynamics.trajectory import Reading
 from continuum.identification.free import Free, FreeSpace
 from continuum.identification.nrmse import measured_rates, nrmse, nrmse_by_joint, rate_nrmse
 from continuum.identification.swarm import SwarmSettings, particle_swarm, swarm_identification
@@ -43,7 +43,7 @@ def test_joints_that_never_move_do_not_count() -> None:
     assert nrmse_by_joint(still + 0.1, still).shape == (2,)
 
 
-def test_rates_that_were_not_measured_are_slopes_of_the_angles() -> None:
+def test_rates_that_were_not_measured_are_derivatives_of_the_angles() -> None:
     """Exact for cubics, ends and uneven sampling included."""
     t = np.sort(np.random.default_rng(1).uniform(0, 1, 40))
     cubic = np.stack([1 + 2 * t - t**2 + 3 * t**3, -t], axis=1)

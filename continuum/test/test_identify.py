@@ -13,8 +13,7 @@ from continuum.cli import main
 from continuum.cli.identify import chosen_runs
 from continuum.discovery.parameter_fit import fit_parameters
 from continuum.discovery.report.identification_page import remarks
-from continuum.dynamics.dry_friction import with_dry_friction
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import Model, with_dry_friction
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.errors import InvalidValueError
@@ -186,9 +185,10 @@ def test_the_command_writes_a_model_that_predicts_a_run_kept_for_validation(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     paths = written(released(nominal().with_values(TRUTH), (18.0, -14.0)), tmp_path)
-    model, page = tmp_path / "model.yaml", tmp_path / "page.html"
+    model, page = tmp_path / "new" / "model.yaml", tmp_path / "other" / "page.html"
     assert main(["identify", *paths, "--validate", "2", "--out", str(model), "--report", str(page)]) == 0
     printed = capsys.readouterr().out
+    assert printed.endswith(f"written: {model}\nwritten: {page}\n")
     kept = [line for line in printed.splitlines() if "validate" in line and "run_2" in line]
     assert len(kept) == 1
     assert float(kept[0].split()[-3]) < 0.2  # NRMSE of position
@@ -204,7 +204,8 @@ def test_what_cannot_be_identified_is_said_in_one_line_and_nothing_is_written(
     (twin,) = written([replace(run, name="twin")], tmp_path)
     for arguments in (
         [path, "--validate", "1"], [path, "--identify", "2"], [path, twin], [str(tmp_path / "none.csv")],
-        [path, "--model", "none.yaml"], [path, "--report", str(tmp_path / "none" / "page.html")],
+        [path, "--model", "none.yaml"], [path, "--report", str(tmp_path / "page.txt")],
+        [path, "--report", path + "/page.html"], [path, "--seed", "1"],
         [path, "--method", "swarm", "--seed", "-1"], [path, twin, "--method", "swarm"],
     ):  # fmt: skip
         assert main(["identify", *arguments, "--out", str(out)]) == 2

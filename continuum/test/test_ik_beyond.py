@@ -47,7 +47,7 @@ def test_bends_beyond_half_a_turn_are_found(n: int, kind: int, limit: float) -> 
 
 
 @each_kind
-def test_what_bends_beyond_the_limits_alone_reach_is_told_so(n: int, kind: int) -> None:
+def test_what_bends_beyond_the_limits_alone_reach_is_reported_so(n: int, kind: int) -> None:
     arm = arm_of(n, np.pi, twist=0.4)
     targets = targets_at(arm, bent(arm, 3.2, 5.3, 200), kind)
     assert set(InverseKinematics(arm).solve_many(targets).statuses) <= {IkStatus.SOLVED, IkStatus.LIMIT_REACHED}

@@ -48,11 +48,12 @@ def files(tmp_path_factory: pytest.TempPathFactory, recording: ImuRecording) -> 
 def test_a_release_is_imported_for_diagnose(
     files: list[Path], motion: Motion, recording: ImuRecording, tmp_path: Path, capsys: Captured
 ) -> None:
-    out = tmp_path / "run_1.csv"
+    out = tmp_path / "new" / "run_1.csv"
     assert code("import-dot", *files, *HOW, "--begin", RELEASE, "--end", RELEASE + 3, "--out", out) == 0
     captured = capsys.readouterr()
     assert captured.err == ""
-    assert f"written: {out}, 36" in captured.out
+    assert f"written: {out}\n" in captured.out
+    assert "\n36" in captured.out  # rows
     assert "120 readings a second" in captured.out
     run = read_recording_csv(out)
     assert run.times[0] == pytest.approx(RELEASE, abs=0.01)
@@ -115,7 +116,7 @@ def test_a_zero_in_a_known_posture(files: list[Path], recording: ImuRecording, t
     np.testing.assert_allclose(np.degrees(inclination(seen, known.axis, known.zero)), np.cumsum(posture), atol=0.1)
 
 
-def test_only_looking_tells_when_the_arm_rests(files: list[Path], capsys: Captured) -> None:
+def test_a_dry_run_reports_when_the_arm_rests(files: list[Path], capsys: Captured) -> None:
     assert code("import-dot", *files) == 0
     out = capsys.readouterr().out
     assert "at rest    0.00 to 6." in out
@@ -137,7 +138,7 @@ def test_what_diagnose_would_refuse_is_said(files: list[Path], tmp_path: Path, c
         (("--zero", "0:5"), "the axis of the sensors is not known: give --first-turn"),
         (("--first-turn", "1", "--zero", "5"), "--zero is '5'; allowed: two times"),
         (("--first-turn", "1", "--zero", "5:1"), "--zero is '5:1'"),
-        (("--first-turn", "1", "--zero", "8:12"), "the zero is set at rest only: sensor 1"),
+        (("--first-turn", "1", "--zero", "8:12"), "the zero can be set only at rest: sensor 1"),
         ((*HOW, "--posture", "1,x"), "--posture is '1,x'"),
         ((*HOW, "--posture", "1,2"), "posture"),
         ((*HOW, "--begin", "99"), "no instant between --begin and --end"),
@@ -147,9 +148,10 @@ def test_what_diagnose_would_refuse_is_said(files: list[Path], tmp_path: Path, c
 def test_what_cannot_be_done_is_refused(
     files: list[Path], tmp_path: Path, capsys: Captured, words: tuple[str, ...], output: str
 ) -> None:
-    assert code("import-dot", *files, *words, "--out", tmp_path / "run.csv") == 2
+    written = ("--out", tmp_path / "new" / "run.csv", "--save-calibration", tmp_path / "new" / "sensors.yaml")
+    assert code("import-dot", *files, *words, *written) == 2
     assert output in capsys.readouterr().err.splitlines()[-1]
-    assert not (tmp_path / "run.csv").exists()
+    assert not any(tmp_path.iterdir())
 
 
 def test_sensors_that_were_not_synchronised_are_refused(
@@ -163,7 +165,7 @@ def test_sensors_that_were_not_synchronised_are_refused(
 def test_files_that_do_not_fit_are_refused(files: list[Path], tmp_path: Path, capsys: Captured) -> None:
     assert "as in CSV exports of an Xsens DOT" in refused(capsys, "import-dot", __file__)
     assert "cannot be read" in refused(capsys, "import-dot", tmp_path / "no.csv")
-    assert "cannot be written" in refused(capsys, "import-dot", *files, "--out", tmp_path / "no" / "run.csv")
+    assert "cannot be written" in refused(capsys, "import-dot", *files, "--out", __file__ + "/run.csv")
     assert "is read, and would be overwritten" in refused(capsys, "import-dot", *files, "--out", files[2])
     sensors = tmp_path / "sensors.yaml"
     assert code("import-dot", *files[:3], *HOW, "--save-calibration", sensors) == 0

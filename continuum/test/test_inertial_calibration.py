@@ -11,14 +11,13 @@ from inertial_arm import DEG, RELEASE, REST, N, SensorModel, any_rotation, pull_
 
 from continuum.arrays import Array
 from continuum.errors import FileError, InvalidValueError, MeasurementError
+from continuum.inertial.at_rest import bias_at_rest
 from continuum.inertial.calibration import Calibration, load_calibration, save_calibration
 from continuum.inertial.calibration_steps import CalibrationSteps
-from continuum.inertial.gyro_bias import bias_at_rest
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.inclination import inclination, turned
-from continuum.inertial.rests import rests
 from continuum.inertial.rotation_axis import axes_of_motion
-from continuum.inertial.stillness import unrest
+from continuum.inertial.stillness import rests, unrest
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -57,7 +56,7 @@ def test_bias_is_what_was_put_in(rest: ImuRecording) -> None:
         ("slow turn", "sensor 3 turns slowly, by"),
         ("fast turn", "sensor 3 turns at 20.0 degrees/s"),
         ("shake", "sensor 3 shakes"),
-        ("missing", "sensor 3 was heard only 10 times"),
+        ("missing", "sensor 3 has only 10 good readings"),
     ],
 )
 def test_a_moving_sensor_is_named_and_no_other(rest: ImuRecording, what: str, output: str) -> None:
@@ -133,7 +132,7 @@ def test_a_zero_from_a_known_posture_is_the_straight_one(recording: ImuRecording
         known.with_zero(bent, np.degrees(posture))
 
 
-def test_steps_tell_what_is_missing_and_from_what_each_was_found(recording: ImuRecording, rest: ImuRecording) -> None:
+def test_steps_say_what_is_missing_and_what_each_was_found_from(recording: ImuRecording, rest: ImuRecording) -> None:
     nothing = CalibrationSteps()
     assert nothing.missing == ("bias", "axis", "zero")
     assert nothing.complete() is None
@@ -186,11 +185,11 @@ ONE = "{bias: [0.0, 0.0, 0.0], axis: [0.0, 1.0, 0.0], zero: [0.0, 0.0, -9.8], so
         ("axis: [0.0, 1.0, 0.0]", "axis: [0.0, 0.0, 1.0]", "away from gravity"),
         ("bias: [0.0, 0.0, 0.0]", "bias: [9.0, 0.0, 0.0]", "bias of sensor 1"),
         ("-9.8", "-98.0", "zero of sensor 1"),
-        (", source: by hand", "", "sensor 1 has to have bias, axis, zero, source"),
+        (", source: by hand", "", "sensor 1 must have bias, axis, zero, source"),
         ("source:", "sauce: x, source:", "and nothing else"),
-        ("sensors", "sensor", "no calibration of sensors"),
-        (f"[{ONE}]", "[]", "no calibration of sensors"),
-        (ONE, "7", "sensor 1 has to have"),
+        ("sensors", "sensor", "not a calibration of sensors"),
+        (f"[{ONE}]", "[]", "not a calibration of sensors"),
+        (ONE, "7", "sensor 1 must have"),
     ],
 )
 def test_a_damaged_file_is_refused_by_name(tmp_path: Path, was: str, becomes: str, output: str) -> None:

@@ -20,7 +20,7 @@ from inertial_arm import (
 
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError, MeasurementError
-from continuum.inertial.clock_check import check_common_clock
+from continuum.inertial.common_clock import check_common_clock
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.recorded_angles import recorded_angles

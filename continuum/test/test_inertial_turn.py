@@ -96,7 +96,7 @@ def test_another_uncertainty_than_above_a_calibrated_sensors_is_refused() -> Non
     for wrong in (0.0, 0.005 * DEG, np.nan, np.inf):
         with pytest.raises(InvalidValueError, match="uncertainty"):
             bias_in_motion(recording, axis, ZERO, wrong)
-    with pytest.raises(MeasurementError, match="sensor 1 was heard only 3 times"):
+    with pytest.raises(MeasurementError, match="sensor 1 has only 3 good readings"):
         bias_in_motion(recording.part(0.0, 0.02), axis, ZERO, UNKNOWN)
 
 

@@ -101,7 +101,7 @@ def test_lengths_of_joints_are_those_of_the_lines_through_the_discs(n: int, seed
 
 @LAW
 @given(st.integers(1, 6), st.integers(0, 10**6))
-def test_length_rates_of_joints_are_slopes(n: int, seed: int) -> None:
+def test_length_rates_of_joints_are_derivatives(n: int, seed: int) -> None:
     bends, rates = drawn(n, seed)
     step = 1e-5
     for i in range(n):

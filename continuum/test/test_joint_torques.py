@@ -8,16 +8,13 @@ from dynamics_laws import random_model
 
 from continuum.dynamics.balance import balance
 from continuum.dynamics.effect_lookup import effect_named, effect_names
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.joint_torques import JointTorques, no_torques
 from continuum.dynamics.live.live_arm import LiveArm
-from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.model import ActiveEffect, InputKind, Model
 from continuum.dynamics.model_file import load_model, model_from_mapping, save_model
 from continuum.dynamics.model_inputs import undriven
 from continuum.dynamics.parameters import PARAMETERS
-from continuum.dynamics.planar.eq12_coriolis_matrix import coriolis_matrix
-from continuum.dynamics.planar.eq12_gravity_torque import gravity_torque
-from continuum.dynamics.planar.eq12_inertia_matrix import inertia_matrix
+from continuum.dynamics.planar.rigid_body import coriolis_matrix, gravity_torque, inertia_matrix
 from continuum.dynamics.pulled_posture import pulled_posture
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.statics.resting_arm import RestingArm

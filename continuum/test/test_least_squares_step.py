@@ -37,7 +37,7 @@ def test_damped_it_solves_the_normal_equations(rows: int, columns: int, damping:
     np.testing.assert_allclose(normal @ step, jacobian.T @ error, rtol=0, atol=1e-10 * np.max(np.abs(normal)))
 
 
-def test_a_matrix_that_is_not_positive_definite_is_told() -> None:
+def test_a_matrix_that_is_not_positive_definite_is_reported() -> None:
     zeros = np.zeros((3, 6))
     assert not least_squares_step(zeros, np.ones(3), 0.0, np.empty((6, 6)), np.empty(6))
     assert least_squares_step(zeros, np.ones(3), 1e-9, np.empty((6, 6)), np.empty(6))

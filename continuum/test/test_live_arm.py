@@ -48,7 +48,7 @@ def test_intervals_add_up_to_one_simulation(integrator, tensions):
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_a_jump_begins_anew(integrator):
+def test_a_jump_begins_again(integrator):
     """What was before a posture is set, or a cable is cut, leaves no trace."""
     arm = LiveArm(MODEL, START, integrator)
     driven(arm, pulled(30))
@@ -62,7 +62,7 @@ def test_a_jump_begins_anew(integrator):
     np.testing.assert_array_equal(cut, driven(LiveArm(MODEL, at_cut, integrator), np.zeros((10, 2))))
 
 
-def test_cable_rates_are_slopes_of_their_lengths():
+def test_cable_rates_are_derivatives_of_their_lengths():
     arm = LiveArm(MODEL, START)
     np.testing.assert_allclose(arm.cable_lengths, chord_lengths(START, MODEL.parameters).sum(axis=0), rtol=1e-12)
     arm.place(np.concatenate([START, [0.3, -0.2, 1.0, 0.0, 2.0]]))

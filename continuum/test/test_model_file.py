@@ -187,7 +187,7 @@ def test_an_error_names_its_file(tmp_path: Path) -> None:
         load_model(path)
 
 
-def test_a_name_with_a_slip_is_told_what_was_meant() -> None:
+def test_a_name_with_a_slip_is_reported_what_was_meant() -> None:
     with pytest.raises(InvalidValueError, match=r"did you mean stiffness\?"):
         model_from_mapping(content() | {"parameters": {"stifness": {"value": 1.0, "unit": "N m/rad"}}})
 

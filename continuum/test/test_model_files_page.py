@@ -5,7 +5,7 @@ from pathlib import Path
 
 import yaml
 
-from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.model import InputKind
 from continuum.dynamics.model_file import model_from_mapping
 from continuum.dynamics.parameters import PARAMETERS, Parameter
 

@@ -15,7 +15,7 @@ def test_text_stays(name: str) -> None:
     assert printable(name) == name
 
 
-def test_what_is_no_text_is_told_in_text() -> None:
+def test_what_is_no_text_is_reported_in_text() -> None:
     printable(os.fsdecode(b"\xc1rea\xff")).encode()
     assert printable(os.fsdecode(b"\xc1rea")) == r"\xc1rea"
 

@@ -61,11 +61,13 @@ def no_efforts(topics: Topics) -> None:
 
 
 @pytest.mark.parametrize("change", [no_cables, no_efforts])
-def test_without_tensions_the_cables_are_slack_which_is_told(tmp_path: Path, change: Callable[[Topics], None]) -> None:
+def test_without_tensions_the_cables_are_slack_which_is_reported(
+    tmp_path: Path, change: Callable[[Topics], None]
+) -> None:
     topics = swing()
     change(topics)
     found = read_recording_bag(write(tmp_path / "swing", topics))
-    assert (found.is_driven, found.notes) == (False, ("no efforts on /cable_states: cables taken as slack",))
+    assert (found.is_driven, found.notes) == (False, ("no efforts on /cable_states: cables assumed slack",))
 
 
 def test_without_rates(tmp_path: Path) -> None:

@@ -41,9 +41,9 @@ def test_angles_alone_are_a_free_run(tmp_path: Path) -> None:
     assert (found.theta_rate, found.tensions, found.is_driven) == (None, None, False)
 
 
-def test_columns_that_are_not_understood_are_told_and_need_not_hold_numbers(tmp_path: Path) -> None:
+def test_columns_that_are_not_understood_are_reported_and_need_not_hold_numbers(tmp_path: Path) -> None:
     found = read_recording_csv(write(tmp_path, sway() | {"q3deg": sway()["q2_rad"], "comment": ["let go"] * ROWS}))
-    assert found.notes == ("columns that are not understood, and not used: q3deg, comment",)
+    assert found.notes == ("unknown columns, not used: q3deg, comment",)
 
 
 def test_units_may_differ_from_column_to_column(tmp_path: Path) -> None:
@@ -83,15 +83,15 @@ def test_rows_are_counted_as_in_the_file_blank_lines_included(tmp_path: Path) ->
     table = sway()
     table["q1_rad"][10] = "abc"
     lines = text_of(table).split("\n")
-    with pytest.raises(FileError, match="row 12, column q1_rad: 'abc' is no number"):
+    with pytest.raises(FileError, match="row 12, column q1_rad: 'abc' is not a number"):
         read_recording_csv(write(tmp_path, "\n".join(lines)))
-    with pytest.raises(FileError, match="row 15, column q1_rad: 'abc' is no number"):
+    with pytest.raises(FileError, match="row 15, column q1_rad: 'abc' is not a number"):
         read_recording_csv(write(tmp_path, "\n".join(["", *lines[:4], "", " ", *lines[4:]])))
 
 
 @pytest.mark.parametrize("cell", ["", "nan", "-INF"])
 @pytest.mark.parametrize("column", ["t_s", "u2_N"])
-def test_rows_that_are_not_whole_are_left_out_and_told(tmp_path: Path, cell: str, column: str) -> None:
+def test_rows_that_are_not_whole_are_left_out_and_reported(tmp_path: Path, cell: str, column: str) -> None:
     table = sway()
     for row in (4, 70):
         table[column][row] = cell
@@ -101,7 +101,7 @@ def test_rows_that_are_not_whole_are_left_out_and_told(tmp_path: Path, cell: str
 
 
 @pytest.mark.parametrize("later", [0.0, 1e-12])
-def test_a_repeated_time_is_left_out_and_told(tmp_path: Path, later: float) -> None:
+def test_a_repeated_time_is_left_out_and_reported(tmp_path: Path, later: float) -> None:
     table = sway()
     table["t_s"][9] = repr(float(table["t_s"][8]) + later)
     found = read_recording_csv(write(tmp_path, table))
@@ -109,7 +109,7 @@ def test_a_repeated_time_is_left_out_and_told(tmp_path: Path, later: float) -> N
     np.testing.assert_array_equal(found.times, np.delete(T, 9))
 
 
-def test_rates_at_the_end_of_their_range_are_left_out_and_told(tmp_path: Path) -> None:
+def test_rates_at_the_end_of_their_range_are_left_out_and_reported(tmp_path: Path) -> None:
     table = sway()
     table["dq1_rad_s"] = [repr(float(value)) for value in np.clip(RATES[:, 0], -1.75, 3.0)]
     clipped = np.flatnonzero(RATES[:, 0] < -1.75)
@@ -176,13 +176,13 @@ def changed(column: str, rows: slice, values: str | Callable[[float], float]) ->
         (changed("u2_N", slice(33, 63), "1e300"), r"row 35, u2: a tension of 1e\+300 N; .*: another unit"),
         (changed("q1_rad", slice(None), np.degrees), "row .*: a joint angle of 17.2 rad; .* degrees taken for"),
         (changed("q2_rad", slice(2, 30), ""), r"has 28 bad rows of 120; at most a tenth .* 10, 11, \.\. without"),
-        (changed("dq1_rad_s", slice(None), np.degrees), "joint 1: rates 57.* times as large .* mixed"),
-        (changed("dq2_rad_s", slice(None), np.radians), "joint 2: rates 0.017.* times as large .* mixed"),
+        (changed("dq1_rad_s", slice(None), np.degrees), "joint 1: its rate is 57.* times .* mixed"),
+        (changed("dq2_rad_s", slice(None), np.radians), "joint 2: its rate is 0.017.* times .* mixed"),
         (changed("dq2_rad_s", slice(None), np.negative), "joint 2: its rate is negative where its angle grows"),
         (changed("q1_rad", slice(40, 60), "5.2"), "row 42, q1: a joint angle of 5.2 rad; no joint turns by more"),
         (changed("dq2_rad_s", slice(None), lambda rate: 500 * rate), "row 2, dq2: a joint rate of 505 rad/s"),
         (renamed(sway(), q1_rad="q1_deg", q2_rad="q2_deg"), "no joint angle above 0.3 degrees: radians taken for"),
-        (cells(q1_rad=0.2 + 0.0 * T, q2_rad=0.1 + 1e-3 * np.sin(9 * T)), "joints move by at most 0.11 degrees"),
+        (cells(q1_rad=0.2 + 0.0 * T, q2_rad=0.1 + 1e-3 * np.sin(9 * T)), "joints that move by at most 0.11 degrees"),
         (without(sway(), "t_s"), "has no column t_s; row 1 has q1_rad, q2_rad"),
         (without(sway(), "q1_rad"), "has q of 2: numbers must run from 1 without a gap"),
         (without(sway(), "q1_rad", "q2_rad"), "has no joint angles q1_deg .. or q1_rad"),
@@ -194,7 +194,7 @@ def changed(column: str, rows: slice, values: str | Callable[[float], float]) ->
         (sway() | {"q1_deg": sway()["q1_rad"]}, "has q1 twice, in two units"),
         (
             without(sway(), "q1_rad") | {"q1rad": sway()["q1_rad"]},
-            "has q of 2: numbers must run from 1 without a gap; not understood: q1rad",
+            "has q of 2: numbers must run from 1 without a gap; unknown: q1rad",
         ),
         ({name: column[:20] for name, column in sway().items()}, "has 20 usable rows; at least 30 are needed"),
         (text_of(sway()).replace("dq1_rad_s", "q1_rad"), "has the column 'q1_rad' twice"),

@@ -21,14 +21,14 @@ def samples(least: float) -> Samples:
 
 
 @pytest.mark.parametrize("least", [-0.2, -0.19, -1e-9])
-def test_a_little_below_zero_is_no_pull_and_told(least: float) -> None:
+def test_a_little_below_zero_is_no_pull_and_reported(least: float) -> None:
     found, notes = repaired(samples(least))
-    assert notes == (f"rows 12, 13 with a tension below zero, by {-least:.2g} N at most, taken as none",)
+    assert notes == (f"rows 12, 13 with a tension below zero, by {-least:.2g} N at most, set to zero",)
     assert found.pull is not None
     np.testing.assert_array_equal(found.pull, samples(0.0).pull)
 
 
-def test_nothing_is_told_of_what_pulls_or_hangs_loose() -> None:
+def test_nothing_is_reported_of_what_pulls_or_hangs_loose() -> None:
     for least in (0.0, 2.0):
         assert repaired(samples(least))[1] == ()
 
@@ -41,6 +41,6 @@ def test_a_cable_that_pushes_is_refused() -> None:
 def test_cells_of_cables_that_hang_loose_all_the_time_pull_nowhere() -> None:
     noise = np.clip(0.05 * np.random.default_rng(0).normal(size=(T.size, 2)), -0.2, 0.2)
     found, (note,) = repaired(replace(samples(0.0), pull=noise))
-    assert "hang loose, all taken as none" in note
+    assert "hang loose, all set to zero" in note
     assert found.pull is not None
     assert not found.pull.any()

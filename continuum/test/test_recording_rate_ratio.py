@@ -39,7 +39,7 @@ def scaled_gyros(run: Recording, by: float) -> Recording:
 
 @pytest.mark.parametrize("fault", [slow_clock, scaled_gyros])
 @pytest.mark.parametrize("by", [0.8, 0.95, 1.05, 1.2])
-def test_a_clock_or_a_gain_that_is_off_is_told(fault: Callable[[Recording, float], Recording], by: float) -> None:
+def test_a_clock_or_a_gain_that_is_off_is_reported(fault: Callable[[Recording, float], Recording], by: float) -> None:
     spoiled = [fault(run, by) for run in runs()]
     ratio, deviation = rate_ratio(spoiled)
     assert ratio * by == pytest.approx(1.0, abs=0.015)
@@ -103,7 +103,7 @@ def test_slips_between_samples_make_it_less_sure() -> None:
 def test_one_recording_and_one_joint_that_are_off_are_named() -> None:
     sound = runs(count=8)
     (output,) = odd_rates([*sound[:7], slow_clock(sound[7], 0.9)])
-    assert output.startswith("r7: angles change 1.1")
+    assert output.startswith("r7: angles change by 1.1")
     one_large = [replace(run, theta_rate=run.theta_rate * [1.0, 1.5]) for run in sound if run.theta_rate is not None]
     assert rate_ratio(one_large, 0) == rate_ratio(sound, 0)
     assert rate_ratio(one_large, 1)[0] == pytest.approx(1 / 1.5, abs=0.02)
@@ -111,4 +111,4 @@ def test_one_recording_and_one_joint_that_are_off_are_named() -> None:
     outer = [replace(run, theta=run.theta * [1.0, 0.2], theta_rate=run.theta_rate * [1.0, 0.25])
              for run in sound if run.theta_rate is not None]  # fmt: skip
     (output,) = odd_rates(outer)  # one that moves little says little of all
-    assert output.startswith("joint 2: angles change 0.8")
+    assert output.startswith("joint 2: angles change by 0.8")

@@ -14,8 +14,8 @@ from swing_bag import swing
 from test_chain_motion import chain, start, torques
 from test_recording_csv import T, cells, sway, without, write
 
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.joint_torques import JointTorques
+from continuum.dynamics.model import InputKind
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError, InvalidValueError

@@ -158,7 +158,7 @@ def test_joints_and_cables_are_found_by_name(tmp_path: Path) -> None:
     np.testing.assert_allclose(recording.rates.values, tangle_rates(w, w_rate, ARM), atol=1e-15)
 
 
-def test_slopes_of_a_parabola_are_exact_also_beside_gaps() -> None:
+def test_derivatives_of_a_parabola_are_exact_even_next_to_gaps() -> None:
     t = np.array([0.0, 0.1, 0.2, 0.5, 0.6, 0.61])
     inner, sensitivities = central_differences((t * 1e9).astype(np.int64), np.stack([t**2, 3 * t], axis=1))
     np.testing.assert_array_equal(inner, [1, 2, 3, 4])
@@ -180,7 +180,7 @@ def test_the_table_keeps_columns_and_values(tmp_path: Path) -> None:
 
 
 def test_the_picture_shows_lengths_and_rates(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Lengths [mm] on the left; on the right rates [mm/s] as lines, and slopes of the lengths as dots."""
+    """Lengths [mm] on the left; on the right rates [mm/s] as lines, and derivatives of the lengths as dots."""
     figures: list[Figure] = []
     monkeypatch.setattr(
         "continuum.recordings.cable_figure.write_figure", lambda _path, figure, **_options: figures.append(figure)

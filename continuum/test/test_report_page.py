@@ -272,7 +272,7 @@ def warnings_of(result: Diagnosis, tmp_path: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("runs", [0, 1, 5])
-def test_what_tells_the_explanations_apart_comes_first_and_nothing_is_said_twice(tmp_path: Path, runs: int) -> None:
+def test_what_separates_the_explanations_comes_first_and_nothing_is_said_twice(tmp_path: Path, runs: int) -> None:
     """A run that is made once or twice, else what decides by hand."""
     result = diagnosis(Kind.AMBIGUOUS, [cause("tip_payload")], [cause("inertia", 2)])
     run = Experiment("pull", "Pull slowly.", 0.2, runs, ())

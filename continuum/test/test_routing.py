@@ -46,7 +46,7 @@ def test_tangle_and_untangle(drawn: tuple[Arm, np.ndarray]) -> None:
 
 
 @each_count
-def test_jacobian_is_the_slope_of_the_totals(n_sections: int) -> None:
+def test_jacobian_is_the_derivative_of_the_totals(n_sections: int) -> None:
     arm = mixed_arm(n_sections)
     w = random_postures(arm, 10, seed=n_sections)
     w[0] = 0.0
@@ -56,7 +56,7 @@ def test_jacobian_is_the_slope_of_the_totals(n_sections: int) -> None:
 
 
 @each_count
-def test_rates_are_slopes_of_the_totals(n_sections: int) -> None:
+def test_rates_are_derivatives_of_the_totals(n_sections: int) -> None:
     arm = mixed_arm(n_sections)
     w = random_postures(arm, 10, seed=n_sections)
     w[0] = 0.0
@@ -67,7 +67,7 @@ def test_rates_are_slopes_of_the_totals(n_sections: int) -> None:
 
 
 @each_count
-def test_untangled_rates_are_slopes_of_the_untangled(n_sections: int) -> None:
+def test_untangled_rates_are_derivatives_of_the_untangled(n_sections: int) -> None:
     arm = mixed_arm(n_sections)
     totals = tangle(random_postures(arm, 10, seed=n_sections, largest=1.0), arm)
     rates = 1e-3 * np.random.default_rng(2).normal(size=totals.shape)
@@ -76,7 +76,7 @@ def test_untangled_rates_are_slopes_of_the_untangled(n_sections: int) -> None:
 
 
 @each_count
-def test_names_by_section_own_cables_first(n_sections: int) -> None:
+def test_names_by_section_actuating_cables_first(n_sections: int) -> None:
     arm = mixed_arm(n_sections)
     assert cables_through(arm, 0).names == arm.cable_names
     for i, section in enumerate(arm.sections):

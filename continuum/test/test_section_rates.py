@@ -17,7 +17,7 @@ each_section = pytest.mark.parametrize("section", SECTIONS, ids=lambda section: 
 
 
 @each_section
-def test_tip_jacobian_is_the_slope_of_the_pose(section: Section) -> None:
+def test_tip_jacobian_is_the_derivative_of_the_pose(section: Section) -> None:
     w = postures(section)
     analytic, numeric = section_jacobian(w, section), geometric_jacobian(lambda q: section_pose(q, section), w)
     assert_same_derivatives(analytic[..., :3, :], numeric[..., :3, :])
@@ -36,7 +36,7 @@ def points_around() -> np.ndarray:
     return np.concatenate([0.2 * around, 5.0 * around])
 
 
-def test_configuration_from_point_jacobian_is_the_slope() -> None:
+def test_configuration_from_point_jacobian_is_the_derivative() -> None:
     points = points_around()
     distance = np.linalg.norm(points, axis=-1)
     radius = np.hypot(points[:, 0], points[:, 1])

@@ -221,9 +221,9 @@ BAD_OPTIONS = {
     "no sample": (["--duration", "0.001"], "--duration times --rate is 0.12"),
     "no model": (["--model", "nowhere.yaml"], "nowhere.yaml: "),
     "no tensions": (["--tensions", "nowhere.csv"], "nowhere.csv: cannot be read"),
-    "no folder": (["--duration", "0.05", "--csv", "/nowhere/a.csv"], "/nowhere/a.csv: cannot be written (No such"),
+    "no folder": (["--duration", "0.05", "--csv", "/dev/null/a.csv"], "/dev/null/a.csv: cannot be written (Not a"),
     "no such format": (["--duration", "0.05", "--picture", "a.xyz"], "a.xyz: cannot be drawn (format 'xyz'"),
-    "pulled by nothing": (["--pulled"], "--release is None; allowed: with --pulled, one total bend in degrees"),
+    "pulled by nothing": (["--pulled"], "--pulled needs --release, one total bend in degrees"),
     "pulled to angles": (["--pulled", "--release", "1,2,3,4,5"], "--release is '1,2,3,4,5'; allowed: with --pulled"),
 }
 

@@ -30,7 +30,7 @@ def test_a_table_says_the_same_however_it_was_written(
     np.testing.assert_array_equal(found.pull.values, wanted.pull.values)
 
 
-def test_joints_counted_from_0_are_the_same_and_it_is_told(tmp_path: Path) -> None:
+def test_joints_counted_from_0_are_the_same_and_it_is_reported(tmp_path: Path) -> None:
     wanted = read_recording_csv(write(tmp_path, sway()))
     names = {"q1_rad": "q0_rad", "q2_rad": "q1_rad", "dq1_rad_s": "dq0_rad_s", "dq2_rad_s": "dq1_rad_s"}
     found = read_recording_csv(write(tmp_path, {names.get(name, name): column for name, column in sway().items()}))
@@ -121,7 +121,7 @@ READERS = (read_recording_csv, read_tension_table, read_dot_export)
         ('{"KEY": [0, 1], "u1_N": [0, 1]}\n', "has no column KEY; row 1 has"),
         ("KEY,u1_N\n0;1\n", "row 2 has 1 cells, the header 2: '0;1'"),
         ("KEY,u1_N\n0,1\n# released\n", "row 3 has 1 cells, the header 2: '# released'"),
-        ("K\0E\0Y\0,\0", "is no text file"),
+        ("K\0E\0Y\0,\0", "is not a text file"),
         ("KEY,u1_N\n0,1\nKEY,u1_N\n0,1\n", "row 3 is a header again; are these two recordings"),
         ("sep=,\n\nKEY,u1_N\n0,1\nsep=,\n\nKEY,u1_N\n", "row 7 is a header again; are these two recordings"),
     ],
@@ -140,7 +140,7 @@ def test_what_is_no_table_is_refused_alike_by_all_readers(
 def test_cells_that_python_or_another_country_reads_otherwise_are_refused(tmp_path: Path, cell: str) -> None:
     table = sway()
     table["q2_rad"][5] = f'"{cell}"'
-    with pytest.raises(FileError, match=f"row 7, column q2_rad: '{cell}' is no number"):
+    with pytest.raises(FileError, match=f"row 7, column q2_rad: '{cell}' is not a number"):
         read_recording_csv(write(tmp_path, table))
     path = tmp_path / "tensions.csv"
     path.write_text(f't_s,u1_N,u2_N\n0,"{cell}",0\n')

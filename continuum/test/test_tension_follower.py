@@ -71,7 +71,7 @@ def test_a_command_after_the_end_pulls_again():
     assert advanced(follower, 100 * TICK, 30)[-1] == pytest.approx([10.0, 0.0])
 
 
-def test_slack_that_nobody_commands_is_nothing_to_tell():
+def test_slack_that_nobody_commands_is_not_reported():
     follower = TensionFollower(LIMITS, 2)
     follower.command(np.zeros(2), 0.0)
     advanced(follower, 0.0, 200)

@@ -44,6 +44,6 @@ def test_a_slack_cable_is_held_by_no_motor() -> None:
         ([0.0, 1.0], [[0.0, 0.0], [0.0]]),
     ],
 )
-def test_bad_tensions_are_told(times: object, values: object) -> None:
+def test_bad_tensions_are_reported(times: object, values: object) -> None:
     with pytest.raises(InvalidValueError, match="allowed"):
         Tensions(times, values)  # type: ignore[arg-type]

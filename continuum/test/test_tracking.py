@@ -79,13 +79,13 @@ def test_following_the_direction_keeps_position_and_direction() -> None:
     assert np.max(np.abs(differences - rates[1:-1])) <= 0.01 * np.max(np.abs(rates))
 
 
-def test_without_a_velocity_no_rate_is_told() -> None:
+def test_without_a_velocity_no_rate_is_reported() -> None:
     tracker = Tracker(ARM)
     assert tracker.pose(circle(0.0)[0]).rate is None
     assert tracker.pose(circle(DT)[0], dt=DT).rate is None
 
 
-def test_out_of_reach_the_nearest_pose_is_told_and_back_in_reach_it_is_solved_again() -> None:
+def test_out_of_reach_the_nearest_pose_is_reported_and_back_in_reach_it_is_solved_again() -> None:
     tracker = Tracker(ARM)
     follow(tracker, 20)
     out = follow(tracker, 20, start=20, radius=0.9)
@@ -189,7 +189,7 @@ def test_a_twist_is_integrated() -> None:
     assert drifts[1] <= 0.35 * drifts[0]
 
 
-def test_a_twist_tells_the_rate_at_its_end() -> None:
+def test_a_twist_gives_the_rate_at_its_end() -> None:
     tracker = Tracker(ARM)
     tracker.pose(circle(0.0)[0])
     before = tracker.configuration
@@ -199,7 +199,7 @@ def test_a_twist_tells_the_rate_at_its_end() -> None:
     )
 
 
-def test_a_twist_that_the_arm_cannot_follow_is_told() -> None:
+def test_a_twist_that_the_arm_cannot_follow_is_reported() -> None:
     """Stretched out it goes no farther; at its bend limit neither; and the distance is what the tip falls behind."""
     tracker = Tracker(ARM)
     up = tracker.twist(np.array([0.0, 0.0, 0.1]), None, 0.01)

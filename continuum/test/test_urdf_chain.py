@@ -85,7 +85,9 @@ def test_the_command_writes_the_model(tmp_path: Path, capsys: pytest.CaptureFixt
     assert main(["model", "from-urdf", str(tmp_path / "arm.urdf"), "--out", str(out)]) == 0
     for name, value in load_model(out).parameters.named().items():
         np.testing.assert_array_equal(value, getattr(chain.model.parameters, name), err_msg=name)
-    for line in capsys.readouterr().out.splitlines()[:-1]:
+    *lines, driven, written = capsys.readouterr().out.splitlines()
+    assert (driven, written) == ("3 joints, driven by joint torques", f"written: {out}")
+    for line in lines:
         assert f"# {line}\n" in out.read_text()
 
 
@@ -114,7 +116,7 @@ def test_what_is_no_planar_chain_is_refused(change: tuple[str, str], what: str, 
         read(text.replace(change[0], change[1], 1), tmp_path)
 
 
-def test_a_centre_of_mass_beside_the_line_is_refused(tmp_path: Path) -> None:
+def test_a_centre_of_mass_next_to_the_line_is_refused(tmp_path: Path) -> None:
     text = planar_arm(1, 1)
     read(text, tmp_path)
     at = text.index('<origin xyz="', text.index('<link name="link_1"')) + len('<origin xyz="')
@@ -154,7 +156,7 @@ def test_a_commented_file_gives_its_model_back(name: str, tmp_path: Path) -> Non
         (["--joints", "1", "--mass", "1"], "required|give it"),
     ],
 )
-def test_a_bad_or_missing_value_is_told_in_one_line_and_nothing_is_written(
+def test_a_bad_or_missing_value_is_reported_in_one_line_and_nothing_is_written(
     words_of_option: list[str], what: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch
 ) -> None:
     monkeypatch.setattr("sys.stdin.isatty", lambda: False, raising=False)

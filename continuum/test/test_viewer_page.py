@@ -68,7 +68,7 @@ def test_state_of_others_is_shown_and_nothing_asked_of_them(opened):
     assert remote.tensions.wanted() == {}
 
 
-def test_an_arm_that_nobody_told_of_is_pale_and_said_so(opened):
+def test_an_arm_that_nobody_reported_of_is_pale_and_said_so(opened):
     """What is drawn then is no state of it, so nothing is plotted either."""
     remote = RemoteArm(ARM, 30.0)
     page = opened(remote)
@@ -218,7 +218,7 @@ def test_all_of_the_arm_moves_with_its_joints(opened):
     assert len(page._tip_trail._points) > 0
 
 
-def test_a_target_out_of_reach_is_told(opened):
+def test_a_target_out_of_reach_is_reported(opened):
     source = ManualSource(ARM)
     page = opened(source)
     source._controls._gizmo.position = np.array([0.0, 0.0, 2.0 * ARM.length])
@@ -236,7 +236,7 @@ def test_words_of_others_are_text():
     assert "a &lt; b" in table
 
 
-def test_trail_begins_anew_after_a_leap(opened):
+def test_trail_begins_again_after_a_leap(opened):
     trail = opened(ManualSource(ARM))._tip_trail
     for x in np.arange(0.0, 0.1, 0.001):
         trail.follow(np.array([x, 0.0, 0.0]))

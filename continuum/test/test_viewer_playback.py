@@ -116,7 +116,7 @@ def test_the_slider_says_the_time(shown):
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
-def test_a_target_that_is_no_place_is_told(tmp_path, value):
+def test_a_target_that_is_no_place_is_reported(tmp_path, value):
     topics = runs.run()
     topics["/traj_pose"][3].pose.position.y = value
     with pytest.raises(FileError, match="traj_pose"):

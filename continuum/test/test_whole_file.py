@@ -116,3 +116,12 @@ def test_a_file_mounted_by_itself_is_overwritten(
         write_whole(file, "new")
     assert file.read_text(encoding="utf-8") == ("new" if taken else "old")
     assert [*tmp_path.iterdir()] == [file]
+
+
+@pytest.mark.parametrize("kind", ["png", "svg", "pdf"])
+def test_names_that_the_font_cannot_draw_are_no_warning(tmp_path: Path, kind: str) -> None:
+    """Warnings are errors in these tests."""
+    figure = Figure(layout="constrained")
+    figure.subplots().set_title("測定_1, ação")
+    write_figure(tmp_path / f"a.{kind}", figure, dpi=50)
+    assert (tmp_path / f"a.{kind}").stat().st_size > 0

@@ -9,7 +9,7 @@ from continuum_laws.samples import PROTOTYPE, mixed_arm, random_postures
 
 from continuum.kinematics import cables, chain, configuration, routing, section
 from continuum.kinematics.cable_twist import arm_configuration_cable_jacobian, tip_cable_jacobian
-from continuum.kinematics.cables.hole_points import hole_points
+from continuum.kinematics.cables import hole_points
 from continuum.kinematics.discs import even_bends
 from continuum.kinematics.joint_chain import length_rates_of_joints, lengths_of_joints
 

@@ -6,8 +6,7 @@ from vqf import VQF
 
 from continuum.arrays import Array
 from continuum.inertial.imu_recording import ImuRecording
-from continuum.inertial.inclination import inclination
-from continuum.inertial.joint_angles import of_neighbours, within_half_a_turn
+from continuum.inertial.inclination import inclination, of_neighbours, within_half_a_turn
 
 
 def vqf_angles(recording: ImuRecording) -> Array:

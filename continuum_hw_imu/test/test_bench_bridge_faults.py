@@ -133,7 +133,7 @@ def test_unplugging_ends_tension_and_streaming_resumes(pulling):
     assert_no_wrong_angle(pulling, pulling.joints)
 
 
-def test_a_bench_that_begins_anew_is_greeted_anew(pulling):
+def test_a_bench_that_begins_again_is_greeted_again(pulling):
     bench, probe = pulling.bench, pulling.probe
     bench.tell("reboot")
     pulling.node.wait_for_line("fell back to inactive, cables slack")
@@ -152,7 +152,7 @@ LINE_FAULTS = {
 
 
 @pytest.mark.parametrize("order", LINE_FAULTS)
-def test_a_bad_line_is_told_and_survived(pulling, order):
+def test_a_bad_line_is_reported_and_survived(pulling, order):
     pulling.joints.clear()
     pulling.bench.tell(order)
     go_on(pulling, 1.5)
@@ -249,7 +249,7 @@ def test_orders_are_given_by_a_command(bench, capfd):
     assert capfd.readouterr().err.endswith("/nowhere: No such file or directory; does the emulator run?\n")
 
 
-def test_an_empty_battery_is_told(pulling):
+def test_an_empty_battery_is_reported(pulling):
     pulling.bench.tell("battery sensor=2 percent=3")
     pulling.wait_for_level("imu 2", "ERROR", "battery at 3 %")
     pulling.bench.tell("battery sensor=2 percent=90")

@@ -126,7 +126,7 @@ def test_bias_and_zero_are_refused_while_the_arm_moves(bridge):
     for name in ("calibrate_bias", "zero"):
         answer = bridge.call(name)
         assert not answer.success
-        assert "at rest only: sensor " in answer.message
+        assert "only at rest: sensor " in answer.message
     bridge.probe.wait_until(lambda: bridge.bench.truth()["theta"][-1].sum() > 0.7, "the end of the hand's way")
     bridge.wait_for_success("calibrate_bias")  # when it is over
 

@@ -83,7 +83,7 @@ def test_without_a_bench_it_waits_says_why_once_and_ends_cleanly(domain, number,
 
 
 @pytest.mark.parametrize("words", re.findall(r"^\| (?:WARN|ERROR|WARN, ERROR) (.+?) \|", PAGE, re.MULTILINE))
-def test_what_the_page_explains_is_told_somewhere(words):
+def test_what_the_page_explains_is_reported_somewhere(words):
     """Its words, less numbers and names, stand in the sources of the package or of the library's estimator."""
     library = "".join(
         path.read_text(encoding="utf-8")

@@ -34,7 +34,7 @@ def test_each_conversation_commands_by_a_word_of_its_own(bench):
     assert len(set(words)) == 3
 
 
-def test_it_asks_who_is_there_until_it_is_told(bench):
+def test_it_asks_who_is_there_until_it_is_reported(bench):
     bench.client._begin()
     bench.link.deaf = True
     assert not bench.client.wait_for(lambda: bench.client.hello is not None, 0.0)
@@ -69,7 +69,7 @@ def test_no_answer_is_none(bench):
     assert bench.client.results.unanswered >= 1
 
 
-def test_old_commands_are_told_as_old(bench):
+def test_old_commands_are_reported_as_old(bench):
     bench.client.claim(SOON)
     bench.pass_time(0.2)
     bench.client.beat()
@@ -107,7 +107,7 @@ def test_damage_costs_the_frames_that_it_touches(bench):
     assert bench.client.arrivals.lost == 1
 
 
-def test_a_device_that_begins_anew_is_another_conversation(bench):
+def test_a_device_that_begins_again_is_another_conversation(bench):
     bench.client.claim(SOON)
     number = bench.client.conversations
     bench.say(

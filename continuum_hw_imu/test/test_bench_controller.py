@@ -110,7 +110,7 @@ def test_a_stop_is_obeyed_that_a_greeting_has_overtaken(talk):
 
 
 @pytest.mark.parametrize("again", [0, 3, 40_000])
-def test_a_host_that_begins_anew_may_count_anew(talk, again):
+def test_a_host_that_begins_again_may_count_again(talk, again):
     talk.say(m.Claim(TOKEN), m.Release(TOKEN))
     talk.host = FrameWriter()
     talk.host.sequence = again
@@ -138,7 +138,7 @@ def test_status_comes_ten_times_a_second_and_when_something_changes(talk):
     assert min(gaps) < STATUS_PERIOD
 
 
-def test_status_tells_what_was_heard(talk):
+def test_status_reports_what_was_received(talk):
     talk.say(m.Claim(TOKEN))
     talk.device.hear(b"\0rubbish\0", talk.now)
     talk.device.batteries = [50, None]
@@ -149,7 +149,7 @@ def test_status_tells_what_was_heard(talk):
 @pytest.mark.parametrize(
     ("keep", "code"), [(m.Heartbeat(TOKEN), m.FaultCode.COMMANDS_STOPPED), (None, m.FaultCode.HEARTBEATS_STOPPED)]
 )
-def test_silence_is_told_once_and_stands_until_it_ends(talk, keep, code):
+def test_silence_is_reported_once_and_stands_until_it_ends(talk, keep, code):
     talk.say(m.Claim(TOKEN), talk.pull())
     received = []
     for _ in range(150):

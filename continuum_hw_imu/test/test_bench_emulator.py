@@ -58,7 +58,7 @@ def test_a_cable_pulls_the_arm_to_its_side(lab):
     assert frame.measured == pytest.approx((20.0, 0.0), abs=0.3)
 
 
-def test_the_clock_drifts_as_told_and_wraps(tmp_path):
+def test_the_clock_drifts_as_reported_and_wraps(tmp_path):
     lab = Lab(tmp_path, clock_start=WRAP - 500_000)
     lab.open()
     lab.order("drift ppm=500")
@@ -71,7 +71,7 @@ def test_the_clock_drifts_as_told_and_wraps(tmp_path):
     lab.emulator.close()
 
 
-def test_it_tells_when_sound_frames_left(tmp_path):
+def test_it_reports_when_sound_frames_left(tmp_path):
     lab = Lab(tmp_path, sent=tmp_path / "sent.csv")
     try:
         lab.open()

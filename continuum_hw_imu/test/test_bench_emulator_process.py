@@ -112,7 +112,7 @@ def test_a_bad_start_is_one_line(arguments, problem, refusal):
     assert "Traceback" not in line
 
 
-def test_a_bad_script_is_told_by_its_line(tmp_path, refusal):
+def test_a_bad_script_is_reported_by_its_line(tmp_path, refusal):
     script = tmp_path / "faults"
     script.write_text("at 1 unplug\nat 2 drop sensor=9\n")
     assert "sensor" in refusal("--faults", script)

@@ -80,7 +80,7 @@ def test_pieces_of_any_size_give_the_same_frames(data, frames):
 
 
 @given(st.data(), st.lists(st.binary(max_size=700), min_size=2, max_size=5), st.lists(FRAMES, min_size=5, max_size=5))
-def test_garbage_costs_no_frame_beside_it(data, noise, frames):
+def test_garbage_costs_no_frame_next_to_it(data, noise, frames):
     decoder = both()
     line = b"".join(rubbish + frame.encode() for rubbish, frame in zip(noise, frames, strict=False))
     found = [frame for piece in data.draw(cut_up(line)) for frame in decoder.feed(piece)]
@@ -135,7 +135,7 @@ def test_each_kind_of_garbage_is_called_by_its_name(line, kind):
     assert decoder.errors == {kind: 1}
 
 
-def test_another_version_is_told():
+def test_another_version_is_reported():
     decoder = both()
     decoder.feed(on_the_line(HEADER.pack(9, 0x86, 0, 0)))
     assert decoder.other_version == 9

@@ -61,7 +61,7 @@ def test_the_table_of_messages_is_that_of_the_code():
 
 
 @pytest.mark.parametrize("kind", [m.GuardState, m.Cause, m.Result, m.FaultCode])
-def test_numbers_and_names_are_told(kind):
+def test_numbers_and_names_are_reported(kind):
     assert [member for member in kind if f"{member.value} {member.name}" not in WORDS] == []
 
 
@@ -72,7 +72,7 @@ def test_the_byte_budget_is_right(way, rates):
     assert f"| to the {way} | {bytes_a_second} | {shares[0]} | {shares[1]} |" in PAGE
 
 
-def test_what_is_said_beside_the_budget():
+def test_what_is_said_next_to_the_budget():
     assert f"({100 * BITS_A_BYTE * load(UP, 10) / 115200:.1f} %)" in PAGE
     times = [size(examples()["IMU"]) * BITS_A_BYTE / baud * 1e3 for baud in (115200, 921600)]
     assert f"takes {times[0]:.1f} ms on the line at 115200 baud and {times[1]:.1f} ms at 921600" in WORDS

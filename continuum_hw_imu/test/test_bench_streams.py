@@ -82,7 +82,7 @@ def test_nothing_is_known_before_a_rest_and_then_everything_is():
     assert [len(imu) for imu in published.imus] == [65] * N
 
 
-def test_sensors_are_told_apart_by_their_links():
+def test_sensors_are_reported_apart_by_their_links():
     """Frames have them in the bench's order, here 3, 1, 5, 2, 4; the arm turns at joint 4 alone."""
     published = Published()
     published.measure(60)
@@ -108,7 +108,7 @@ def test_a_bench_that_pulls_on_for_long_or_lets_cables_go_for_ever_is_none(limit
     assert "60 s" in Published(hello=stubborn).streams.problem
 
 
-def test_a_bench_that_tells_of_other_places_is_greeted_anew_whatever_its_boot():
+def test_a_bench_that_reports_other_places_is_greeted_again_whatever_its_boot():
     """As firmware that names the sensors that it hears just now, or always the same number."""
     published = Published()
     published.measure(60)
@@ -177,7 +177,7 @@ def test_without_calibration_there_are_raw_data_and_no_joint_states():
     assert published.streams.watch.steps.missing == ("axis", "zero")
 
 
-def test_measured_tensions_are_told_with_lengths_that_are_known():
+def test_measured_tensions_are_reported_with_lengths_that_are_known():
     published = Published()
     published.bench.say(TensionFrame((1.0, 0.0), (1.02, -0.03)))
     assert published.cables[-1].effort.tolist() == [1.02, 0.0]  # a cable never pushes
@@ -200,7 +200,7 @@ def test_another_bench_is_not_taken_for_the_arm():
     assert "has 4 cables" in cables.streams.problem
 
 
-def test_a_bench_that_begins_anew_has_to_rest_anew():
+def test_a_bench_that_begins_again_has_to_rest_again():
     published = Published()
     published.measure(60)
     assert published.joints
@@ -212,7 +212,7 @@ def test_a_bench_that_begins_anew_has_to_rest_anew():
     assert published.joints
 
 
-def test_a_bench_that_begins_anew_unheard_is_asked_who_it_is_and_no_old_angle_is_told():
+def test_a_bench_that_begins_again_unheard_is_asked_who_it_is_and_no_old_angle_is_reported():
     """Its greeting was lost: the clock that went back tells. Raw data wait for the greeting, too."""
     published = Published()
     published.measure(60)

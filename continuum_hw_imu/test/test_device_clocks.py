@@ -86,7 +86,7 @@ def test_a_change_of_drift_is_followed():
     assert clock.host_time(device) == pytest.approx(real, abs=2e-4)
 
 
-def test_a_clock_that_was_set_begins_anew():
+def test_a_clock_that_was_set_begins_again():
     clock = ClockMap()
     for k in range(600):
         clock.received(k * 16667, k / 60)

@@ -74,7 +74,7 @@ def test_no_motion_that_is_known_from_its_middle_on_turns_the_sign(arm, held):
         arm.go(0.0, 0.5)
 
 
-def test_a_zero_from_a_file_does_not_tell_when_the_arm_was_straight(arm):
+def test_a_zero_from_a_file_does_not_say_when_the_arm_was_straight(arm):
     later = Arm(SensorWatch(HELLO, arm.watch.steps), bend=BEND)
     later.go(0.0, 1.0)
     with pytest.raises(MeasurementError, match="~/zero"):

@@ -33,7 +33,7 @@ def test_a_late_one_that_comes_again_is_a_repeat():
 
 
 @pytest.mark.parametrize("leap", [30000, 40000, 65000])
-def test_a_sender_that_begins_anew_loses_nothing(leap):
+def test_a_sender_that_begins_again_loses_nothing(leap):
     tracker = SequenceTracker()
     tracker.take(100)
     assert tracker.take((100 + leap) % 0x10000) is Arrival.NEW

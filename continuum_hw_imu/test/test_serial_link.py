@@ -89,7 +89,7 @@ def test_a_port_that_takes_nothing_does_not_hold_up_its_sender(port, tmp_path):
         assert line.link.is_open
 
 
-def test_what_is_no_port_is_told(tmp_path):
+def test_what_is_no_port_is_reported(tmp_path):
     (tmp_path / "file").write_text("no port")
     with line_at(tmp_path / "file") as line:
         wait_until(lambda: "failed" in line.link.problem, lambda: line.link.problem)

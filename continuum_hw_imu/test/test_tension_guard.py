@@ -77,7 +77,7 @@ def test_nobody_claims_before_all_is_slack(pulling):
     assert not pulling.guard.set_points.any()
 
 
-def test_a_commander_that_begins_anew_begins_slack(pulling):
+def test_a_commander_that_begins_again_begins_slack(pulling):
     assert pulling.guard.claim(A, pulling.now) is Result.NOT_SLACK
     assert pulling.guard.cause is Cause.CLAIMED_AGAIN
     pulling.run(LIMITS.slack_time + 0.05)
@@ -95,7 +95,7 @@ def test_a_claim_that_comes_twice_makes_nothing_older():
     assert bench.pull((5.0, 5.0)) is Result.DONE
 
 
-def test_a_claim_after_commands_begins_anew(pulling):
+def test_a_claim_after_commands_begins_again(pulling):
     pulling.run(0.2, pull=(0.0, 0.0))
     assert pulling.guard.claim(A, pulling.now) is Result.DONE
     assert pulling.pull((5.0, 5.0), age=10_000) is Result.STALE  # from before the claim
@@ -111,12 +111,12 @@ def test_a_claim_after_commands_begins_anew(pulling):
         (1 << 31, Result.STALE),
     ],
 )
-def test_age_is_told_by_the_device_s_clock(pulling, age, result):
+def test_age_is_reported_by_the_device_s_clock(pulling, age, result):
     pulling.run(1.0, pull=(20.0, 5.0))
     assert pulling.pull((1.0, 1.0), age=age) is result
 
 
-def test_age_is_told_across_the_clock_s_wrap():
+def test_age_is_reported_across_the_clock_s_wrap():
     bench = Bench((1 << 32) - 50_000)
     bench.guard.claim(A, bench.now)
     bench.run(0.2, beat=True)

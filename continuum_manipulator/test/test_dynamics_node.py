@@ -239,7 +239,7 @@ def test_reset_sets_a_posture_at_rest(at_rest):
         assert "allowed: 5 angles, each from -pi to pi rad" in answer.message
 
 
-def test_being_held_up_is_told_and_leaves_no_gap(at_rest):
+def test_being_held_up_is_reported_and_leaves_no_gap(at_rest):
     before = at_rest.node.stderr
     at_rest.node.send(signal.SIGSTOP)
     at_rest.probe.listen_until_quiet(0.6)

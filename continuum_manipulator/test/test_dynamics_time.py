@@ -124,7 +124,7 @@ def test_a_model_file_of_another_arm_is_simulated(domain, probe, tmp_path):
         assert node.stop() == 0
 
 
-def test_a_failed_integration_is_told_and_ends_with_a_reset(domain, probe, tmp_path):
+def test_a_failed_integration_is_reported_and_ends_with_a_reset(domain, probe, tmp_path):
     wild = {"hole_radius": 10.0, "half_spacing": 10.0, "capstan_friction": 2.0, "cable_slope": 1e6}
     save_model(MODEL.with_values(wild), tmp_path / "wild.yaml")
     joints = probe.hear(JointState, "joint_states")

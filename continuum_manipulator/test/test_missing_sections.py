@@ -14,7 +14,7 @@ from continuum_msgs.msg import CableStates
 pytestmark = pytest.mark.ros
 
 
-def test_sections_for_which_nobody_speaks_are_told(domain, tmp_path):
+def test_sections_for_which_nobody_speaks_are_reported(domain, tmp_path):
     """One who speaks for three sections is enough for an arm of three, not for one of four."""
     longer = tmp_path / "arm.yaml"
     sections = (*ARM.sections, replace(ARM.sections[-1], name="section_4"))

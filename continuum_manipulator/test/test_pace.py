@@ -68,7 +68,7 @@ def test_a_clock_that_goes_back_is_seen():
     assert list(pace.due(BEGIN - 10**9 + 5_000_000)) == [1]
 
 
-def test_the_meter_looks_at_the_last_seconds():
+def test_the_meter_counts_the_last_seconds():
     meter = LoadMeter()
     assert (meter.real_time_factor, meter.load) == (0.0, 0.0)
     for i in range(100):  # at first twice as slow

@@ -86,7 +86,7 @@ def test_only_the_topics_asked_for_and_publishers_that_offer_less(domain, probe,
     assert list(contents(tmp_path / "bag")) == ["/wanted"]
 
 
-def test_a_topic_that_never_comes_is_told_at_the_start_and_at_the_end(domain, tmp_path):
+def test_a_topic_that_never_comes_is_reported_at_the_start_and_at_the_end(domain, tmp_path):
     node = recorder(domain, tmp_path / "bag", topics="[nope]")
     with ended_in_any_case(node):
         node.wait_for_line("waiting for /nope")
@@ -116,7 +116,7 @@ def test_a_killed_recorder_leaves_what_was_flushed(domain, probe, tmp_path):
     assert contents(tmp_path / "recovered") == {"/cable_states": N + 1}
 
 
-def test_a_full_disk_is_told_in_one_line_that_names_the_remedy(domain, probe, tmp_path):
+def test_a_full_disk_is_reported_in_one_line_that_names_the_remedy(domain, probe, tmp_path):
     node = recorder(domain, tmp_path / "bag", topics="[cable_states]", flush_period=0.05)
     with ended_in_any_case(node):
         node.wait_for_line("waiting for")

@@ -124,7 +124,7 @@ def test_cables_are_those_of_the_single_joints(bench):
     assert np.abs(answer.position - section_lengths(allen_from_jones(phi, thetas.sum()), ARM, NUMBER - 1)).max() > 1e-5
 
 
-def test_bad_joint_states_are_dropped_counted_told_in_two_lines_and_survived(bench):
+def test_bad_joint_states_are_dropped_counted_reported_in_two_lines_and_survived(bench):
     probe, before = bench.probe, bench.node.stderr
     probe.wait_for_report("middle")
     dropped, ignored = probe.count("middle", "dropped: not finite"), probe.count("middle", "ignored joint_states")

@@ -118,12 +118,12 @@ def test_repeated_message_is_counted_and_the_first_used():
     assert joiner.repeated == 1
 
 
-def test_sources_that_go_back_in_time_start_anew():
+def test_sources_that_go_back_in_time_start_again():
     joiner = StampJoiner("ab", restart_gap=10)
     assert feed_pairs(joiner, [100, 101, 50, 51]) == [100, 101, 50, 51]
 
 
-def test_every_loss_is_told_with_its_stamp_and_sources():
+def test_every_loss_is_reported_with_its_stamp_and_sources():
     output = []
     joiner = StampJoiner(KEYS, on_loss=lambda *loss: output.append(loss))
     for key, stamp in [("a", 1), ("a", 1), ("a", 2), ("b", 2), ("c", 2), ("b", 2)]:

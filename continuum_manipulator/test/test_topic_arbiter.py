@@ -38,7 +38,7 @@ def test_a_process_that_stood_still_hears_what_waits_before_it_speaks() -> None:
         assert not arbiter.may_speak(after + FRAME)
 
 
-def test_a_topic_is_another_s_only_once_another_was_heard() -> None:
+def test_a_topic_is_another_s_only_once_another_was_received() -> None:
     arbiter = TopicArbiter()
     assert not arbiter.may_speak(0.0)
     assert not arbiter.is_taken(0.0)

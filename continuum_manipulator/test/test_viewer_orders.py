@@ -109,7 +109,7 @@ def test_cables_are_pulled_by_a_slider_and_slack_once_control_is_given_back(benc
     assert set(map(len, (bench.targets, bench.joints))) == {0}
 
 
-def test_cables_are_slack_once_the_browser_that_pulls_has_left_also_beside_another(bench):
+def test_cables_are_slack_once_the_browser_that_pulls_has_left_also_next_to_another(bench):
     with bench.visitor() as other, contextlib.ExitStack() as left:
         puller = left.enter_context(bench.visitor())
         bench.pull(puller, 12.0)

@@ -14,10 +14,10 @@ import pytest
 
 from blind.plant import EFFECTS, LIBRARY, OUTSIDE
 from blind.plant.effect import DRIVEN, RELEASE
-from tools.bench_discovery.answer import Answer, answer, label
-from tools.bench_discovery.cases import run_case
-from tools.bench_discovery.plans import PLANTS, Plan
-from tools.bench_discovery.result import Result
+from tools.benchmarks.discovery.answer import Answer, answer, label
+from tools.benchmarks.discovery.cases import run_case
+from tools.benchmarks.discovery.plans import PLANTS, Plan
+from tools.benchmarks.discovery.result import Result
 
 FIRST_SEED = 8000
 pytestmark = pytest.mark.hidden_effects

@@ -69,7 +69,7 @@ def test_a_seed_draws_the_same_in_both_plants() -> None:
     assert moreau.make_case(["inertia"], **SHORT).truth.plain() == make_case(["inertia"], **SHORT).truth.plain()
 
 
-def test_files_look_alike_whatever_is_hidden(cases: list[Case]) -> None:
+def test_files_are_alike_whatever_is_hidden(cases: list[Case]) -> None:
     views = []
     for case in cases:
         look = []
@@ -101,7 +101,7 @@ def test_commands_do_not_depend_on_what_is_hidden(cases: list[Case]) -> None:
     assert all(commands(case) == commands(cases[0]) for case in cases)
 
 
-def test_the_folder_tells_nothing(cases: list[Case], tmp_path: Path) -> None:
+def test_the_folder_reveals_nothing(cases: list[Case], tmp_path: Path) -> None:
     sights = []
     words = re.compile("|".join([*EFFECTS, *COMMANDS, *SIZES, "release", "seed", "noise", "truth"]))
     for number, case in enumerate(cases):

@@ -15,7 +15,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin, Subprotocol
 
 from harness.waiting import wait_until
-from tools.bench_viewer.looker import CAMERA
+from tools.benchmarks.viewer.looker import CAMERA
 
 
 class Visitor:

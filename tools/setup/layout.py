@@ -11,8 +11,8 @@ MISSING = SETUP / "missing"
 REQUIREMENTS = SETUP / "requirements.in"
 LOCK = SETUP / "requirements.lock"
 
-OLD_VERSIONS = ROOT / "tools" / "check_old" / "versions.txt"
-OLD_LOCK = ROOT / "tools" / "check_old" / "requirements.lock"
+OLD_VERSIONS = SETUP / "check_old" / "versions.txt"
+OLD_LOCK = SETUP / "check_old" / "requirements.lock"
 
 VENV = ROOT / ".venv"
 PYTHON = VENV / "bin" / "python3"
@@ -29,7 +29,7 @@ class SetupError(Exception):
 
 def tool_pins() -> list[Path]:
     """Return the files with what single tools need besides the environment, pinned; hashes are in ``.txt`` files."""
-    return sorted(path for path in ROOT.glob("tools/*/requirements.in") if path != REQUIREMENTS)
+    return sorted(path for path in ROOT.glob("tools/**/requirements.in") if path != REQUIREMENTS)
 
 
 def package_folders() -> list[Path]:

@@ -131,7 +131,7 @@ def test_simulated_time_sets_the_pace(domain, probe):
         assert node.stop() == 0
 
 
-def test_being_late_is_told_but_not_of_the_start(domain, probe):
+def test_being_late_is_reported_but_not_of_the_start(domain, probe):
     """Simulated time that jumps: by half a second at the start, and again when the motion runs."""
     poses, _ = probe.hear(PoseStamped, "traj_pose"), probe.hear(TwistStamped, "traj_twist")
     say_clock = probe.node.create_publisher(Clock, "/clock", 10).publish

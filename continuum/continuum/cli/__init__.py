@@ -5,28 +5,45 @@ from __future__ import annotations
 import errno
 import os
 import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from continuum.cli.parser import Parser
+
+_DESCRIPTION = """\
+Multi-section, cable-driven snake arms: kinematics, dynamics, and what
+recordings show of them."""
 
 _NEXT_STEPS = """\
 what you can do next:
-  continuum info ARM.yaml                      lengths, cables and bend limits of an arm
-  continuum solve ARM.yaml 0.15 0 0.20         bring the tip to a point; bends and cable lengths of the answer
-  continuum model new --out MODEL.yaml         write the model file of a planar arm; from-urdf reads one from a URDF
-  continuum view ARM.yaml                      move it in the browser; a recording is played
-  continuum simulate --release 90 --picture X.png   let go of an arm that is bent by 90 degrees
-  continuum import-dot 1.csv 2.csv 3.csv 4.csv 5.csv --out run_1.csv ..   joint angles of exported sensor data
-  continuum diagnose run_1.csv run_2.csv       what the simulation gets wrong about recordings, and why
-  continuum identify run_1.csv run_2.csv --validate 2   springs and friction of an arm, and how well they predict
-  continuum curvature run_1.csv --picture X.png   how the arm is bent at rest: constant curvature or the dynamic model?
-  continuum report RECORDING --arm ARM.yaml    tracking error, cable rates and losses of a recorded run
+  continuum info ARM.yaml                 lengths, cables, bend limits of an arm
+  continuum solve ARM.yaml 0.15 0 0.20    bring the tip to a point
+  continuum model new --out MODEL.yaml    write the model file of a planar arm
+  continuum view ARM.yaml                 move it in the browser, or a recording
+  continuum simulate --release 90 --picture X.png
+                                          let go of an arm bent by 90 degrees
+  continuum import-dot 1.csv 2.csv 3.csv 4.csv 5.csv --out run_1.csv ..
+                                          joint angles of exported sensor data
+  continuum diagnose run_1.csv run_2.csv  what the simulation gets wrong and why
+  continuum identify run_1.csv run_2.csv --validate 2
+                                          springs and friction, with intervals
+  continuum curvature run_1.csv --picture X.png
+                                          how the arm is bent at rest
+  continuum report RECORDING --arm ARM.yaml
+                                          tracking error, cable rates and losses
 
-  ros2 launch trajectory_generator arm.launch.py                  the nodes of an arm
-  ros2 launch trajectory_generator arm.launch.py trajectory:=helix.yaml   the same, following the thesis's helix
-  ros2 launch continuum_manipulator dynamics.launch.xml           a simulated arm that tension commands pull
-  ros2 bag record /cable_states                                   record what the cables do
+  ros2 launch trajectory_generator arm.launch.py       the nodes of an arm
+  ros2 launch trajectory_generator arm.launch.py trajectory:=helix.yaml
+                                          the same, following the thesis's helix
+  ros2 launch continuum_manipulator dynamics.launch.xml
+                                          a simulated arm that tensions pull
+  ros2 bag record /cable_states           record what the cables do
 
-ARM.yaml is a file like continuum_description/config/three_sections.yaml.
-Exit codes: 0 done, 1 the answer is no (a target out of reach, a simulation that fails), 2 wrong usage, file or value;
-130 stopped by Ctrl-C; diagnose has some of its own.
+ARM.yaml is a file like continuum_description/config/three_sections.yaml; for an
+arm that comes with the library its name will do: continuum info three_sections.
+TAB completes what you type: eval "$(register-python-argcomplete continuum)"
+Exit codes: 0 done, 1 the answer is no (a target out of reach, a simulation that
+fails), 2 wrong usage, file or value; 130 stopped by Ctrl-C; diagnose has more.
 """
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
@@ -70,26 +87,35 @@ def _was_interrupted(error: BaseException | None) -> bool:
 
 def _run(arguments: list[str]) -> int:
     """Parse and run; what takes time to import is imported here, where an interrupt is caught."""
-    import argparse
-
-    from continuum.cli import curvature, diagnose, identify, import_dot, info, model, report, simulate, solve, view
+    from continuum.cli.completion import complete
     from continuum.cli.negative_numbers import written_out
     from continuum.errors import ContinuumError
 
-    parser = argparse.ArgumentParser(
-        prog="continuum",
-        description="Multi-section, cable-driven snake arms: kinematics, dynamics, and what recordings show of them.",
-        epilog=_NEXT_STEPS,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command", required=True)
-    for command in (info, solve, model, simulate, import_dot, identify, curvature, diagnose, report, view):
-        command.add_to(commands)
-    options, unknown = parser.parse_known_args(written_out(arguments))
-    if unknown:  # the command's own usage is the one that helps
-        commands.choices[options.command].error(f"unrecognized arguments: {' '.join(unknown)}")
+    parser = command_parser()
+    complete(parser)
+    options = parser.parse_args(written_out(arguments))
     try:
         return int(options.run(options))
     except ContinuumError as error:
         print(f"continuum: {error}", file=sys.stderr)
         return 2
+
+
+def command_parser() -> Parser:
+    """The parser of the command with all its subcommands."""
+    import argparse
+
+    from continuum.cli import curvature, diagnose, identify, import_dot, info, model, report, simulate, solve, view
+    from continuum.cli.parser import Parser, ShowVersion
+
+    parser = Parser(
+        prog="continuum",
+        description=_DESCRIPTION,
+        epilog=_NEXT_STEPS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action=ShowVersion, nargs=0, help="show the version and exit")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command", required=True)
+    for command in (info, solve, model, simulate, import_dot, identify, curvature, diagnose, report, view):
+        command.add_to(commands)
+    return parser

@@ -1,28 +1,27 @@
-"""`continuum curvature`: measured joint angles beside constant curvature and the dynamic model, while the arm rests."""
+"""`continuum curvature`: measured joint angles of an arm at rest, compared with constant curvature and the dynamics."""
 
 from __future__ import annotations
 
 import argparse
 import importlib.metadata
 import math
-import textwrap
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from continuum.cli.models import add_model_option, read_model
+from continuum.cli.outputs import announce, check_outputs, write
 from continuum.cli.recordings import read_recordings
-from continuum.cli.tables import print_table
+from continuum.cli.tables import print_table, print_text
 from continuum.errors import InvalidValueError
 from continuum.identification.estimate import Z_95
-from continuum.output_files import check_apart, check_picture, check_writable
 from continuum.printable import printable
 
 if TYPE_CHECKING:
     from continuum.curvature.answer import Answer
     from continuum.curvature.comparison import Comparison, Distance
-
-_WIDTH = 80
 
 _ASSUMED = (
     "Intervals hold if the zeros of the sensors are right within 0.2 degrees (one standard deviation), and allow for "
@@ -39,10 +38,7 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "data", metavar="RUN", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
     )
-    parser.add_argument(
-        "--model", metavar="MODEL.yaml", default="lamecc_prototype.yaml",
-        help="model file of an arm with cables, or one of the library's; default %(default)s",
-    )  # fmt: skip
+    add_model_option(parser, "model file of an arm with cables")
     parser.add_argument(
         "--hold", metavar="N", type=int, help="hold whose joint angles are printed and drawn; default the most bent"
     )
@@ -59,17 +55,11 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Find the holds, compare, print, and write what was asked for."""
-    from continuum.dynamics.model_file import load_model
-
     slow = options.sensor_error
     if slow is not None and not 0 <= slow < math.inf:
         raise InvalidValueError("--sensor-error", slow, "an angle >= 0 [degrees]")
-    for path in (options.csv, options.json):
-        check_writable(path)
-    check_picture(options.picture)
-    outputs = (options.csv, options.json, options.picture)
-    check_apart(outputs, (*options.data, options.model))
-    model = load_model(options.model)
+    check_outputs((*options.data, options.model), [options.csv, options.json], [options.picture])
+    model = read_model(options.model)
     model.require_cables("continuum curvature")
     recordings = read_recordings(options.data)
     # Here, so that files that are refused need not wait for numba.
@@ -78,27 +68,27 @@ def run(options: argparse.Namespace) -> int:
     from continuum.discovery.refit import check_recordings
 
     check_recordings(recordings, model)
-    found = answer(model, holds_of(model, recordings), None if slow is None else math.radians(slow))
+    holds = holds_of(model, recordings)
+    for name in [one.name for one in recordings if all(hold.recording is not one for hold in holds)]:
+        print(f"continuum: {printable(name)}: has no hold, and is left out", file=sys.stderr)
+    found = answer(model, holds, None if slow is None else math.radians(slow))
     chosen = found.most_bent if options.hold is None else options.hold - 1
     if not 0 <= chosen < len(found.holds):
         raise InvalidValueError("--hold", options.hold, f"1 to {len(found.holds)}, the holds that were found")
-    if options.csv is not None:
-        write_csv(found, options.csv)
-    if options.json is not None:
-        write_json(found, options.json, _made(options))
+    write(options.csv, lambda path: write_csv(found, path))
+    write(options.json, lambda path: write_json(found, path, _made(options)))
     if options.picture is not None:
         from continuum.curvature.figure import write_curvature_figure
 
         one = found.holds[chosen]
         title = f"{one.recording.name}, {one.times[0]:.2f} to {one.times[-1]:.2f} s"
-        write_curvature_figure(found.each[chosen], options.picture, title)
+        write(options.picture, lambda path: write_curvature_figure(found.each[chosen], path, title))
     show(found, chosen)
     if slow is None:
-        print(f"\n{_filled(_ASSUMED)}")
-    written = [printable(path) for path in outputs if path is not None]
-    print(
-        f"\nwritten: {', '.join(written)}" if written else "\nnothing written; --csv, --json and --picture name files"
-    )
+        print()
+        print_text(_ASSUMED)
+    print()
+    announce([options.csv, options.json, options.picture], "nothing written; --csv, --json and --picture name files")
     return 0
 
 
@@ -132,13 +122,12 @@ def show(found: Answer, chosen: int) -> None:
         "\nto",
     )
     print_table(headings, _joints(one), f"Hold {chosen + 1}, joint angles [deg]")
-    print(f"\n{_filled(nearer_in_words(one))}\n{_filled(tension_in_words(one, hold.tension))}")
+    print()
+    print_text(nearer_in_words(one))
+    print_text(tension_in_words(one, hold.tension))
     if len(found.holds) > 1:
-        print(f"\n{_filled(overall_in_words(found.overall))}")
-
-
-def _filled(text: str) -> str:
-    return textwrap.fill(text, _WIDTH)
+        print()
+        print_text(overall_in_words(found.overall))
 
 
 def _rows(found: Answer, several: bool) -> list[tuple[str, ...]]:

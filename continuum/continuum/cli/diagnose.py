@@ -10,10 +10,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from continuum.cli.completion import completes
+from continuum.cli.models import add_model_option, read_model
+from continuum.cli.outputs import announce, check_outputs, write
 from continuum.cli.recordings import read_recordings
-from continuum.cli.tables import print_pairs
+from continuum.cli.tables import print_pairs, print_text
+from continuum.did_you_mean import did_you_mean
+from continuum.dynamics.effect_lookup import effect_names
 from continuum.errors import InvalidValueError
-from continuum.output_files import check_apart, check_writable
 from continuum.printable import printable
 
 if TYPE_CHECKING:
@@ -31,10 +35,7 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "data", metavar="DATA", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
     )
-    parser.add_argument(
-        "--model", metavar="FILE.yaml", default="lamecc_prototype.yaml",
-        help="model file, or one that comes with the library; default %(default)s",
-    )  # fmt: skip
+    add_model_option(parser)
     parser.add_argument("--json", metavar="OUT.json", help="write verdict, parameters and scores for machines")
     parser.add_argument("--report", metavar="OUT.html", help="write a page with pictures that needs no other file")
     parser.add_argument(
@@ -52,7 +53,7 @@ def add_to(commands: Any) -> None:
         "inertia.mass[5]=12%% (more than in the model file); 0 where there is none; may be repeated; without +-SD as "
         "exact as the usual instrument. docs/discovery.md lists what can be given",
     )  # fmt: skip
-    parser.add_argument(
+    without = parser.add_argument(
         "--without", metavar="EFFECT", action="append", default=[],
         help="an effect that was taken off the arm for all of these recordings, as sensor_cable; may be repeated",
     )  # fmt: skip
@@ -60,19 +61,17 @@ def add_to(commands: Any) -> None:
         "--zeroed", metavar="DATA", action="append", default=[],
         help="one of the recordings, before which the sensors' zeros were set by a protractor; may be repeated",
     )  # fmt: skip
+    completes(without, lambda _: effect_names())
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
     """Read, diagnose, print, and write what was asked for."""
-    from continuum.dynamics.model_file import load_model
-
     if options.tolerance is not None and not 0 < options.tolerance < math.inf:
         raise InvalidValueError("--tolerance", options.tolerance, "an angle > 0 [degrees]")
-    for path in (options.json, options.report, options.extended):
-        check_writable(path)
-    check_apart((options.json, options.report, options.extended), (*options.data, options.model))
-    model, recordings = load_model(options.model), read_recordings(options.data)
+    _check_effects(options)
+    check_outputs((*options.data, options.model), [options.json, options.extended], pages=[options.report])
+    model, recordings = read_model(options.model), read_recordings(options.data)
     for recording in recordings:
         if recording.n_joints != model.n_joints:
             allowed = f"{model.n_joints}, as {options.model} has; --model names another"
@@ -93,17 +92,24 @@ def run(options: argparse.Namespace) -> int:
             recordings, model, tolerance=tolerance, progress=tell, measured=measured, zeroed=zeroed,
             without=options.without,
         )  # fmt: skip
-    if options.json is not None:
-        write_json(result, options.json, _made(options))
-    if options.report is not None:
-        write_report(result, options.report, _how(options))
-    if options.extended is not None:
-        save_model(result.extended_model, options.extended)
+    write(options.json, lambda path: write_json(result, path, _made(options)))
+    write(options.report, lambda path: write_report(result, path, _how(options)))
+    write(options.extended, lambda path: save_model(result.extended_model, path))
     show(result)  # at last: whoever reads it may stop reading
     print(f"\nof {_what(options)}")
-    for path in filter(None, (options.json, options.report, options.extended)):
-        print(f"written: {printable(path)}")
+    announce([options.json, options.report, options.extended])
     return EXIT_CODES[result.verdict.kind.value]
+
+
+def _check_effects(options: argparse.Namespace) -> None:
+    """Refuse an effect that there is not; of a measured value, what stands before the first dot."""
+    known = effect_names()
+    given = [("--without", name, name) for name in options.without]
+    given += [("--measured", text, text.partition(".")[0].strip()) for text in options.measured]
+    for option, text, name in given:
+        if name not in known:
+            near = did_you_mean(name, known) or f"; known: {', '.join(known)}"
+            raise InvalidValueError(option, text, f"an effect that is installed{near}")
 
 
 def _number_of(path: str, data: Sequence[str]) -> int:
@@ -153,9 +159,12 @@ def show(result: Diagnosis) -> None:
         verdict_in_words,
     )
 
-    print(f"{result.verdict.kind.value.upper()}\n\n{verdict_in_words(result)}\n")
+    print(f"{result.verdict.kind.value.upper()}\n")
+    print_text(verdict_in_words(result))
+    print()
     if result.known:
-        print(f"Known besides the recordings: {'; '.join(result.known)}.\n")
+        print_text(f"Also known: {'; '.join(result.known)}.")
+        print()
     if result.verdict.kind is Kind.AMBIGUOUS:
         for causes, p in zip(result.sets, result.verdict.probabilities, strict=True):
             print(
@@ -177,7 +186,7 @@ def show(result: Diagnosis) -> None:
     print_pairs(sigma_in_words(result))
     _show_power(result)
     for line in (*result.notes, *similar_causes(result)):
-        print(line)
+        print_text(line)
 
 
 def _show_power(result: Diagnosis) -> None:
@@ -192,5 +201,6 @@ def _show_power(result: Diagnosis) -> None:
         print("\nNot to be seen in them at its typical size")
         print_pairs(hidden)
     if text := experiment_in_words(result):
-        print(f"\nNext experiment: {text}")
+        print()
+        print_text(f"Next experiment: {text}")
     print()

@@ -8,10 +8,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from continuum.cli.models import add_model_option, read_model
+from continuum.cli.outputs import announce, check_outputs, write
 from continuum.cli.recordings import read_recordings
-from continuum.cli.tables import print_pairs, print_table
+from continuum.cli.tables import print_pairs, print_table, print_text
 from continuum.errors import InvalidValueError
-from continuum.output_files import check_apart, check_writable
 from continuum.printable import printable
 
 if TYPE_CHECKING:
@@ -31,10 +32,7 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "data", metavar="RUN", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
     )
-    parser.add_argument(
-        "--model", metavar="FILE.yaml", default="lamecc_prototype.yaml",
-        help="model file with masses, lengths and first values, or one of the library's; default %(default)s",
-    )  # fmt: skip
+    add_model_option(parser, "model file with masses, lengths and first values")
     parser.add_argument(
         "--method", choices=("fit", "swarm"), default="fit",
         help="fit: maximum likelihood of open-loop simulations, with intervals; swarm: the thesis's particle swarm "
@@ -51,7 +49,7 @@ def add_to(commands: Any) -> None:
         "--per-joint", action="store_true",
         help="spring, viscous and Coulomb friction of every joint; without it, those that all joints share",
     )  # fmt: skip
-    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of the swarm; default %(default)s")
+    parser.add_argument("--seed", metavar="N", type=int, help="of --method swarm; default 0")
     parser.add_argument("--out", metavar="MODEL.yaml", help="write the model with the identified values")
     parser.add_argument("--report", metavar="PAGE.html", help="write a page with both tables and every run's angles")
     parser.set_defaults(run=run)
@@ -59,16 +57,16 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Identify, predict, print, and write what was asked for."""
-    from continuum.dynamics.model_file import load_model, save_model
+    from continuum.dynamics.model_file import save_model
     from continuum.identification.scores import scores
 
-    check_writable(options.out)
-    check_writable(options.report)
-    check_apart((options.out, options.report), (*options.data, options.model))
-    if options.seed < 0:
+    check_outputs((*options.data, options.model), [options.out], pages=[options.report])
+    if options.seed is not None and options.method != "swarm":
+        raise InvalidValueError("--seed", options.seed, "only with --method swarm")
+    if options.seed is not None and options.seed < 0:
         raise InvalidValueError("--seed", options.seed, "a whole number >= 0")
     fitted = chosen_runs(options.identify, options.validate, len(options.data))
-    model, recordings = load_model(options.model), read_recordings(options.data)
+    model, recordings = read_model(options.model), read_recordings(options.data)
     from continuum.discovery.refit import check_recordings  # here, so that what is refused need not wait for numba
 
     check_recordings(recordings, model)
@@ -76,16 +74,15 @@ def run(options: argparse.Namespace) -> int:
     identified = _identified(options, [recordings[k] for k in fitted], model)
     seconds = time.process_time() - began
     predicted = scores(identified.model, recordings)
-    if options.out is not None:
-        save_model(identified.model, options.out)
+    write(options.out, lambda path: save_model(identified.model, path))
     if options.report is not None:
         from continuum.discovery.report.identification_page import write_identification
 
-        write_identification(identified, predicted, fitted, options.report, _made(options, seconds))
+        made = _made(options, seconds)
+        write(options.report, lambda path: write_identification(identified, predicted, fitted, path, made))
     show(identified, predicted, fitted)
     print_pairs([("method", identified.method), ("processor time", f"{seconds:.1f} s")])
-    written = [path for path in (options.out, options.report) if path is not None]
-    print(f"written: {', '.join(map(printable, written))}" if written else "nothing written; --out names a model file")
+    announce([options.out, options.report], "nothing written; --out names a model file")
     return 0
 
 
@@ -138,7 +135,7 @@ def _identified(options: argparse.Namespace, recordings: Sequence[Recording], mo
         if options.method == "swarm":
             from continuum.identification.thesis_swarm import swarm_parameters
 
-            return swarm_parameters(recordings, model, options.seed, options.per_joint, tell)
+            return swarm_parameters(recordings, model, options.seed or 0, options.per_joint, tell)
         from continuum.discovery.parameter_fit import fit_parameters
 
         return fit_parameters(recordings, model, options.per_joint, tell)
@@ -153,7 +150,7 @@ def show(identified: Identified, predicted: Sequence[Score], fitted: Sequence[in
     print_table(("Table 4", "use", "position NRMSE", "rate NRMSE", "RMSE [deg]"), score_rows(predicted, fitted))
     print()
     for line in remarks(identified, predicted, fitted):
-        print(line)
+        print_text(line)
 
 
 def _made(options: argparse.Namespace, seconds: float) -> str:

@@ -8,9 +8,10 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from continuum.arrays import Array
+from continuum.cli.outputs import announce, check_outputs, write
 from continuum.cli.tables import print_pairs
 from continuum.errors import FileError, InvalidValueError, MeasurementError
-from continuum.output_files import check_apart, check_writable
 
 if TYPE_CHECKING:
     from continuum.inertial.calibration import Calibration
@@ -30,7 +31,7 @@ def add_to(commands: Any) -> None:
         "Exit codes: 0 done, 1 written, but diagnose would refuse it, 2 wrong usage, file or value.",
     )  # fmt: skip
     parser.add_argument("files", nargs="+", metavar="FILE.csv", help="of one sensor each, in order from the base")
-    parser.add_argument("--out", metavar="RUN.csv", help="write time, joint angles and rates there; else only look")
+    parser.add_argument("--out", metavar="RUN.csv", help="write time, joint angles and rates there")
     parser.add_argument(
         "--first-turn", choices=("1", "2"), metavar="CABLE",
         help="1 or 2: the cable towards which the arm first turns in the recording; finds the sensors' axes",
@@ -41,7 +42,7 @@ def add_to(commands: Any) -> None:
     parser.add_argument("--posture", metavar="DEG", help="joint angles [degrees] at --zero, q1,q2,..; default straight")
     parser.add_argument(
         "--calibration", metavar="FILE.yaml",
-        help="axes and zero of an earlier recording with the sensors in the same places; the bias is found anew",
+        help="axes and zero of an earlier recording with the sensors in the same places; the bias is estimated again",
     )  # fmt: skip
     parser.add_argument("--save-calibration", metavar="OUT.yaml", help="write bias, axes and zero there")
     parser.add_argument("--begin", metavar="S", type=float, default=-math.inf, help="leave out what is earlier")
@@ -52,17 +53,14 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Import, tell what was found, and write what was asked for."""
     from continuum.inertial.calibration import save_calibration
-    from continuum.inertial.clock_check import check_common_clock
-    from continuum.inertial.common_clock import on_one_clock
+    from continuum.inertial.common_clock import check_common_clock, on_one_clock
     from continuum.inertial.dot_export import read_dot_export
     from continuum.inertial.estimator_settings import EstimatorSettings
     from continuum.inertial.recorded_angles import recorded_angles
-    from continuum.inertial.rests import rests
+    from continuum.inertial.stillness import rests
     from continuum.inertial.time_grid import on_one_grid
 
-    for path in (options.out, options.save_calibration):
-        check_writable(path)
-    check_apart((options.out, options.save_calibration), (*options.files, options.calibration))
+    check_outputs((*options.files, options.calibration), [options.out, options.save_calibration])
     exports = [read_dot_export(path) for path in options.files]
     streams = on_one_clock(exports)
     recording = on_one_grid(streams)
@@ -76,13 +74,13 @@ def run(options: argparse.Namespace) -> int:
         print("nothing written; --out names a file for the joint angles")
         return 0
     calibration = _calibration(options, recording, found)
-    if options.save_calibration is not None:
-        save_calibration(calibration, options.save_calibration)
-        print(f"written: {options.save_calibration}")
-    if options.out is None:
-        return 0
-    settings = EstimatorSettings(period=float(recording.times[1] - recording.times[0]))
-    return _write(options, recorded_angles(recording, calibration, settings))
+    motion = None
+    if options.out is not None:
+        settings = EstimatorSettings(period=float(recording.times[1] - recording.times[0]))
+        motion = _good_rows(recorded_angles(recording, calibration, settings), options.begin, options.end)
+    write(options.save_calibration, lambda path: save_calibration(calibration, path))
+    announce([options.save_calibration])
+    return 0 if motion is None else _write(options.out, *motion)
 
 
 def _show(recording: ImuRecording, found: list[Span], streams: Sequence[Stream]) -> None:
@@ -150,19 +148,30 @@ def _posture(text: str | None) -> list[float] | None:
         raise InvalidValueError("--posture", text, "joint angles in degrees with commas between them") from None
 
 
-def _write(options: argparse.Namespace, angles: RecordedAngles) -> int:
-    from continuum.recordings.motion_table import write_measured_motion
-    from continuum.recordings.recording_csv import read_recording_csv
+def _good_rows(angles: RecordedAngles, begin: float, end: float) -> tuple[Array, Array, Array]:
+    """Times (n,) [s], angles and rates (n, n_joints) [rad, rad/s] of the rows in which all joints are good.
 
-    inside = (angles.times >= options.begin) & (angles.times <= options.end)
+    Raises:
+        MeasurementError: there is none from ``begin`` to ``end`` [s].
+    """
+    inside = (angles.times >= begin) & (angles.times <= end)
     good = inside & angles.good.all(axis=1)
     if not good.any():
         raise MeasurementError("no instant between --begin and --end has good angles of all joints")
     left = int(inside.sum() - good.sum())
-    write_measured_motion(angles.times[good], angles.theta[good], angles.theta_rate[good], options.out)
-    print(f"written: {options.out}, {good.sum()} rows" + (f"; {left} without good angles left out" if left else ""))
+    print(f"{good.sum()} rows" + (f"; {left} without good angles left out" if left else ""))
+    return angles.times[good], angles.theta[good], angles.theta_rate[good]
+
+
+def _write(out: str, times: Array, theta: Array, theta_rate: Array) -> int:
+    """Write the rows, and read them as `diagnose` does; 1 where that refuses them."""
+    from continuum.recordings.motion_table import write_measured_motion
+    from continuum.recordings.recording_csv import read_recording_csv
+
+    write(out, lambda path: write_measured_motion(times, theta, theta_rate, path))
+    announce([out])
     try:
-        read_recording_csv(options.out)
+        read_recording_csv(out)
     except FileError as error:
         print(f"continuum: diagnose would refuse it: {error}", file=sys.stderr)
         return 1

@@ -6,21 +6,43 @@ import argparse
 import math
 from typing import Any
 
-from continuum.arm import load_arm
+from continuum.arm import Arm, arm_to_mapping, load_arm
+from continuum.cli.completion import completes_files
+from continuum.cli.outputs import print_json
 from continuum.cli.tables import print_table
-from continuum.dynamics.model_path import model_path
+from continuum.shipped_files import ARMS
 
 
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser("info", help="show the geometry of an arm", description=__doc__)
-    parser.add_argument("arm", metavar="ARM.yaml", help="parameter file of the arm")
+    arm = parser.add_argument("arm", metavar="ARM.yaml", help="parameter file of the arm, or one of the library's")
+    completes_files(arm, ARMS)
+    parser.add_argument("--json", action="store_true", help="print one line of JSON instead, in m, rad and kg")
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print a table of the sections."""
-    arm = load_arm(model_path(options.arm))  # a model's name is found too, and told to be none of an arm
+    """Print a table of the sections, or JSON."""
+    arm = load_arm(options.arm)
+    if options.json:
+        print_json(_plain(arm))
+    else:
+        _show(arm)
+    return 0
+
+
+def _plain(arm: Arm) -> dict[str, object]:
+    """All that the file says, with defaults, as an arm file has it; and the lengths that follow."""
+    return {
+        "length": arm.length,
+        "section_lengths": {section.name: section.length for section in arm.sections},
+        "cables": arm.cable_names,
+        "arm": arm_to_mapping(arm),
+    }
+
+
+def _show(arm: Arm) -> None:
     sections = "1 section" if arm.n_sections == 1 else f"{arm.n_sections} sections"
     title = f"{sections}, {1e3 * arm.length:.1f} mm long, {len(arm.cable_names)} cables"
     headings = (
@@ -47,7 +69,6 @@ def run(options: argparse.Namespace) -> int:
         for section in arm.sections
     ]
     print_table(headings, rows, title)
-    return 0
 
 
 def _degrees(angle: float) -> str:

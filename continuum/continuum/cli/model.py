@@ -8,9 +8,9 @@ import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from continuum.cli.outputs import announce, check_outputs, write
 from continuum.dynamics.parameters import PARAMETERS, Parameter
-from continuum.errors import InvalidValueError
-from continuum.output_files import check_apart, check_writable
+from continuum.errors import ContinuumError, InvalidValueError
 from continuum.printable import one_line
 from continuum.whole_file import write_whole
 
@@ -76,28 +76,24 @@ def _help(parameter: Parameter) -> str:
 
 
 def _new(options: argparse.Namespace) -> int:
-    check_writable(options.out)
+    check_outputs((), [options.out])
     given = {name: text for name in PARAMETERS if (text := getattr(options, name)) is not None}
-    joints = _whole(options.joints if options.joints is not None else _asked("--joints", "number of joints"))
-    wanted = [name for name, one in PARAMETERS.items() if one.default is None and not one.optional]
-    if not any(name in given for name in _LENGTHS):
-        wanted.append("link_length")
-    for name in wanted:
-        if name not in given:
-            given[name] = _asked(f"--{name.replace('_', '-')}", f"{PARAMETERS[name].meaning} [{PARAMETERS[name].unit}]")
+    if options.joints is not None:
+        _whole(options.joints)  # before anything is asked for
+    joints, given = _completed(options, given)
+    n_joints = _whole(joints)
     values: dict[str, list[float]] = {name: _numbers(name, text) for name, text in given.items()}
     if options.inertia_about == "joint":
-        values["inertia"] = _about_centre(joints, values)
+        values["inertia"] = _about_centre(n_joints, values)
     inputs = options.inputs or ("cables" if all(name in given for name in _CABLES) else "joint_torques")
-    return _write(options.out, joints, inputs, values, _GIVEN)
+    return _write(options.out, n_joints, inputs, values, _GIVEN)
 
 
 def _from_urdf(options: argparse.Namespace) -> int:
     # Here, so that the other commands need not wait for what reads URDFs.
     from continuum.dynamics.urdf_chain import chain_from_urdf
 
-    check_apart([options.out], [options.urdf])
-    check_writable(options.out)
+    check_outputs([options.urdf], [options.out])
     gravity = _numbers("gravity", options.gravity)
     if len(gravity) != 3:
         raise InvalidValueError("--gravity", options.gravity, "three numbers, as 0,0,-9.81")
@@ -129,22 +125,35 @@ def _write(
         name: {"value": value, "unit": PARAMETERS[name].unit, "source": source} for name, value in values.items()
     }
     model = model_from_mapping({"n_joints": n_joints, "inputs": inputs, "parameters": parameters})
-    write_whole(path, commented_model(model, lines))
+    write(path, lambda file: write_whole(file, commented_model(model, lines)))
     for line in lines:
         print(one_line(line))
     joints = "1 joint" if n_joints == 1 else f"{n_joints} joints"
-    print(f"written: {one_line(path)} ({joints}, driven by {inputs.replace('_', ' ')})")
+    print(f"{joints}, driven by {inputs.replace('_', ' ')}")
+    announce([path])
     return 0
 
 
-def _asked(option: str, meaning: str) -> str:
-    """What a person says; nobody is asked where there is no terminal."""
-    if not sys.stdin.isatty():
-        raise InvalidValueError(option, None, f"{meaning}; give it, or call the command at a terminal, which asks")
+def _completed(options: argparse.Namespace, given: Mapping[str, str]) -> tuple[str, dict[str, str]]:
+    """Number of joints and values; those that are required and were left out are asked for at a terminal.
+
+    Raises:
+        ContinuumError: there is no terminal, or no answer.
+    """
+    wanted = [name for name, one in PARAMETERS.items() if one.default is None and not one.optional]
+    if not any(name in given for name in _LENGTHS):
+        wanted.append("link_length")
+    missing = {} if options.joints is not None else {"joints": "number of joints"}
+    missing |= {name: f"{PARAMETERS[name].meaning} [{PARAMETERS[name].unit}]" for name in wanted if name not in given}
+    if missing and not sys.stdin.isatty():  # nobody is there to be asked
+        names = ", ".join(f"--{name.replace('_', '-')}" for name in missing)
+        raise ContinuumError(f"required are {names}; at a terminal, the command asks for them")
     try:
-        return input(f"{meaning}: ")
+        answers = {name: input(f"{meaning}: ") for name, meaning in missing.items()}
     except EOFError:
-        raise InvalidValueError(option, None, meaning) from None
+        print(file=sys.stderr)  # behind the question
+        raise ContinuumError("the input ended before every value was given") from None
+    return answers.pop("joints", options.joints), {**given, **answers}
 
 
 def _whole(text: str) -> int:

@@ -1,4 +1,4 @@
-"""A progress bar on the terminal, on standard error; a line for each stage where that is no terminal."""
+"""A progress bar on the terminal, on standard error; lines where that is no terminal."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rich.table import Column
 from rich.text import Text
 
 _ENOUGH = 0.1
-"""Part that has to be over before the time that is left is stated: of less it says little."""
+"""Part that has to be over before the time that is left is stated, as of less it says little; and from line to line."""
 
 _BAR = 16  # characters, so that a name has room beside it on 80 columns
 
@@ -32,22 +32,28 @@ def progress_bar() -> Iterator[Callable[[str, float], None]]:
         _Left(Column(min_width=len("at least 10 min 00 s left"))),
     )
     with Progress(*columns, console=Console(stderr=True), transient=True, expand=True) as progress:
-        task = progress.add_task("", total=1.0)
-        yield lambda what, part: progress.update(task, description=what, completed=part)
+        task = progress.add_task("", total=1.0, stated=0.0)
+
+        def tell(what: str, part: float) -> None:
+            progress.update(task, description=what, completed=part, stated=progress.tasks[0].elapsed)
+
+        yield tell
 
 
-def left_in_words(part: float, elapsed: float) -> str:
+def left_in_words(part: float, stated: float, elapsed: float) -> str:
     """At least how long it will take yet; empty where that is not known or less than a second.
 
-    A search goes on where an effect helps, and takes longer then than the part that is over tells.
+    Work whose part p is over after t seconds takes t / p in all. A search goes on where an effect helps, and takes
+    longer then.
 
     Args:
         part: of all that is over, 0 to 1.
+        stated: when that was stated, since the beginning [s].
         elapsed: since the beginning [s].
     """
     if not _ENOUGH < part <= 1:
         return ""
-    left = math.floor(elapsed * (1 - part) / part)
+    left = math.floor(stated / part - elapsed)
     if left < 1:
         return ""
     return f"at least {left} s left" if left < 60 else f"at least {left // 60} min {left % 60:02d} s left"
@@ -57,18 +63,20 @@ class _Left(ProgressColumn):
     """The time that is left."""
 
     def render(self, task: Task) -> Text:
-        return Text(left_in_words(task.completed, task.elapsed or 0.0), style="progress.remaining")
+        words = left_in_words(task.completed, task.fields["stated"] or 0.0, task.elapsed or 0.0)
+        return Text(words, style="progress.remaining")
 
 
 def _lines() -> Callable[[str, float], None]:
-    """Tells each stage once, as it begins."""
-    last_stage, began = "", time.monotonic()
+    """Prints a line as a stage begins, and whenever a further tenth of all is over."""
+    last, printed, began = "", 0.0, time.monotonic()
 
     def tell(what: str, part: float) -> None:
-        nonlocal last_stage
-        if what != last_stage:
-            left = left_in_words(part, time.monotonic() - began)
+        nonlocal last, printed
+        if what != last or part >= printed + _ENOUGH:
+            elapsed = time.monotonic() - began
+            left = left_in_words(part, elapsed, elapsed)
             print(f"continuum: {what}" + f" ({left})" * bool(left), file=sys.stderr, flush=True)
-            last_stage = what
+            last, printed = what, part
 
     return tell

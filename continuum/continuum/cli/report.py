@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import argparse
 import math
+from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from continuum.arm import load_arm
+from continuum.cli.completion import completes_files
+from continuum.cli.outputs import announce, check_outputs, print_json, write
 from continuum.cli.tables import print_pairs
-from continuum.errors import FileError, InvalidValueError
-from continuum.output_files import check_apart
+from continuum.errors import InvalidValueError
+from continuum.shipped_files import ARMS
 
 if TYPE_CHECKING:
     from continuum.recordings.kinematic_report import KinematicReport
@@ -22,10 +26,17 @@ def add_to(commands: Any) -> None:
         "report", help="tracking error, cable rates and losses of a recording", description=__doc__
     )
     parser.add_argument("recording", metavar="RECORDING", help="folder of a rosbag2 recording")
-    parser.add_argument("--arm", metavar="ARM.yaml", required=True, help="parameter file of the arm that was recorded")
+    arm = parser.add_argument(
+        "--arm", metavar="ARM.yaml", required=True,
+        help="parameter file of the arm that was recorded, or one of the library's",
+    )  # fmt: skip
+    completes_files(arm, ARMS)
     parser.add_argument("--out", metavar="DIR", help="write cable_states.csv and cables.png there")
     parser.add_argument(
         "--expected", metavar="N", type=int, help="poses published, to tell what was lost before recording"
+    )
+    parser.add_argument(
+        "--json", action="store_true", help="print one line of JSON instead of the table, in s, Hz, m and m/s"
     )
     parser.set_defaults(run=run)
 
@@ -43,19 +54,23 @@ def run(options: argparse.Namespace) -> int:
         raise InvalidValueError("--expected", options.expected, "a whole number >= 0")
     folder = None if options.out is None else Path(options.out)
     outputs = [] if folder is None else [folder / "cable_states.csv", folder / "cables.png"]
-    check_apart(outputs, (options.recording, options.arm))
+    check_outputs((options.recording, options.arm), outputs)
     with Bag(options.recording) as bag:
         recording = read_arm_recording(bag, load_arm(options.arm))
-    _show(report_on(recording, options.expected))
-    if folder is not None:
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise FileError(folder, f"cannot be written ({error.strerror or error})") from error
-        for write, file in zip((write_cable_table, write_cable_figure), outputs, strict=True):
-            write(recording, file)
-        print(f"written: {', '.join(map(str, outputs))}")
+    report = report_on(recording, options.expected)
+    for write_to, file in zip((write_cable_table, write_cable_figure), outputs, strict=bool(outputs)):
+        write(file, partial(write_to, recording))
+    if options.json:
+        print_json(_plain(report))
+    else:
+        _show(report)
+    announce(outputs, apart=options.json)
     return 0
+
+
+def _plain(report: KinematicReport) -> dict[str, object]:
+    """All figures; those that the recording does not tell are NaN."""
+    return {**asdict(report), "n_lost": report.n_lost, "rate_disagreement_ratio": report.rate_disagreement_ratio}
 
 
 def _show(report: KinematicReport) -> None:

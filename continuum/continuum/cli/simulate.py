@@ -12,13 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.cli.models import add_model_option, read_model
+from continuum.cli.outputs import announce, check_outputs, print_json, write
 from continuum.cli.tables import print_pairs
-from continuum.errors import InvalidValueError
-from continuum.output_files import check_apart, check_picture, check_writable
+from continuum.errors import ContinuumError, InvalidValueError
 
 if TYPE_CHECKING:
     from continuum.dynamics.input_signal import InputSignal
     from continuum.dynamics.model import Model
+    from continuum.dynamics.pulled_posture import PulledPosture
     from continuum.dynamics.trajectory import Trajectory
 
 _RELEASE_DURATION = 1.6
@@ -34,10 +36,7 @@ def add_to(commands: Any) -> None:
         epilog="Exit codes: 0 done, 1 the integration failed or bends a joint by more than half a turn, 2 wrong usage, "
         "file or value.",
     )  # fmt: skip
-    parser.add_argument(
-        "--model", metavar="FILE.yaml", default="lamecc_prototype.yaml",
-        help="model file, or one that comes with the library; default %(default)s",
-    )  # fmt: skip
+    add_model_option(parser)
     parser.add_argument(
         "--release", metavar="DEG",
         help="bend [degrees] in which the arm starts at rest: in total, the same at every joint, or q1,q2,.. of each "
@@ -45,7 +44,8 @@ def add_to(commands: Any) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--pulled", action="store_true",
-        help="the total bend of --release is held by one cable, which is cut: not the same at every joint",
+        help="the total bend of --release is held by one cable, not the same at every joint; the cable is cut at 0 s, "
+        "where all that is written begins",
     )  # fmt: skip
     parser.add_argument(
         "--tensions", metavar="FILE.csv",
@@ -68,39 +68,45 @@ def add_to(commands: Any) -> None:
     )  # fmt: skip
     parser.add_argument("--csv", metavar="OUT.csv", help="write time, joint angles and rates, and tensions there")
     parser.add_argument("--picture", metavar="OUT.png", help="draw them, and the arm")
+    parser.add_argument(
+        "--json", action="store_true", help="print one line of JSON instead of the table, in N, rad, rad/s and s"
+    )
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
     """Simulate, print a summary, and write what was asked for; 1 where the integration fails."""
     # Here, so that the other commands need neither CasADi and numba nor the time to load them and Matplotlib.
+    from continuum.cli.simulation_figures import figures, in_words
     from continuum.cli.simulation_hints import beyond_contact, hints
     from continuum.dynamics.measuring import as_read
-    from continuum.dynamics.model_file import load_model
     from continuum.dynamics.trajectory import SimulationStatus
     from continuum.recordings.motion_table import write_motion_table
 
-    if options.pulled and (options.release is None or "," in options.release):
+    if options.pulled and options.release is None:
+        raise ContinuumError("--pulled needs --release, one total bend in degrees")
+    if options.pulled and "," in options.release:
         raise InvalidValueError("--release", options.release, "with --pulled, one total bend in degrees")
-    model = load_model(options.model)
+    check_outputs((options.model, options.tensions, options.torques), [options.csv], [options.picture])
+    model = read_model(options.model)
     for option in ("tensions", "pulled"):
         if getattr(options, option):
             model.require_cables(f"--{option}")
     posture = release_posture(options.release or "0", model.n_joints)
     inputs = _inputs(options, model)
     times = _times(options, inputs)
-    check_writable(options.csv)
-    check_picture(options.picture)
-    check_apart((options.csv, options.picture), (options.model, options.tensions, options.torques))
     for hint in hints(posture, inputs, model.parameters, times):
         print(f"continuum: {hint}", file=sys.stderr)
-    if options.pulled:
-        posture = _pulled(model, posture, options.release)
+    held = _held(model, posture, options.release) if options.pulled else None
     began = time.perf_counter()
-    simulate = _simulation(model, posture, times, inputs, options.integrator)
+    simulate = _simulation(model, posture if held is None else held.theta, times, inputs, options.integrator)
     loaded = time.perf_counter()
     motion = simulate()
-    _show(motion, loaded - began, time.perf_counter() - loaded)
+    found = figures(motion, held, loaded - began, time.perf_counter() - loaded)
+    if options.json:
+        print_json(found)
+    else:
+        print_pairs(in_words(found, motion.status.value))
     if motion.status is not SimulationStatus.COMPLETE:
         return 1
     bent = beyond_contact(motion.theta, model.parameters)
@@ -112,14 +118,12 @@ def run(options: argparse.Namespace) -> int:
     seen = as_read(model, motion)
     if not np.array_equal(seen.states, motion.states):
         print("continuum: angles and rates are those that the model's sensors read", file=sys.stderr)
-    if options.csv is not None:
-        write_motion_table(seen, inputs, options.csv)
+    write(options.csv, lambda path: write_motion_table(seen, inputs, path))
     if options.picture is not None:
         from continuum.recordings.motion_figure import write_motion_figure
 
-        write_motion_figure(seen, inputs, model.parameters, options.picture)
-    written = [path for path in (options.csv, options.picture) if path is not None]
-    print(f"written: {', '.join(written)}" if written else "nothing written; --csv and --picture name files")
+        write(options.picture, lambda path: write_motion_figure(seen, inputs, model.parameters, path))
+    announce([options.csv, options.picture], "nothing written; --csv and --picture name files", apart=options.json)
     return 0
 
 
@@ -143,7 +147,7 @@ def release_posture(text: str, n_joints: int) -> Array:
 
 def _inputs(options: argparse.Namespace, model: Model) -> InputSignal:
     """What drives the arm over time."""
-    from continuum.dynamics.input_kind import InputKind
+    from continuum.dynamics.model import InputKind
     from continuum.dynamics.model_inputs import undriven
     from continuum.recordings.input_table import read_tension_table, read_torque_table
 
@@ -160,17 +164,14 @@ def _inputs(options: argparse.Namespace, model: Model) -> InputSignal:
     return read_torque_table(options.torques, model.n_joints)
 
 
-def _pulled(model: Model, posture: Array, release: str) -> Array:
-    """Joint angles (n_joints,) [rad] in which one cable holds the same total bend; tells its tension."""
+def _held(model: Model, posture: Array, release: str) -> PulledPosture:
+    """The posture with the same total bend (n_joints,) [rad] that one cable holds."""
     from continuum.dynamics.pulled_posture import pulled_posture
 
     try:
-        held = pulled_posture(model, float(posture.sum()))
+        return pulled_posture(model, float(posture.sum()))
     except InvalidValueError as error:  # of an angle in radians, which nobody typed
         raise InvalidValueError("--release", release, f"with --pulled, {error.allowed}") from None
-    angles = ", ".join(f"{angle:.2f}" for angle in np.degrees(held.theta))
-    print_pairs([("held by", f"{held.tension.max():.2f} N"), ("joint angles", f"{angles} degrees")])
-    return held.theta
 
 
 def _times(options: argparse.Namespace, inputs: InputSignal) -> Array:
@@ -204,25 +205,3 @@ def _simulation(
     simulator = Simulator(model)
     simulator.run(posture, times[:1])  # nothing to integrate, but the compiled loops are loaded
     return lambda: simulator.run(posture, times, inputs)
-
-
-def _show(motion: Trajectory, loading: float, integrating: float) -> None:
-    """Print what happened; ``loading`` and ``integrating`` took so long [s]."""
-    bend = np.degrees(motion.theta.sum(axis=1))
-    pairs = [
-        ("integration", motion.status.value),
-        ("simulated", f"{motion.times[-1] - motion.times[0]:g} s, {motion.times.size} samples"),
-        ("time taken", f"{integrating:.3g} s for the integration, {loading:.2f} s before it to load the equations"),
-    ]
-    if np.all(np.isfinite(motion.states)):
-        speed = np.degrees(np.abs(motion.theta_rate))
-        when, joint = np.unravel_index(int(np.argmax(speed)), speed.shape)
-        pairs += [
-            ("bend in total", f"{bend[0]:.2f} degrees at first, {bend[-1]:.2f} at last, {_range(bend)}"),
-            ("fastest joint", f"joint {joint + 1}, {speed.max():.0f} degrees/s at {motion.times[when]:.3f} s"),
-        ]
-    print_pairs(pairs)
-
-
-def _range(values: Array) -> str:
-    return f"between {values.min():.2f} and {values.max():.2f}"

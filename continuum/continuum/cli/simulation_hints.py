@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.input_signal import InputSignal
+from continuum.dynamics.model import InputKind
 from continuum.dynamics.parameters import Parameters
 
 _SMALL_BEND = 3.2

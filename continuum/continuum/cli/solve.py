@@ -12,6 +12,7 @@ import numpy as np
 
 from continuum.arm import Arm, load_arm
 from continuum.arrays import Array
+from continuum.cli.completion import completes_files
 from continuum.cli.ik_targets import read_targets, target_of
 from continuum.cli.tables import print_table
 from continuum.errors import InvalidValueError
@@ -19,6 +20,7 @@ from continuum.kinematics.configuration import allen_from_jones, jones_from_alle
 from continuum.kinematics.ik_result import IkResult
 from continuum.kinematics.ik_target import POSITION, Targets
 from continuum.kinematics.routing import tangle
+from continuum.shipped_files import ARMS
 
 _WORDS = {
     "SOLVED": "reached",
@@ -31,7 +33,8 @@ _WORDS = {
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser("solve", help="bring the tip of an arm to a point", description=__doc__)
-    parser.add_argument("arm", metavar="ARM.yaml", help="parameter file of the arm")
+    arm = parser.add_argument("arm", metavar="ARM.yaml", help="parameter file of the arm, or one of the library's")
+    completes_files(arm, ARMS)
     for axis in ("X", "Y", "Z"):
         parser.add_argument(axis.lower(), metavar=axis, type=float, nargs="?", help="target of the tip [m]")
     parser.add_argument(
@@ -50,13 +53,14 @@ def add_to(commands: Any) -> None:
         metavar="DEG",
         nargs="+",
         type=float,
-        help="bend and azimuth of every section [degrees], near which to answer",
+        help="bend and azimuth of every section [degrees], near which to answer; default straight",
     )
     parser.add_argument(
         "--objective",
         choices=("first", "near_start", "least_bending"),
-        default="first",
-        help="what is done with the freedom that a target leaves; default %(default)s",
+        default="near_start",
+        help="how to use the freedom that a target leaves: the answer nearest to the start, which is the straight arm "
+        "unless --start names another, the least bent one, or the first one found; default %(default)s",
     )
     parser.add_argument("--tolerance", type=float, default=1e-6, help="[m] and [rad]; default %(default)g")
     parser.add_argument("--json", action="store_true", help="print a line of JSON for every target, in m and rad")

@@ -1,13 +1,21 @@
-"""Tables for a terminal of 80 columns."""
+"""Tables and text for a terminal of 80 columns."""
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable, Sequence
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
+
+_WIDTH = 80
+
+
+def print_text(text: str) -> None:
+    """Print a paragraph in lines that are no longer than the terminal is wide; words stay whole."""
+    print(textwrap.fill(text, _WIDTH, break_long_words=False, break_on_hyphens=False))
 
 
 def print_table(headings: Sequence[str], rows: Iterable[Sequence[str]], title: str | None = None) -> None:

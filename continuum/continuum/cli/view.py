@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from continuum.arm import Arm, load_arm
+from continuum.cli.completion import completes_files
 from continuum.errors import InvalidValueError
+from continuum.shipped_files import ARMS
 from continuum.viewer.address import HOST, PORT
 
 if TYPE_CHECKING:
@@ -23,13 +25,16 @@ def add_to(commands: Any) -> None:
         "view", help="see an arm or a recording in the browser", description=__doc__,
         epilog="What nodes do is shown by: ros2 run continuum_manipulator viewer",
     )  # fmt: skip
-    parser.add_argument(
+    what = parser.add_argument(
         "what", metavar="ARM.yaml|RECORDING", nargs="?",
-        help="arm to move; or what to play: the folder of a rosbag2 recording, or a CSV table of joint angles",
+        help="arm to move, by its file or the name of one of the library's; or what to play: the folder of a rosbag2 "
+        "recording, or a CSV table of joint angles",
     )  # fmt: skip
-    parser.add_argument(
+    arm = parser.add_argument(
         "--arm", metavar="ARM.yaml", help="arm of the recording; default: modules of the prototype, as many as it has"
     )
+    completes_files(what, ARMS, "csv")
+    completes_files(arm, ARMS)
     parser.add_argument("--host", default=HOST, help="address to serve on; default %(default)s, this host alone")
     parser.add_argument("--port", type=int, default=PORT, help="0 for any that is free; default %(default)s")
     parser.set_defaults(run=run)
@@ -63,7 +68,7 @@ def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
     from continuum.viewer.tracks import read_tracks
 
     what = options.what
-    if what is None or (Path(what).suffix in (".yaml", ".yml") and not is_bag(what)):
+    if what is None or (_is_arm(what) and not is_bag(what)):
         if what is not None and options.arm is not None:
             raise InvalidValueError("--arm", options.arm, f"only beside a recording; {what} is an arm itself")
         file = options.arm if what is None else what
@@ -80,3 +85,9 @@ def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
         arm = load_arm(options.arm)
         check_joints(what, tracks.joints.names, arm)
     return arm, Playback(tracks, Path(what).name)
+
+
+def _is_arm(what: str) -> bool:
+    """Whether an arm is meant: by a YAML file, or by a bare name that nothing here has."""
+    path = Path(what)
+    return path.suffix in (".yaml", ".yml") or (path.name == what and not path.suffix and not path.exists())

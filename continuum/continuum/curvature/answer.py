@@ -1,4 +1,4 @@
-"""All holds of some recordings beside constant curvature and a dynamic model."""
+"""All holds of some recordings compared with constant curvature and a dynamic model."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from continuum.curvature.comparison import Comparison, Overall, compare, overall
 from continuum.curvature.holds import Hold, find_holds
 from continuum.curvature.median_error import median_errors
 from continuum.dynamics.model import Model
-from continuum.dynamics.reading import Reading
 from continuum.dynamics.statics.resting_arm import RestingArm
+from continuum.dynamics.trajectory import Reading
 from continuum.errors import InvalidValueError
 from continuum.inertial.stillness import SHORTEST_REST
 from continuum.recordings.recording import Recording
 
 _CORRECTIONS = 30
-"""Of what sensors read: a gain of 1.5, the largest, leaves half of the error each time."""
+"""Corrections of sensor readings: at a gain of 1.5, the largest, each leaves half of the error."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +27,9 @@ class Answer:
     """What the recordings show.
 
     Attributes:
-        holds: in the order of the recordings and of time.
-        each: the comparison of each hold.
-        overall: of all together.
+        holds: holds in the order of the recordings and of time.
+        each: comparison of each hold.
+        overall: comparison of all together.
     """
 
     holds: tuple[Hold, ...]
@@ -46,13 +46,13 @@ def answer(model: Model, holds: Sequence[Hold], slow: float | None = None) -> An
     """Compare each hold, and all together.
 
     Args:
-        model: of the arm.
-        holds: one or more, of one recording or several.
+        model: model of the arm.
+        holds: one or more holds, of one recording or several.
         slow: standard deviation of the angles' error that is not white [rad]; None: see `median_errors`.
 
     Raises:
-        InvalidValueError: joint torques drive the model, it has one joint or another number than was recorded, or it
-            cannot hold one of the bends.
+        InvalidValueError: joint torques drive the model, it has only one joint or another number than was recorded, or
+            it cannot hold one of the bends.
     """
     arm, errors = RestingArm(model), median_errors(holds, slow)
     for hold in holds:
@@ -65,26 +65,22 @@ def answer(model: Model, holds: Sequence[Hold], slow: float | None = None) -> An
 
 
 def holds_of(model: Model, recordings: Sequence[Recording]) -> list[Hold]:
-    """Holds of recordings, each of which has one or more, of the model's arm.
+    """Return the holds of recordings of the model's arm; some recordings may have none.
 
     Raises:
-        InvalidValueError: a recording has another number of joints or other inputs than the model, or no hold.
+        InvalidValueError: a recording has another number of joints or other inputs than the model, or none has a hold.
     """
-    found: list[Hold] = []
     for recording in recordings:
         recording.inputs_for(model)
-        here = find_holds(recording)
-        if not here:
-            allowed = (
-                f"1 or more; a hold is {SHORTEST_REST:g} s without a motion, or rows of one tension before a release"
-            )
-            raise InvalidValueError(f"{recording.name}: number of holds", 0, allowed)
-        found += here
+    found = [hold for recording in recordings for hold in find_holds(recording)]
+    if not found:
+        allowed = f"1 or more; a hold is {SHORTEST_REST:g} s without a motion, or rows of one tension before a release"
+        raise InvalidValueError("number of holds", 0, allowed)
     return found
 
 
 def true_angles(model: Model, hold: Hold) -> Array:
-    """Joint angles of a hold without what the model's sensors add to them, (n,) [rad]."""
+    """Return the joint angles of a hold without the errors of the model's sensors, (n,) [rad]."""
     begun = float(hold.recording.times[0])
     times, theta = np.array([begun + hold.since_begin]), hold.theta
     for _ in range(_CORRECTIONS):

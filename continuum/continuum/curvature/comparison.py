@@ -1,14 +1,14 @@
-"""Constant curvature and the dynamic model beside a measured posture: how far each is from it, and which is nearer.
+"""Constant curvature and the dynamic model compared with a measured posture: distances, and which model is nearer.
 
 Both models bend by the measured total. With the residuals r of the joint angles,
 
     D = |r| / sqrt(n),    S = D_dynamic^2 - D_constant^2,    D_dynamic - D_constant = S / (D_dynamic + D_constant)
 
-S decides, not the difference: measuring errors lengthen both distances, most the shorter one, but cancel in S, which is
-linear in the measured angles but for the totals. The measurement cannot tell where S is within 1.96 of its standard
-deviations, nor where the models are as near to each other as 1.96 standard deviations of an angle, as in an arm that is
-nearly straight. Residuals follow the measured angles theta by dr/dtheta = I - m 1^T, m being the model's own change
-with the total bend: 1/n at every joint, or the dynamic model's.
+S decides, not the difference: measurement errors increase both distances, the shorter one most, but cancel in S, which
+is linear in the measured angles except for their total. The result is undecided if S is within 1.96 of its standard
+deviations of 0, or if the models are as close to each other as 1.96 standard deviations of an angle, as in a nearly
+straight arm. Residuals follow the measured angles theta by dr/dtheta = I - m 1^T, where m is the change of the model
+with the total bend: 1/n at every joint, or that of the dynamic model.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from continuum.errors import InvalidValueError
 from continuum.recordings.motion_figure import backbone
 
 LEVEL = 1.959964
-"""Standard deviations from the middle of a normal distribution to its quantiles of 2.5 and 97.5 %."""
+"""Standard deviations from the mean of a normal distribution to its 2.5 and 97.5 % quantiles."""
 
 
 class Nearer(Enum):
@@ -51,24 +51,24 @@ class Distance:
 
     @property
     def low(self) -> float:
-        """Quantile of 2.5 %, 0 at least."""
+        """2.5 % quantile, at least 0."""
         return max(self.value - LEVEL * self.sd, 0.0)
 
     @property
     def high(self) -> float:
-        """Quantile of 97.5 %."""
+        """97.5 % quantile."""
         return self.value + LEVEL * self.sd
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """One posture.
+    """Comparison of one posture.
 
     Attributes:
         p: parameters of the arm.
         theta: measured joint angles, (n,) [rad].
-        covariance: of their errors, (n, n) [rad^2].
-        held: the dynamic model's posture with the same total bend.
+        covariance: covariance of their errors, (n, n) [rad^2].
+        held: posture of the dynamic model with the same total bend.
     """
 
     p: Parameters
@@ -83,39 +83,39 @@ class Comparison:
 
     @property
     def quantiles(self) -> Array:
-        """Quantiles of 2.5 and 97.5 % of the measured angles, (2, n) [rad]."""
+        """2.5 and 97.5 % quantiles of the measured angles, (2, n) [rad]."""
         reach = LEVEL * np.sqrt(np.diag(self.covariance))
         return np.stack([self.theta - reach, self.theta + reach])
 
     @property
     def beyond_friction(self) -> NDArray[np.intp]:
-        """Joints, from 0, whose whole interval is outside of what dry friction holds in the dynamic model."""
+        """Joints, from 0, whose whole interval is outside the range that dry friction holds in the dynamic model."""
         low, high = self.quantiles
         return np.flatnonzero((high < self.held.zone.lower) | (low > self.held.zone.upper))
 
     @cached_property
     def angles_to_constant(self) -> Distance:
-        """Root mean square over the joints [rad]."""
+        """Distance to constant curvature, root mean square over the joints [rad]."""
         return self._of_angles(self.constant, np.full(self.theta.size, 1 / self.theta.size))
 
     @cached_property
     def angles_to_dynamic(self) -> Distance:
-        """The same."""
+        """Distance to the dynamic model, root mean square over the joints [rad]."""
         return self._of_angles(self.held.theta, self.held.derivative)
 
     @cached_property
     def tip_to_constant(self) -> Distance:
-        """Between tips in the plane [m]."""
+        """Distance to the tip of constant curvature, in the plane [m]."""
         return self._of_tip(self.constant, np.full(self.theta.size, 1 / self.theta.size))
 
     @cached_property
     def tip_to_dynamic(self) -> Distance:
-        """The same."""
+        """Distance to the tip of the dynamic model, in the plane [m]."""
         return self._of_tip(self.held.theta, self.held.derivative)
 
     @cached_property
     def difference(self) -> tuple[float, Array]:
-        """S [rad^2] and its slopes by the measured angles, (n,) [rad]."""
+        """S [rad^2] and its derivatives by the measured angles, (n,) [rad]."""
         n, even = self.theta.size, self.theta - self.constant
         uneven = self.theta - self.held.theta
         derivatives = 2 / n * (uneven @ _following(self.held.derivative) - even)
@@ -123,7 +123,7 @@ class Comparison:
 
     @property
     def nearer(self) -> Nearer:
-        """By this posture alone."""
+        """Nearer model by this posture alone."""
         if not self.resolved:
             return Nearer.UNDECIDED
         s, derivatives = self.difference
@@ -131,17 +131,17 @@ class Comparison:
 
     @property
     def models_apart(self) -> float:
-        """Root mean square distance of the two models from each other [rad]."""
+        """Root mean square distance between the two models [rad]."""
         return float(np.sqrt(np.mean((self.held.theta - self.constant) ** 2)))
 
     @property
     def resolved(self) -> bool:
-        """Whether they are further from each other than an angle is measured exactly."""
+        """Whether the distance between the models exceeds the uncertainty of an angle."""
         return self.models_apart > LEVEL * float(np.sqrt(np.mean(np.diag(self.covariance))))
 
     @property
     def closer_by(self) -> Distance:
-        """By how much the nearer model is nearer [rad]."""
+        """Difference of the two distances, by which the nearer model is nearer [rad]."""
         s, derivatives = self.difference
         return _closer(s, float(np.sqrt(derivatives @ self.covariance @ derivatives)), self._both)
 
@@ -162,13 +162,13 @@ class Comparison:
 
 @dataclass(frozen=True)
 class Overall:
-    """Several postures together.
+    """Comparison of several postures together.
 
     Attributes:
         to_constant, to_dynamic: root mean square distance over joints and postures [rad].
-        closer_by: by how much the nearer model is nearer [rad].
-        nearer: over all; not told where single postures contradict each other.
-        counts: of the postures' own answers.
+        closer_by: difference of the two distances, by which the nearer model is nearer [rad].
+        nearer: nearer model over all postures; undecided if single postures contradict each other.
+        counts: number of postures with each answer.
     """
 
     to_constant: float
@@ -181,30 +181,31 @@ class Overall:
 def compare(
     arm: RestingArm, theta: Array, covariance: Array, tension: Array | None = None, approach: int = 0
 ) -> Comparison:
-    """Both models beside measured joint angles.
+    """Compare both models with measured joint angles.
 
     Args:
-        arm: of the dynamic model.
-        theta: measured, (n,) [rad].
-        covariance: of their errors, (n, n) [rad^2].
-        tension: of each cable at the base, (2,) [N]; None where it is not known.
-        approach: which way the arm bent last: 1 towards positive angles, -1 towards negative ones, 0: from straight.
+        arm: arm of the dynamic model.
+        theta: measured joint angles, (n,) [rad].
+        covariance: covariance of their errors, (n, n) [rad^2].
+        tension: tension of each cable at the base, (2,) [N]; None if unknown.
+        approach: direction of the last bending: 1 towards positive angles, -1 towards negative ones, 0 from straight.
 
     Raises:
-        InvalidValueError: the arm has one joint or another number than was measured, or the model cannot hold the bend.
+        InvalidValueError: the arm has only one joint or another number than was measured, or the model cannot hold the
+            bend.
     """
     n = arm.model.n_joints
     if n < 2:
         raise InvalidValueError("number of joints", n, "2 or more: one joint has no curvature that could vary")
     if theta.shape != (n,):
-        raise InvalidValueError("number of joints", theta.size, f"{n}, as the model has")
+        raise InvalidValueError("number of joints", theta.size, f"{n}, as in the model")
     total = float(theta.sum())
     side = approach or (1 if total > 0 else -1)
     return Comparison(arm.model.parameters, theta, covariance, held_posture(arm, total, tension, side))
 
 
 def overall(each: Sequence[Comparison], errors: MedianErrors) -> Overall:
-    """One answer for several postures, whose errors are not independent of each other within a recording."""
+    """Return one answer for several postures; their errors within a recording are not independent."""
     s = float(np.mean([one.difference[0] for one in each]))
     derivatives = np.stack([one.difference[1] for one in each]) / len(each)
     sd = float(np.sqrt(errors.variance(derivatives)))
@@ -227,17 +228,17 @@ def _nearer(s: float, sd: float) -> Nearer:
 
 
 def _closer(s: float, sd: float, both: float) -> Distance:
-    """S as a difference of distances; both of them are 0 where the models agree with each other and with the arm."""
+    """Return S as a difference of distances; both are 0 where the models agree with each other and with the arm."""
     return Distance(abs(s) / both, sd / both) if both > 0 else Distance(0.0, 0.0)
 
 
 def _following(derivative: Array) -> Array:
-    """dr/dtheta of a model that changes by ``derivative`` (n,) with the total bend, (n, n)."""
+    """Return dr/dtheta of a model that changes by ``derivative`` (n,) with the total bend, (n, n)."""
     return np.asarray(np.eye(derivative.size) - np.outer(derivative, np.ones(derivative.size)))
 
 
 def _length(vector: Array, by_theta: Array, covariance: Array) -> Distance:
-    """Length of a vector (m,) and its error, by the vector's slopes (m, n)."""
+    """Return the length of a vector (m,) and its error, from the vector's derivatives (m, n)."""
     length, moved = float(np.linalg.norm(vector)), by_theta @ covariance @ by_theta.T
     if length == 0:
         return Distance(0.0, float(np.sqrt(np.trace(moved))))
@@ -245,7 +246,10 @@ def _length(vector: Array, by_theta: Array, covariance: Array) -> Distance:
 
 
 def _tip(theta: Array, p: Parameters) -> tuple[Array, Array]:
-    """Tip in the plane, (2,) [m], and its slopes by the joint angles, (2, n): a joint turns all that is beyond it."""
+    """Return the tip in the plane, (2,) [m], and its derivatives by the joint angles, (2, n).
+
+    A joint turns all that is beyond it.
+    """
     points = backbone(theta, p)
     arms = points[-1] - points[1:-1]
     return points[-1], np.stack([-arms[:, 1], arms[:, 0]])

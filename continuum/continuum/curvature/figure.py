@@ -1,4 +1,4 @@
-"""The thesis's Fig. 10: joint angles at one total bend, and the backbone in the plane."""
+"""Fig. 10 of the thesis: joint angles at one total bend, and the backbone in the plane."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from continuum.whole_file import write_figure
 
 _MEASURED, _CONSTANT, _DYNAMIC = "black", "#1b7837", "#2166ac"
 _SIZE, _FONT = (5.6, 8.2), 11.5  # inches, points: letters of 11 pixels where the picture is 390 pixels wide
-_MANY = 12  # joints, from which on not every one has its number
+_MANY = 12  # joints, above which not every one is numbered
 
 
 def write_curvature_figure(one: Comparison, path: str | Path, title: str = "") -> None:
-    """Draw the picture, upright, so that a narrow screen shows it too.
+    """Draw the picture in portrait format, so that it fits a narrow screen too.
 
     Raises:
         FileError: it cannot be written, or its format is not known.

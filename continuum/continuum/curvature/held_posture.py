@@ -1,13 +1,13 @@
 """The posture in which the dynamic model holds a given total bend.
 
-What makes the model's total bend the given one is tried in this order.
+The total bend is held in the first possible of these ways.
 
-1. Known tensions, or no tension where none is known, and the joints' dry friction: all joints need the same part of
-   their break-away torque, as while an arm is pulled slowly (1 or -1), or less. At 0 it is an equilibrium.
-2. Where friction cannot hold it, known tensions times a factor, at an equilibrium.
-3. Where they cannot either, or none are known, one cable, that on the side of the bend, at an equilibrium.
+1. By known tensions, or no tension if none is known, and the joints' dry friction: all joints need the same fraction of
+   their break-away torque, 1 or -1 as in an arm that is pulled slowly, or less. At 0 it is an equilibrium.
+2. If friction cannot hold it: by known tensions times a factor, at an equilibrium.
+3. If they cannot either, or none are known: by one cable, on the side of the bend, at an equilibrium.
 
-Cables lose tension over the discs as they did when they slid last (Eq. 15).
+Cables lose tension over the discs as they did when they last slid (Eq. 15).
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ _MOST = 1e4  # [N], or times the known tensions
 
 @dataclass(frozen=True)
 class HeldPosture:
-    """What the model holds.
+    """A posture that the model holds.
 
     Attributes:
         theta: joint angles, (n,) [rad].
         derivative: their change with the total bend, (n,).
-        load: tensions at the base, and which way the cables slid last.
-        friction: part of its break-away torque that every joint needs, from -1 to 1; 0 at an equilibrium.
-        zone: what dry friction holds under that load.
-        known: what dry friction holds in total under the known tensions, (2,) [rad], where it does not hold this bend.
+        load: tensions at the base, and the direction in which the cables slid last.
+        friction: fraction of its break-away torque that every joint needs, from -1 to 1; 0 at an equilibrium.
+        zone: postures that dry friction holds under that load.
+        known: range of total bends that dry friction holds under the known tensions, (2,) [rad], if this is not one.
     """
 
     theta: Array
@@ -55,13 +55,13 @@ class HeldPosture:
 
 
 def held_posture(arm: RestingArm, total_bend: float, tension: Array | None, approach: int) -> HeldPosture:
-    """The posture whose joint angles add up to ``total_bend``.
+    """Return the posture whose joint angles add up to ``total_bend``.
 
     Args:
-        arm: of the model.
-        total_bend: [rad].
-        tension: of each cable at the base, (2,) [N]; None where it is not known.
-        approach: which way the joints bent last: 1 towards positive angles, -1 towards negative ones.
+        arm: arm of the model.
+        total_bend: sum of the joint angles [rad].
+        tension: tension of each cable at the base, (2,) [N]; None if unknown.
+        approach: direction in which the joints bent last: 1 towards positive angles, -1 towards negative ones.
 
     Raises:
         InvalidValueError: no tension of one cable holds this bend.
@@ -79,14 +79,14 @@ def held_posture(arm: RestingArm, total_bend: float, tension: Array | None, appr
         side = np.sign(total_bend - (0.0 if hangs is None else hangs.theta.sum()))
         pulled = _by_tension(arm, Load(1.0 * (side == SIDES), approach), total_bend)
     if pulled is None:
-        allowed = f"one that up to {_MOST:g} N of one cable hold in the model"
+        allowed = f"one that up to {_MOST:g} N of one cable can hold in the model"
         raise InvalidValueError("total bend [degrees]", round(float(np.degrees(total_bend)), 2), allowed)
     derivative = _derivative(arm, pulled.unknowns, pulled.load)
     return HeldPosture(pulled.theta, derivative, pulled.load, 0.0, sticking_zone(arm, pulled), known)
 
 
 def _by_friction(arm: RestingArm, rests: Equilibrium, total: float) -> tuple[Array, float] | None:
-    """Angles and states (n + n_states,), and the part of their break-away torque that all joints need to stay there."""
+    """Return angles and states (n + n_states,), and the fraction of break-away torque that holds all joints there."""
     held = break_away(arm.model)
     found: dict[float, Array] = {0.0: rests.unknowns}
 
@@ -107,9 +107,9 @@ def _by_friction(arm: RestingArm, rests: Equilibrium, total: float) -> tuple[Arr
 
 
 def _by_tension(arm: RestingArm, load: Load, total: float) -> Equilibrium | None:
-    """The stable equilibrium with the total bend [rad] under tensions in proportion to the load's; None: there is none.
+    """Return the stable equilibrium with the total bend [rad] under tensions proportional to the load's, or None.
 
-    From no tension upwards, as `continuum.dynamics.pulled_posture`, which knows one cable and one direction.
+    Tensions rise from zero, as in `continuum.dynamics.pulled_posture`, which handles one cable and one direction.
     """
     hangs = _stable(arm, Load(np.zeros(SIDES.size), load.approach), None)
     if hangs is None or not np.any(load.tension):
@@ -117,7 +117,7 @@ def _by_tension(arm: RestingArm, load: Load, total: float) -> Equilibrium | None
     found, side = {0.0: hangs}, float(np.sign(total - hangs.theta.sum()))
 
     def missing(factor: float) -> float:
-        """How much further the arm has to bend [rad]."""
+        """Return how much further the arm has to bend [rad]."""
         near = found[min(found, key=lambda other: abs(other - factor))]
         rests = _stable(arm, Load(factor * load.tension, load.approach), near.theta)
         if rests is None:
@@ -143,9 +143,9 @@ def _stable(arm: RestingArm, load: Load, start: Array | None) -> Equilibrium | N
 
 
 def _derivative(arm: RestingArm, y: Array, load: Load) -> Array:
-    """Change of the joint angles with the total bend as the same torque grows at all joints, (n,).
+    """Return the change of the joint angles with the total bend as the same torque grows at all joints, (n,).
 
-    A cable's pull grows nearly so: its lever is the same at every disc but for the joint's angle and its losses.
+    A cable's pull nearly does that: its lever is the same at every disc except for the joint's angle and its losses.
     """
     n = arm.model.n_joints
     yielding = np.linalg.solve(joint_stiffness(arm.pull(y, load)[1], n), np.ones(n))

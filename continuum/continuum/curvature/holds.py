@@ -1,15 +1,15 @@
 """Stretches of a recording in which no joint moves.
 
-Angles are averaged over parts of a tenth of a second. In a hold the averages of each joint are no further from the
+Angles are averaged over parts of a tenth of a second. In a hold, the averages of each joint are no further from the
 middle than
 
     hypot(SETTLED, z sigma / sqrt(rows in a part)),    z = 3
 
-that is what counts as the same posture, and what white noise of standard deviation sigma makes of it, both from
-elsewhere in the library: `continuum.inertial.stillness` and `continuum.estimation.sensor_noise`. A hold lasts for
-SHORTEST_REST or longer, and within a part the rows vary by no more than that. The longest stretch is taken first, so
-that the end of a motion is not its beginning; what creeps is cut into several. Where constant tensions end in a
-release, the rows before it are a hold of any length.
+SETTLED, from `continuum.inertial.stillness`, is what counts as the same posture; the other term is the effect of white
+noise of standard deviation sigma, from `continuum.estimation.sensor_noise`. A hold lasts for SHORTEST_REST or longer,
+and within a part the rows vary by no more than that. The longest stretch is taken first, so that no hold begins with
+the end of a motion; a creeping posture is cut into several holds. If constant tensions end in a release, the rows
+before it are a hold of any length.
 """
 
 from __future__ import annotations
@@ -25,23 +25,23 @@ from continuum.inertial.stillness import SETTLED, SHORTEST_REST
 from continuum.recordings.recording import Recording
 
 _PART = 0.1
-"""Duration of a part [s]: some rows of any usual sensor, a small piece of an arm's swing."""
+"""Duration of a part [s]: a few rows of any usual sensor, and a small part of an arm's swing."""
 
 _SIGMAS = 3.0
 
 
 @dataclass(frozen=True)
 class Hold:
-    """One stretch.
+    """One stretch without motion.
 
     Attributes:
-        recording: it is a part of.
-        rows: of the recording.
+        recording: recording that it is a part of.
+        rows: rows of the recording.
         theta: median of each joint's angle, (n,) [rad].
-        noise: covariance of a row's angles by white noise, (n, n) [rad^2].
-        tension: median of each cable's, (2,) [N]; None where no tensions were recorded.
-        approach: which way the arm bent last: 1 towards positive angles, -1 towards negative ones. Without a motion
-            before the hold the arm is taken to have been bent from straight.
+        noise: covariance of a row's angles due to white noise, (n, n) [rad^2].
+        tension: median of each cable's tension, (2,) [N]; None if no tensions were recorded.
+        approach: direction of the last bending: 1 towards positive angles, -1 towards negative ones. Without a motion
+            before the hold, the arm is assumed to have been bent from straight.
     """
 
     recording: Recording
@@ -53,22 +53,22 @@ class Hold:
 
     @property
     def times(self) -> Array:
-        """Of the rows [s]."""
+        """Times of the rows [s]."""
         return self.recording.times[self.rows]
 
     @property
     def since_begin(self) -> float:
-        """From the recording's first row to the middle of the hold [s]."""
+        """Time from the recording's first row to the middle of the hold [s]."""
         return float((self.times[0] + self.times[-1]) / 2 - self.recording.times[0])
 
     @property
     def angles(self) -> Array:
-        """Of the rows, (n_rows, n) [rad]."""
+        """Angles of the rows, (n_rows, n) [rad]."""
         return self.recording.theta[self.rows]
 
 
 def find_holds(recording: Recording) -> list[Hold]:
-    """All holds of a recording, in the order of time."""
+    """Find all holds of a recording, in the order of time."""
     parts = _Parts.of(recording)
     ends = np.append(parts.first, recording.times.size)
     found = [
@@ -83,7 +83,7 @@ def find_holds(recording: Recording) -> list[Hold]:
 
 
 def hold_at(recording: Recording, rows: slice) -> Hold:
-    """The hold of rows in which the arm is known to have rested, one row or more."""
+    """Return the hold of one or more rows in which the arm is known to have rested."""
     return _hold(recording, rows, _Parts.of(recording))
 
 
@@ -92,12 +92,12 @@ class _Parts:
     """Parts of a recording.
 
     Attributes:
-        first: row of each, (n_parts,).
-        mean: of its angles, (n_parts, n) [rad].
-        noise: covariance of a row's angles by white noise, (n, n) [rad^2].
-        limit: within which the means of a hold are, (n,) [rad].
-        still: whether its rows vary by no more than white noise and SETTLED, (n_parts,): an arm that shakes has means
-            that stay.
+        first: first row of each, (n_parts,).
+        mean: mean angles of each, (n_parts, n) [rad].
+        noise: covariance of a row's angles due to white noise, (n, n) [rad^2].
+        limit: range of the means of a hold, (n,) [rad].
+        still: whether the rows of each vary by no more than white noise and SETTLED, (n_parts,): the means of a
+            shaking arm stay constant.
     """
 
     first: NDArray[np.intp]
@@ -129,7 +129,7 @@ def _hold(recording: Recording, rows: slice, parts: _Parts) -> Hold:
 
 
 def _before_release(recording: Recording) -> int:
-    """Number of rows before cables are let go that constant tensions held until then; 0 where there is no release."""
+    """Return the number of rows before a release during which cables pull; 0 if there is no release."""
     pull = recording.pull
     let_go = np.any(pull.values < 0, axis=1)
     if not np.any(let_go) or not np.any(pull.values > 0):
@@ -138,7 +138,7 @@ def _before_release(recording: Recording) -> int:
 
 
 def _longest_first(parts: Array, limit: Array) -> list[tuple[int, int]]:
-    """Stretches whose averages stay within ``limit`` (n,) of each other, as first part and one past the last.
+    """Return the stretches whose averages stay within ``limit`` (n,), as first part and one past the last.
 
     A part whose averages are NaN belongs to none.
     """

@@ -1,16 +1,16 @@
-"""How far the medians of holds may be from the true joint angles: covariances of their errors.
+"""Covariances of the errors of holds' medians from the true joint angles.
 
     median - true angle = e + b + w(t) + d t
 
-e is white noise: a median of n rows of covariance C has pi C / (2 n). b is the slow error of each joint's sensor, one
-for all holds of a recording, of standard deviation SLOW. Since the recording began, w wanders and d t drifts, as
-integrated rates do: a random walk of variance q t, and the bias of a gyro that is left, d. What shows both are the
-holds, in which the true angle does not change. From one T = 0.5 s to the next, of n rows each, the mean angle changes
-by d T on average, with variance 2 q T / 3 + 2 C / n about that. Holds that follow each other at once, because the
-angles wander by more than a hold may, count as one.
+e is white noise: the median of n rows of covariance C has covariance pi C / (2 n). b is the slow error of each joint's
+sensor, the same in all holds of a recording, with standard deviation SLOW. From the start of the recording, w wanders
+and d t drifts, as integrated rates do: w is a random walk of variance q t, d the remaining bias of a gyroscope. Holds
+show both, as the true angle does not change in them. From one window of T = 0.5 s with n rows to the next, the mean
+angle changes by d T on average, with variance 2 q T / 3 + 2 C / n. Adjacent holds, separate only because the angles
+wander by more than a hold may, count as one.
 
-Errors b, w and d of different joints are taken as independent. Where neighbouring joints share a sensor, their errors
-oppose each other, and a difference between base and tip is more certain than these covariances say.
+Errors b, w and d of different joints are assumed independent. If neighbouring joints share a sensor, their errors have
+opposite signs, and a difference between base and tip is more certain than these covariances say.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from continuum.estimation.sensor_noise import SLOW
 from continuum.inertial.stillness import SHORTEST_REST
 
 _WINDOW = SHORTEST_REST / 2
-"""From which to the next the wander is seen [s]; the shortest hold has two."""
+"""Length of the windows whose changes show the wander [s]; the shortest hold has two."""
 
 _TELLING = 4
-"""Changes from which on their mean and their variance are both known to better than themselves."""
+"""Least number of changes for both a mean and a variance: the relative error of the variance is then below 1."""
 
 
 @dataclass(frozen=True)
@@ -45,23 +45,22 @@ class MedianErrors:
     shared: Array
 
     def covariance(self, hold: int) -> Array:
-        """Of one hold's medians, (n, n) [rad^2]."""
+        """Return the covariance of one hold's medians, (n, n) [rad^2]."""
         white = self.white[hold]
         return np.asarray(white + np.diag(self.shared[hold, hold]))
 
     def variance(self, derivatives: Array) -> float:
-        """Variance of a function of all medians by its derivatives, (n_holds, n) [./rad]."""
+        """Return the variance of a function of all medians, given its derivatives, (n_holds, n) [./rad]."""
         by_white = np.einsum("hi,hij,hj", derivatives, self.white, derivatives)
         return float(by_white + np.einsum("hi,hki,ki", derivatives, self.shared, derivatives))
 
 
 def median_errors(holds: Sequence[Hold], slow: float | None = None) -> MedianErrors:
-    """Errors of the medians of holds, those of several recordings among them.
+    """Return the errors of the medians of holds, of one recording or several.
 
     Args:
-        holds: one or more.
-        slow: standard deviation of all that is not white, where it is known [rad]; without, SLOW, what wanders and what
-            drifts.
+        holds: one or more holds.
+        slow: standard deviation of all errors that are not white, if known [rad]; if None, SLOW, wander and drift.
     """
     white = np.stack([np.pi / 2 * hold.noise / len(hold.times) for hold in holds])
     recordings = [id(hold.recording) for hold in holds]
@@ -77,9 +76,9 @@ def median_errors(holds: Sequence[Hold], slow: float | None = None) -> MedianErr
 
 
 def _wander_and_drift(holds: Sequence[Hold]) -> tuple[float, Array]:
-    """q of one recording, a mean over joints [rad^2/s], and d^2 of each joint, (n,) [(rad/s)^2].
+    """Return q of one recording, a mean over joints [rad^2/s], and d^2 of each joint, (n,) [(rad/s)^2].
 
-    Each is 0 where it is less than what the other errors make. Few changes do not tell a drift from a wander.
+    Each is 0 if below the effect of the other errors. Too few changes cannot separate drift from wander; d is then 0.
     """
     changes, noise = zip(*(_changes(holds[0], rows) for rows in _joined(holds)), strict=True)
     moved, by_noise = np.concatenate(changes), np.concatenate(noise)
@@ -95,10 +94,10 @@ def _wander_and_drift(holds: Sequence[Hold]) -> tuple[float, Array]:
 
 
 def _changes(hold: Hold, rows: slice) -> tuple[Array, Array]:
-    """Changes of the mean angles from window to window, (k, n) [rad], and their variances by white noise."""
+    """Return the changes of the mean angles from window to window, (k, n) [rad], and their variances by white noise."""
     times, theta = hold.recording.times[rows], hold.recording.theta[rows]
     first = np.flatnonzero(np.diff(np.floor((times - times[0]) / _WINDOW), prepend=-1.0))
-    counts = np.diff(first)[:, None]  # the last one, which may be shorter, is left out
+    counts = np.diff(first)[:, None]  # without the last one, which may be shorter
     means = np.add.reduceat(theta[: first[-1]], first[:-1], axis=0) / counts if first.size > 1 else theta[:0]
     if len(means) < 2:
         return theta[:0], theta[:0]
@@ -106,7 +105,7 @@ def _changes(hold: Hold, rows: slice) -> tuple[Array, Array]:
 
 
 def _joined(holds: Sequence[Hold]) -> list[slice]:
-    """Rows of holds, those that follow each other at once as one."""
+    """Return the rows of holds, with adjacent ones joined."""
     joined: list[slice] = []
     for hold in sorted(holds, key=lambda one: one.rows.start):
         if joined and joined[-1].stop == hold.rows.start:

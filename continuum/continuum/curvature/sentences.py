@@ -9,18 +9,18 @@ from continuum.curvature.comparison import LEVEL, Comparison, Distance, Nearer, 
 
 
 def nearer_in_words(one: Comparison) -> str:
-    """Which model is nearer to one posture, and by how much more than the measurement's uncertainty."""
+    """Say which model is nearer to one posture, and by how much, with the uncertainty of the measurement."""
     if not one.resolved:
         apart = f"The models are {np.degrees(one.models_apart):.2f} degrees rms from each other"
-        return f"Which model is nearer cannot be told. {apart}, which is less than the measurement resolves."
+        return f"Which model is nearer cannot be decided. {apart}, which is less than the measurement resolves."
     distances = one.angles_to_constant.value, one.angles_to_dynamic.value
     return f"{_which(one.nearer, distances, one.closer_by)}. {friction_in_words(one)}"
 
 
 def overall_in_words(found: Overall) -> str:
-    """The same over several postures."""
+    """Say the same over several postures."""
     n, dynamic, constant = sum(found.counts.values()), found.counts[Nearer.DYNAMIC], found.counts[Nearer.CONSTANT]
-    alone = f"By themselves {dynamic} of them are nearer to the dynamic model, {constant} to constant curvature"
+    alone = f"Taken singly, {dynamic} of them are nearer to the dynamic model, {constant} to constant curvature"
     if dynamic and constant:
         against = _against((found.to_constant, found.to_dynamic))
         return f"The {n} holds contradict each other. {alone}. Distances over all: {against}."
@@ -29,20 +29,20 @@ def overall_in_words(found: Overall) -> str:
 
 
 def friction_in_words(one: Comparison) -> str:
-    """Whether the dynamic model's dry friction could hold the measured joint angles."""
+    """Say whether the dynamic model's dry friction could hold the measured joint angles."""
     beyond = one.beyond_friction + 1
     if np.any(np.isnan([one.held.zone.lower, one.held.zone.upper])):
-        return "What dry friction holds in the dynamic model was not found at every joint."
+        return "The range that dry friction holds in the dynamic model was not found at every joint."
     if beyond.size == 0:
         return "Every joint angle is one that dry friction holds in the dynamic model."
     if beyond.size == 1:
-        return f"Joint {beyond[0]} is bent to where dry friction does not hold it in the dynamic model."
+        return f"Joint {beyond[0]} is bent further than dry friction can hold it in the dynamic model."
     names = f"{', '.join(map(str, beyond[:-1]))} and {beyond[-1]}"
-    return f"Joints {names} are bent to where dry friction does not hold them in the dynamic model."
+    return f"Joints {names} are bent further than dry friction can hold them in the dynamic model."
 
 
 def tension_in_words(one: Comparison, recorded: Array | None) -> str:
-    """Which tensions hold the dynamic model's posture, and why not the recorded ones."""
+    """Say which tensions hold the dynamic model's posture, and why not the recorded ones."""
     held = one.held
     needed = _tensions(held.load.tension)
     if recorded is None:
@@ -58,7 +58,7 @@ def tension_in_words(one: Comparison, recorded: Array | None) -> str:
 
 
 def _tensions(tension: Array) -> str:
-    """Of the cables that pull."""
+    """List the tensions of the cables that pull."""
     pulls = [f"{value:.1f} N of cable {cable + 1}" for cable, value in enumerate(tension) if value > 0]
     return " and ".join(pulls) or "no tension"
 
@@ -67,7 +67,7 @@ def _which(nearer: Nearer, distances: tuple[float, float], by: Distance) -> str:
     amount = f"{np.degrees(by.value):.2f} +- {np.degrees(LEVEL * by.sd):.2f} degrees (95 %)"
     against = _against(distances)
     if nearer is Nearer.UNDECIDED:
-        return f"Which model is nearer cannot be told: {against}, a difference of {amount}"
+        return f"Which model is nearer cannot be decided: {against}, a difference of {amount}"
     name = "The dynamic model" if nearer is Nearer.DYNAMIC else "Constant curvature"
     return f"{name} is nearer by {amount}: {against}"
 

@@ -23,7 +23,7 @@ _COLUMNS = (
 
 
 def write_csv(answer: Answer, path: str | Path) -> None:
-    """Write a row for each joint of each hold; angles in degrees, quantiles of 2.5 and 97.5 %.
+    """Write a row for each joint of each hold, with angles in degrees and 2.5 and 97.5 % quantiles.
 
     Raises:
         FileError: the file cannot be written.

@@ -1,4 +1,4 @@
-"""The refitted model without any further effect, and the trajectories that go with it."""
+"""Fit of the baseline, the model without further effects, and smoothing of its trajectories."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ import numpy as np
 from continuum.discovery.coordinates import coordinates
 from continuum.discovery.gauss_newton import modes_along, moved
 from continuum.discovery.problem import Problem, State, linearise, near
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.measuring import lateness
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import InputKind, Model
 from continuum.errors import InvalidValueError
 from continuum.estimation.friction_modes import friction_modes
 from continuum.estimation.run import Run
@@ -21,15 +20,15 @@ from continuum.estimation.structure import Structure
 from continuum.recordings.recording import Recording
 
 LEVELS = 0.005 * 2.0 ** np.arange(6)
-"""Levels of the missing torque's standard deviation, as parts of the arm's torque: from less than any model's error to
-what makes a model useless."""
-_FIRST_LEVELS = (5, 5, 4)  # of the first iterations: large, so that a wrong model does not bend the trajectories
-_VARYING = 4  # different rows of inputs, fewer of which are a hold and a release
-_MOST_ITERATIONS, _SETTLED = 4, 2.0  # steps, and change of log-evidence after which there is none more
+"""Levels of the missing torque's standard deviation, as fractions of the arm's torque: from below any model's error to
+where a model is useless."""
+_FIRST_LEVELS = (5, 5, 4)  # of the first iterations: high, so that a wrong model does not distort the trajectories
+_VARYING = 4  # distinct rows of inputs; fewer are a hold and a release
+_MOST_ITERATIONS, _SETTLED = 4, 2.0  # most steps, and change of log-evidence below which they end
 
 
 def problem_of(structure: Structure, recordings: Sequence[Recording]) -> Problem:
-    """All that is fixed before a search."""
+    """Return what stays fixed during a search."""
     with_rates = all(recording.theta_rate is not None for recording in recordings)
     runs = tuple(run_of(recording, structure.given, with_rates) for recording in recordings)
     common = coordinates(structure, runs)
@@ -39,7 +38,7 @@ def problem_of(structure: Structure, recordings: Sequence[Recording]) -> Problem
 
 
 def run_of(recording: Recording, model: Model, with_rates: bool = True) -> Run:
-    """A recording's rows, with its rates where all recordings have them, and inputs of the model's kind."""
+    """Return the rows of a recording with inputs of the model's kind, and its rates if ``with_rates``."""
     n = recording.n_joints
     if recording.times.size < 8:
         raise InvalidValueError(f"rows of {recording.name}", recording.times.size, "8 or more")
@@ -56,7 +55,7 @@ def run_of(recording: Recording, model: Model, with_rates: bool = True) -> Run:
 
 
 def fitted_baseline(problem: Problem) -> State:
-    """Smooth and refit, with much missing torque allowed at first, then with as much as is most probable."""
+    """Smooth and refit, first with much missing torque allowed, then at its most probable level."""
     s = problem.structure
     stribeck = np.full(s.n, 0.0)
     ways = tuple(run.first_guess() for run in problem.runs)
@@ -75,16 +74,16 @@ def fitted_baseline(problem: Problem) -> State:
             break
         before, state = after, moved(lin, (), level, levels[level])
         levels = near(problem, levels[level])
-        if iteration == 0:  # rates are known better now; from here on modes are part of the likelihood
+        if iteration == 0:  # rates are known better now; from here on the modes stay fixed in the likelihood
             state = replace(state, modes=modes_along(problem, state))
             before = -np.inf
     return state
 
 
 def with_linear_inputs(problem: Problem) -> Problem | None:
-    """The problem with inputs that change linearly from row to row, as measured ones do; None where none varies.
+    """Return the problem with inputs linear between rows, as if measured; None if no input varies.
 
-    Commands hold from row to row. Either taken for the other is half a row early or late.
+    Commands hold from row to row. Mistaking one kind for the other shifts the inputs by half a row.
     """
     if all(len(np.unique(run.signal[1], axis=0)) < _VARYING for run in problem.runs):
         return None
@@ -92,7 +91,7 @@ def with_linear_inputs(problem: Problem) -> Problem | None:
 
 
 def has_tension(recordings: Sequence[Recording], model: Model) -> bool:
-    """Whether inputs drive the arm, not only hold it before a release."""
+    """Whether inputs drive the arm and do not only hold it before a release."""
     if model.inputs is not InputKind.CABLES:
         return True
     return any(int(np.sum(np.any(run_of(one, model).inputs > 0.3, axis=1))) > 12 * 2 for one in recordings)

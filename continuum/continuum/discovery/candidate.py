@@ -1,4 +1,4 @@
-"""A set of effects at its own optimum, with all that a decision needs to know of it."""
+"""A set of effects at its optimum, with what the decision needs."""
 
 from __future__ import annotations
 
@@ -9,35 +9,35 @@ import numpy as np
 from continuum.arrays import Array
 
 type Key = tuple[tuple[str, tuple[int, ...] | None], ...]
-"""Effects of a set and the joints at which each acts, from 0; None where it belongs to the whole arm."""
+"""Effects of a set and the joints at which each acts, from 0; None for an effect on the whole arm."""
 
 
-_EXACT = 1e-12  # rad: an error is no less, so that it has a logarithm
+_EXACT = 1e-12  # rad: least error, so that its logarithm is finite
 
 
 def mean_error(errors: Array) -> Array:
-    """Geometric mean over the segments, the last axis [rad]; infinite where a simulation failed."""
+    """Return the geometric mean over the segments, the last axis [rad]; infinite where a simulation failed."""
     return np.where(np.all(np.isfinite(errors), axis=-1), np.exp(np.mean(log_errors(errors), axis=-1)), np.inf)
 
 
 def log_errors(errors: Array) -> Array:
-    """Logarithms; NaN where a simulation failed."""
+    """Return the logarithms of errors; NaN where a simulation failed."""
     return np.log(np.maximum(errors, _EXACT))
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """A set of effects.
+    """A set of effects with the results of its fit.
 
     Attributes:
-        effects: of the set; empty for the refitted baseline.
-        errors: of open-loop simulations, root mean square by segment, (segments,) [rad]; NaN where one failed.
-        observations: residuals that are independent of each other, their number.
-        occam: what values that each recording has for itself cost, as `Fitted.occam`.
-        values: what its effects change; another's whose effects change less of these is nested in it.
-        departure: minus the logarithm of the prior density of the common values, less a constant.
-        zeros: probability that zeros which were set by hand are as far from the set's, where it is right.
-        agreement: probability that segments disagree as much about the effects' sizes, where these are constant.
+        effects: the set; empty for the refitted baseline.
+        errors: root mean square errors of open-loop simulations by segment, (segments,) [rad]; NaN where one failed.
+        observations: number of independent residuals.
+        occam: cost of the per-run values, as `Fitted.occam`.
+        values: values that its effects change; a set whose effects change a proper subset of them is nested in it.
+        departure: minus the log prior density of the common values, up to a constant.
+        zeros: p-value of the sensors' zeros that were set by hand, if the set is right.
+        agreement: p-value of the segments' disagreement about the effects' sizes, if these are constant.
     """
 
     effects: Key

@@ -1,4 +1,4 @@
-"""From recordings to candidates: baseline, screening, fits, once through."""
+"""The search from recordings to candidates: baseline, screening, fits."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from continuum.recordings.recording import Recording
 
 
 def silent(_what: str, _share: float) -> None:
-    """Tell nobody of progress."""
+    """Report no progress."""
 
 
 def examine(
@@ -43,7 +43,7 @@ def examine(
     measured: Sequence[HandMeasurement] = (),
     zeroed: Collection[int] = (),
 ) -> Examination:
-    """Search for sets of effects and simulate each open loop; the model has what was measured by hand."""
+    """Search for sets of effects and simulate each open loop; ``model`` includes the values measured by hand."""
     progress("compiling", 0.0)
     problem = replace(problem_for(recordings, model, effects, measured), zeroed=frozenset(zeroed))
     progress("baseline", 0.1)
@@ -54,7 +54,7 @@ def examine(
 
 
 class _Fits:
-    """Fits of sets, the baseline first, and the search from set to set."""
+    """Fits of sets, the baseline first, and the search among sets."""
 
     def __init__(self, start: Examined, judge: OutputError, other: OutputError | None, progress: Progress) -> None:
         self.judge, self._by_other_inputs, self.log = judge, other, list[str]()
@@ -69,12 +69,12 @@ class _Fits:
 
     @property
     def examined(self) -> list[Examined]:
-        """All sets."""
+        """All sets that were fitted."""
         return list(self._by_key.values())
 
     @property
     def nearest(self) -> Examined:
-        """The set whose simulations err least, its effects at their price."""
+        """The set with the least error, with a price on its effects."""
         observations = min(self.examined, key=_error).fit.observations
 
         def cost(one: Examined) -> float:
@@ -84,7 +84,7 @@ class _Fits:
         return min(possible, key=cost, default=self.examined[0])
 
     def search(self) -> None:
-        """Fit sets of one effect more about the nearest, while it errs by more than the sensors; then its like."""
+        """Add one effect at a time to the nearest set while it errs by more than the sensors; then fit alternatives."""
         best = None
         while best is not self.nearest:
             while (about := self._to_expand()) is not None:
@@ -102,7 +102,7 @@ class _Fits:
         self._settle()
 
     def add(self, found: Found, near: Sequence[Fitted]) -> None:
-        """Fit a set; where it is the nearest, fit its parts from there: they are nested in it."""
+        """Fit a set; if it is the nearest, fit its parts from its optimum: they are nested in it."""
         self._keep(found, self.judge.fit(found, near))
         if self.nearest.found.key == found.key:
             self._add_parts(self.nearest)
@@ -116,7 +116,7 @@ class _Fits:
         return best if effects < MOST and not done and (self._is_unexplained(best) or not effects) else None
 
     def _expand(self, about: Examined) -> None:
-        """Fit sets that have one effect more."""
+        """Fit sets with one more effect."""
         self._expanded.add(about.found.key)
         found = self._with_library(about)
         ranked = promises(self.judge, about.fit, found.lin.library)
@@ -134,14 +134,14 @@ class _Fits:
             self._try(one, about)
 
     def _mirror(self, best: Examined) -> None:
-        """Of two joints, fit the other one: that one rubs less is that the other rubs more than all others."""
+        """On an arm with two joints, fit the other joint too: less friction at one equals more at the other."""
         for one in best.found.chosen:
             if (twin := mirrored(best.fit, one, best.found.lin.library, self._problem.coordinates)) is not None:
                 found = Found(best.found.lin, (*(h for h in best.found.chosen if h is not one), twin[0]))
                 self._keep(found, self.judge.fit(found, [twin[1]]))
 
     def _exchange(self, best: Examined) -> None:
-        """Fit sets in which another effect stands for one of the best set's, from where a step from that set leads."""
+        """Fit sets in which another effect replaces one of the best set's, starting one step from that set."""
         chosen, gained = best.found.chosen, log(self.examined[0].fit.error / best.fit.error)
         for left in filter(is_linear, chosen if is_probable(best.candidate, self.examined[0].candidate) else ()):
             rest = with_library(self._problem, best.found.without(left))
@@ -159,9 +159,9 @@ class _Fits:
                 self.add(one, [near[one.chosen[-1]]])
 
     def _lacks(self, rest: Found, one: Promise, best: Examined, gained: float) -> bool:
-        """Whether no fit of a set is as near as a step from the best set's promises: none, or one at no optimum.
+        """Whether a set is not fitted, or not as well as a step from the best set promises.
 
-        One that was fitted from such a step is at its optimum, and the promise was too large.
+        A fit that started from such a step is at its optimum: then the promise was too large.
         """
         key = rest.key | {one.hypothesis.key}
         known = self._by_key.get(key)
@@ -170,16 +170,19 @@ class _Fits:
         )
 
     def _with_library(self, one: Examined) -> Found:
-        """A set with all hypotheses about it; the baseline has them."""
+        """Return a set with all hypotheses about it; the baseline has them already."""
         return with_library(self._problem, one.found) if one.found.chosen else one.found
 
     def _try(self, found: Found, about: Examined) -> None:
-        """Fit a set that was not yet, from where the set that it extends ended, and from where the nearest did."""
+        """Fit a set unless it was fitted before, starting from the set that it extends and from the nearest set."""
         if found.key not in self._by_key:
             self.add(found, [about.fit, *([self.nearest.fit] if self.nearest.fit is not about.fit else [])])
 
     def _reconsider_inputs(self) -> None:
-        """Take inputs the other way where the nearest set simulates nearer so; about a wrong model little tells."""
+        """Switch between held and linear inputs if that lowers the nearest set's error.
+
+        A set without effects, or one that explains the recordings, does not decide this.
+        """
         best, other = self.nearest, self._by_other_inputs
         if other is None or not best.found.chosen or not self._is_unexplained(best):
             return
@@ -191,20 +194,20 @@ class _Fits:
                 self._by_key[one.found.key] = Examined(one.found, again)
 
     def _refit_baseline(self) -> None:
-        """Fit the baseline from where the set ended that errs least."""
+        """Refit the baseline, starting from the set with the least error."""
         best, base = min(self.examined, key=_error), self.examined[0]
         if best is not base:
             self._keep(base.found, self.judge.further(base.found, best.fit, base.fit.error))
 
     def _settle(self) -> None:
-        """Bring all sets that may be named to their optimum, then fit their parts."""
+        """Bring all sets that the verdict may name to their optimum, then fit their parts."""
         for one in self._nameable():
             self._converge(one)
         for one in self._nameable():
             self._add_parts(one, missing=True)
 
     def _nameable(self) -> list[Examined]:
-        """Sets that are as near as the nearest, and of which no effect is needless."""
+        """Return the sets whose error is not significantly above the least and whose effects are all needed."""
         sets = [one for one in self.examined[1:] if one.candidate.zeros > CHANCE]
         best = min([self.examined[0], *sets], key=_error)
         alike = ALIKE * log(self.examined[0].fit.error / best.fit.error)
@@ -213,7 +216,7 @@ class _Fits:
         return [one for one in near if not is_needless(one.candidate, fitted, alike)]
 
     def _converge(self, one: Examined) -> None:
-        """Go on with a fit while it becomes nearer: a set that is not at its optimum makes others look as good."""
+        """Continue a fit while its error falls: a set short of its optimum makes others seem as good."""
         key = one.found.key
         while self._is_unexplained(one := self._by_key[key]) and not one.fit.settled:
             self._progress(f"simulating with {one.found.label}", 0.85)
@@ -227,7 +230,7 @@ class _Fits:
                 self._keep(part, self.judge.fit(part, [whole.fit]))
 
     def _keep(self, found: Found, fit: Fitted) -> None:
-        """The nearer fit of a set."""
+        """Keep the fit of a set with the lower error."""
         new = Examined(found, fit)
         self._by_key[found.key] = min(self._by_key.get(found.key, new), new, key=_error)
 

@@ -1,8 +1,8 @@
-"""Coordinates of the baseline: springs and friction common to all joints, of any size that the data ask for.
+"""Coordinates of the baseline: springs and friction common to all joints, of any size that the data support.
 
-The sizes from which friction is estimated come from the motion, not from the model file: a file whose friction is far
-off must not change an answer. Where the file's values are plausible, their pattern over the joints is kept. A file
-without any friction has no such pattern: each joint has friction of its own then, which is a hypothesis, not a refit.
+Reference values of friction come from the motion, not from the model file: a file whose friction is far off must not
+change a diagnosis. If the file's values are plausible, their pattern over the joints is kept. A file without any
+friction has no such pattern: each joint then has separate friction, which is a hypothesis, not a refit.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.eq13_joint_friction import dry_friction
+from continuum.dynamics.planar.springs_and_friction import dry_friction
 from continuum.dynamics.values import with_vector
 from continuum.estimation.columns import Change, Column, Sensitivity
 from continuum.estimation.motion_equations import evaluate, packed, torques
@@ -23,17 +23,17 @@ from continuum.estimation.run import Run
 from continuum.estimation.structure import Structure
 
 FRICTION = 0.08
-"""Dry and viscous friction that is expected, as a part of the torque that moves the arm; prior standard deviations are
-of its size."""
-_SHAPES = (0.5, 2.45)  # factors of Stribeck's rate: other shapes of its curve are mixtures of such
+"""Expected dry and viscous friction, as a fraction of the torque that moves the arm; prior standard deviations scale
+with it."""
+_SHAPES = (0.5, 2.45)  # factors of Stribeck's rate: other shapes of its curve are mixtures of these
 _PRIOR = {"stiffness": 0.5, "viscous": 1.0, "coulomb": 0.6, "stribeck": 1.0, "speed": 0.5}
 _SHAPE_PRIOR = 0.33
-_FAR = 10.0  # times more or less than expected: such a value of a model file is not believed
-_LEAST = 0.02  # part of its reference below which no mass, inertia or spring is a body's
-_ALMOST_NONE = 1e-3  # part of the mean friction that a joint has at least, so that it can be divided by
-_NONE = 1e-6  # part of its reference that counts as no Coulomb friction: Stribeck's torque is a multiple of it
+_FAR = 10.0  # factor from the expected value beyond which a model file's value is not trusted
+_LEAST = 0.02  # fraction of its reference below which a mass, inertia or spring is not physical
+_ALMOST_NONE = 1e-3  # least friction of a joint as a fraction of the mean, so that it can be a divisor
+_NONE = 1e-6  # fraction of its reference that counts as no Coulomb friction: Stribeck's torque is a multiple of it
 _SPEED = (-0.8, 4.0)  # least and largest relative change of Stribeck's rate: beyond, its curve is another term
-_ROUNDING = 1e-6  # part of a torque below which it is the rounding of a solution
+_ROUNDING = 1e-6  # fraction of a torque below which a remainder is rounding error
 _RATES = (0.0, 0.5, 1.0, 2.0, 9.0)  # multiples of Stribeck's rate at which dry friction must not be negative
 PARAMETER = {
     "stiffness": "stiffness", "viscous": "viscous_friction", "coulomb": "coulomb_friction",
@@ -43,18 +43,18 @@ PARAMETER = {
 _FRICTION = ("viscous", "coulomb", "stribeck", "speed")  # coordinates of friction
 
 type Coordinate = tuple[str, int]
-"""What it changes, and at which joint, from 0; -1 where at all alike."""
+"""Kind of value that it changes, and joint, from 0; -1 for all joints alike."""
 
 
 @dataclass(frozen=True)
 class Coordinates:
-    """Reference values and the torque of the arm.
+    """The coordinates of an arm.
 
     Attributes:
-        structure: of the model.
-        reference: parameter values about which the coordinates count, (n_p,).
-        torque: of the arm, root mean square [N m].
-        steps: change of each kind's parameter by one unit, (n,) each.
+        structure: structure of the model.
+        reference: parameter values at which all coordinates are zero, (n_p,).
+        torque: root mean square torque of the arm [N m].
+        steps: change of each kind's parameter per unit of its coordinate, (n,) each.
         lacks_friction: whether the model file has no dry friction at any joint.
     """
 
@@ -77,7 +77,7 @@ class Coordinates:
 
     @cached_property
     def without_friction(self) -> dict[Coordinate, float]:
-        """Coordinates of friction of an arm that has none, where the model file lacks it; else empty."""
+        """Friction coordinates of an arm without friction if the model file has none; otherwise empty."""
         if not self.lacks_friction:
             return {}
         p, slots = self.reference, self.structure.slots
@@ -90,22 +90,22 @@ class Coordinates:
         }
 
     def _is_lacking(self, name: str) -> bool:
-        """Whether the model file has nothing of a kind."""
+        """Whether the model file has no friction of a kind at any joint."""
         if not self.lacks_friction or name not in _FRICTION:
             return False
         return name != "viscous" or not np.any(self.structure.values[self.structure.slots["viscous_friction"]])
 
     def prior_sd(self, shapes: bool = True) -> Array:
-        """Of the coordinates, and of the shapes of Stribeck's curve."""
+        """Return the prior standard deviations of the coordinates, and of the shapes of Stribeck's curve if asked."""
         return np.array([_PRIOR[name] for name, _ in self.all] + [_SHAPE_PRIOR] * len(_SHAPES) * shapes)
 
     def _step(self, one: Coordinate) -> Array:
-        """Change by one unit, (n,)."""
+        """Return the change per unit of a coordinate, (n,)."""
         name, joint = one
         return self.steps[name] * (np.arange(self.structure.n) == joint if joint >= 0 else 1.0)
 
     def values(self, theta: Mapping[Coordinate, float]) -> Array:
-        """Parameter values at given coordinates, (n_p,)."""
+        """Return the parameter values at given coordinates, (n_p,)."""
         p, slots = self.reference.copy(), self.structure.slots
         change = {name: np.zeros(self.structure.n) for name in _PRIOR}
         for one, value in theta.items():
@@ -121,7 +121,7 @@ class Coordinates:
         return p
 
     def bounds(self) -> list[tuple[float, float]]:
-        """Least and largest value of each coordinate within which `values` is linear and physical."""
+        """Return the bounds of each coordinate within which `values` is linear and physical."""
         slots, p = self.structure.slots, self.reference
         coulomb = p[slots["coulomb_friction"]]
         now = {
@@ -139,7 +139,7 @@ class Coordinates:
         return found
 
     def columns(self, p: Array) -> list[tuple[Coordinate | str, Column]]:
-        """Torque per unit of each coordinate at parameter values p, and of the shapes, which are named."""
+        """Return the torque per unit of each coordinate at parameter values p, and of each shape, by name."""
         found: list[tuple[Coordinate | str, Column]] = [
             (one, Sensitivity(self._direction(one, p)[:, None])) for one in self.all
         ]
@@ -153,7 +153,7 @@ class Coordinates:
                 out[slots["stiffness"]] = step
             case "viscous":
                 out[slots["viscous_friction"]] = step
-            case "coulomb":  # what Stribeck's curve adds stays
+            case "coulomb":  # Stribeck's torque stays the same
                 out[slots["coulomb_friction"]] = step
                 out[slots["stribeck_gain"]] = -gain / coulomb * step
             case "stribeck":
@@ -164,7 +164,7 @@ class Coordinates:
 
     @cached_property
     def covered(self) -> frozenset[str]:
-        """Parameters whose change alike at all joints changes the torque as some of the coordinates do."""
+        """Parameters whose equal change at all joints has the same torque as a combination of the coordinates."""
         s, random = self.structure, np.random.default_rng(0)
         rows = 8 * len(self.all)
         motion, u = random.normal(size=(rows, 3, s.n)), random.uniform(size=(rows, s.equations.n_inputs))
@@ -182,11 +182,11 @@ class Coordinates:
 
     @cached_property
     def _given(self) -> Parameters:
-        """The reference values as the model's effects make them."""
+        """The reference values as changed by the model's effects."""
         return with_vector(self.structure.model, self.reference).changed_parameters
 
     def constraints(self, p: Array, columns: Sequence[Column], width: int) -> tuple[Array, Array]:
-        """Rows G and values g, g + G dtheta >= 0 about p: masses, inertias, springs and friction stay positive."""
+        """Return G and g of g + G dtheta >= 0 about p, which keeps masses, inertias, springs and friction positive."""
         here = self._physical(p)
         G, at = np.zeros((here.size, width)), 0
         for column in columns:
@@ -203,7 +203,7 @@ class Coordinates:
         return G, here
 
     def _physical(self, p: Array, rates_of: Array | None = None) -> Array:
-        """Quantities that must not be negative, over their references."""
+        """Return the quantities that must not be negative, divided by their references."""
         changed, given = with_vector(self.structure.model, p).changed_parameters, self._given
         parts = [
             np.where(one > 0, two / np.where(one > 0, one, 1.0) - _LEAST, 1.0)
@@ -219,7 +219,7 @@ class Coordinates:
 
 
 def coordinates(structure: Structure, runs: Sequence[Run]) -> Coordinates:
-    """Coordinates for an arm, their sizes from its recordings."""
+    """Return the coordinates of an arm, scaled by its recordings."""
     slots, n = structure.slots, structure.n
     frictionless = structure.values.copy()
     for name in ("viscous_friction", "coulomb_friction"):
@@ -245,12 +245,12 @@ def coordinates(structure: Structure, runs: Sequence[Run]) -> Coordinates:
     p[slots["stribeck_gain"]] = np.where(
         (p[slots["stribeck_gain"]] > 0.1) & (p[slots["stribeck_gain"]] < _FAR), p[slots["stribeck_gain"]], 0.7
     )
-    steps["stribeck"] = steps["coulomb"].copy()  # both bounded by none at all joints at once
+    steps["stribeck"] = steps["coulomb"].copy()  # both then reach zero at all joints at once
     return Coordinates(structure, p, torque, steps, lacks_friction)
 
 
 def _reference(p: Array, slot: slice, expected: float) -> Array:
-    """Put plausible values into p; the change by one unit, in the same pattern over the joints."""
+    """Make the values in p plausible; return the change per unit, with the same pattern over the joints."""
     mean = float(np.mean(p[slot]))
     if not expected / _FAR < mean < expected * _FAR:
         p[slot] = expected

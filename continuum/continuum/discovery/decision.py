@@ -1,8 +1,8 @@
-"""The decision: what open-loop simulations of segments that the other segments predict allow to be said.
+"""The decision: which verdict the open-loop errors of segments, each predicted from the others, support.
 
-Terms. The *distance* is the baseline's open-loop error less the noise. The *closed share* of a set of effects is the
-part of the distance that it closes. Of two sets one is *farther* where the logarithm of its error is higher, by a t
-test over the segments: segments count alike, whatever moves in them, and one that goes astray outweighs no others.
+Terms. The *distance* is the baseline's open-loop error minus the noise. The *closed share* of a set of effects is the
+fraction of the distance that it closes. One set is *farther* than another if the logarithm of its error is higher, by a
+t test over the segments: all segments count alike, however large their motion, and one that diverges does not dominate.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from continuum.discovery.candidate import Candidate, Key, log_errors
 PRICE = 6.0
 """Prior log-odds against one more effect: e^6 = 400 to 1 against any given one of some sixty at a few places."""
 CHANCE = 0.05
-"""Probability with which a test errs."""
+"""Significance level of the tests."""
 LEAST_SHARE = 0.5
 """Least closed share of a cause: a cause explains most of what the simulation gets wrong."""
 ALIKE = 0.05
-"""Part of what the best set gains by which another is no worse: friction's curve and a cable's geometry are right to a
-few percent, and a fit ends that near to its optimum."""
+"""Fraction of the best set's gain that another may lack and still count as no worse: friction's curve and a cable's
+geometry are right to a few percent, and a fit ends as close to its optimum."""
 
 
 class Kind(Enum):
@@ -40,16 +40,16 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is said.
+    """The verdict of a diagnosis.
 
     Attributes:
-        kind: of the verdict.
-        sets: of effects that the data leave possible, the nearest first, of ties what is more usual; empty where
-            unknown.
-        probabilities: of these among each other.
-        complete: whether nothing that matters stays unknown.
-        steady: whether there is a set about the sizes of whose effects segments agree.
-        helps: the set that helps most where the cause is unknown; empty where none does.
+        kind: kind of the verdict.
+        sets: sets of effects that the data leave possible, the least error first, of ties the more usual values first;
+            empty if unknown.
+        probabilities: relative probabilities of these.
+        complete: whether nothing that matters stays unexplained.
+        steady: whether the segments agree about the sizes of the effects of at least one set.
+        helps: if the cause is unknown, the set that helps most; empty if none does.
     """
 
     kind: Kind
@@ -68,15 +68,15 @@ def decide(
     whole: float,
     is_asked: bool = False,
 ) -> Verdict:
-    """One verdict from all candidates.
+    """Return the verdict on all candidates.
 
-    Recordings that are simulated within the tolerance call for no cause where the baseline errs by no more than the
-    sensors and chance, or where a user asked for that tolerance.
+    Recordings that are simulated within the tolerance need no cause if the baseline's error is no more than sensor
+    noise and chance give, or if a user set that tolerance.
 
     Args:
         baseline: the refitted model alone.
         others: sets of effects.
-        floor: of an open-loop error, by the sensors' noise [rad].
+        floor: open-loop error from the sensors' noise alone [rad].
         tolerance: error that a user accepts [rad].
         whole: error of the baseline's simulations of whole recordings [rad].
         is_asked: whether a user set the tolerance.
@@ -98,7 +98,7 @@ def decide(
     best = possible[0]
     sets = [one for one in probable if one is best or not is_farther(one, best, alike)]
     farther = {id(one): max(log_error(one) - log_error(best), 0.0) / max(alike, 1e-9) for one in sets}
-    sets.sort(key=lambda one: (round(farther[id(one)], 1), one.departure))  # of those that tie, what is more usual
+    sets.sort(key=lambda one: (round(farther[id(one)], 1), one.departure))  # ties: the more usual first
     weights = np.array([exp(-farther[id(one)]) for one in sets])
     probabilities = tuple(float(w) for w in weights / weights.sum())
     best = sets[0]
@@ -109,22 +109,22 @@ def decide(
 
 
 def is_probable(one: Candidate, part: Candidate) -> bool:
-    """Whether a set gains more on a part of it than its further effects cost and chance gives."""
+    """Whether a set gains more over a part of it than its further effects cost and chance gives."""
     gain, effects = log_error(part) - log_error(one), len(one.effects) - len(part.effects)
     return is_worth(gain, one.observations, effects, one.occam - part.occam)
 
 
 def is_needless(one: Candidate, others: Sequence[Candidate], alike: float) -> bool:
-    """Whether a part of a set simulates as well: some of its effects, or its effect at some of its joints."""
+    """Whether a part of a set simulates as well: fewer of its effects, or its effect at fewer joints."""
     parts = [part for part in others if set(part.effects) < set(one.effects) or part.values < one.values]
     return any(not is_farther(part, one, alike) or not is_probable(one, part) for part in parts)
 
 
 def noise_limit(floor: float, observations: float, floor_error: float = 0.0) -> float:
-    """Error up to which so many independent residuals are no more than the noise, by a one-sided test [rad].
+    """Return the error up to which a one-sided test finds nothing but noise in the residuals [rad].
 
-    The standard deviation of n normal residuals has a relative standard deviation of 1 / sqrt(2 n). That of the floor,
-    where it was estimated from the same recordings, is ``floor_error``.
+    The standard deviation of n normal residuals has a relative standard deviation of 1 / sqrt(2 n). That of a floor
+    estimated from the same recordings is ``floor_error``.
     """
     if observations <= 0:
         return floor
@@ -132,22 +132,22 @@ def noise_limit(floor: float, observations: float, floor_error: float = 0.0) -> 
 
 
 def is_worth(gain: float, observations: float, effects: int = 1, occam: float = 0.0) -> bool:
-    """Whether a fall of the logarithm of the error is more than effects and their own values cost and chance gives.
+    """Whether a fall of the log error is more than effects and their per-run values cost and chance gives.
 
-    Of so many independent residuals of unknown variance it is the gain in log-likelihood.
+    Times the number of independent residuals, of unknown variance, it is the gain in log-likelihood.
     """
     return gain * observations > price(effects, occam)
 
 
 def price(effects: int = 1, occam: float = 0.0) -> float:
-    """What effects and their own values cost and chance gives [log-likelihood]."""
+    """Return what effects and their per-run values cost and chance gives [log-likelihood]."""
     return PRICE * effects + occam - log(CHANCE)
 
 
 def noise_in_segments(candidates: Sequence[Candidate], floor: float) -> Array:
-    """The sensors' noise in each segment, (segments,) [rad]: what the best set leaves there, scaled to the floor.
+    """Return the sensors' noise in each segment, (segments,) [rad]: the best set's errors, scaled to the floor.
 
-    All sets meet the same noise; what differs between them is told by comparing in pairs.
+    All sets face the same noise; paired comparisons show their differences.
     """
     best = min((one for one in candidates if one.completed), key=lambda one: one.error, default=None)
     if best is None:
@@ -156,22 +156,19 @@ def noise_in_segments(candidates: Sequence[Candidate], floor: float) -> Array:
 
 
 def log_error(one: Candidate) -> float:
-    """Mean logarithm of the errors; infinite where a simulation failed."""
+    """Return the mean logarithm of the errors; infinite where a simulation failed."""
     return log(one.error) if one.completed else np.inf
 
 
 def is_farther(one: Candidate, other: Candidate, by: float) -> bool:
-    """Whether the logarithm of one's open-loop errors is higher than the other's by more than ``by``.
-
-    One-sided t test over segments.
-    """
+    """Whether the log error of one set exceeds the other's by more than ``by``, by a one-sided t test over segments."""
     if not (one.completed and other.completed):
         return other.completed
     return is_farther_by(log_errors(one.errors) - log_errors(other.errors), by)
 
 
 def is_farther_by(excess: Array, by: float) -> bool:
-    """The same of the differences in each segment, (segments,)."""
+    """Apply the same test to the differences of log errors, (segments,)."""
     n = len(excess)
     if n == 1:
         return False
@@ -180,16 +177,16 @@ def is_farther_by(excess: Array, by: float) -> bool:
 
 
 def closed(baseline: Candidate, one: Candidate, noise: Array) -> tuple[float, float, float]:
-    """Closed share with its 95 % interval by the jackknife over segments; 0 where there is no distance to close.
+    """Return the closed share with its 95 % interval by the jackknife over segments; 0 if there is no distance.
 
-    A simulation that fails counts as one that is off by twice the baseline's error.
+    A simulation that fails counts as one with twice the baseline's error.
     """
     share, low, high = closed_share(baseline.errors, one.errors, noise)
     return float(share), float(low), float(high)
 
 
 def closed_share(before: Array, after: Array, noise: Array) -> tuple[Array, Array, Array]:
-    """The same of errors of segments, the last axis [rad]."""
+    """Return the same for arrays of errors [rad], with the segments along the last axis."""
     gained = np.where(np.isfinite(after), before - after, -before)
     distance, n = before - noise, gained.shape[-1]
     whole, gain = np.sum(distance, axis=-1, keepdims=True), np.sum(gained, axis=-1, keepdims=True)

@@ -1,6 +1,6 @@
-"""Runs that a laboratory can make: postures to be let go from, commands, and what is measured by hand besides.
+"""Runs that a laboratory can make: releases from a posture, commands, and measurements by hand.
 
-Amplitudes are those at which the arm was moved before, so that nothing is asked of it that it was not already given.
+Amplitudes are those at which the arm was moved before, so that no run loads it more.
 """
 
 from __future__ import annotations
@@ -12,18 +12,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.joint_torques import JointTorques, no_torques
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import InputKind, Model
 from continuum.dynamics.pulled_posture import pulled_posture
 from continuum.dynamics.tensions import LET_GO, Tensions, slack
 from continuum.errors import InvalidValueError
 from continuum.recordings.recording import Recording
 
-RATE = 120.0  # readings a second, the prototype's
+RATE = 120.0  # readings per second, as on the prototype
 _SECONDS = 3.0
-_OF_A_RELEASE = 1.5  # s, after which an arm rests: segments at rest tell little
+_OF_A_RELEASE = 1.5  # s, after which an arm rests: segments at rest carry little information
 _SINES = np.geomspace(0.3, 3.5, 6)  # Hz, from slower to faster than an arm swings
 
 
@@ -34,7 +33,7 @@ class Design:
     Attributes:
         name: a few words.
         instruction: what to do, for a mechanic.
-        posture: where the arm rests at first, (n,) [rad].
+        posture: where the arm rests initially, (n,) [rad].
         times: of the readings, (n_times,) [s].
         inputs: what drives it.
         zeroed: whether the sensors' zeros are set by hand before it.
@@ -49,7 +48,7 @@ class Design:
 
 
 def designs(model: Model, recordings: Sequence[Recording]) -> list[Design]:
-    """Runs for an arm that was recorded."""
+    """Return runs for an arm, given its recordings."""
     hanging = np.zeros(model.n_joints)
     times = np.arange(round(_SECONDS * RATE) + 1) / RATE
     let_go = times[times <= _OF_A_RELEASE]
@@ -58,8 +57,8 @@ def designs(model: Model, recordings: Sequence[Recording]) -> list[Design]:
         release,
         Design(
             "release with zeros by protractor",
-            "Measure the angle of each joint at rest with a protractor, set the sensors' zeros by it, then let the arm "
-            "go from a bend. Diagnose all recordings again, with --zeroed and the name of this one.",
+            "Measure the angle of each joint at rest with a protractor and set the sensors' zeros to match. Then bend "
+            "the arm and let it go. Diagnose all recordings again, with --zeroed and the name of this one.",
             release.posture, let_go, release.inputs, zeroed=True,
         ),
     ]  # fmt: skip
@@ -68,7 +67,7 @@ def designs(model: Model, recordings: Sequence[Recording]) -> list[Design]:
 
 
 def _release(model: Model, recordings: Sequence[Recording], times: Array) -> Design:
-    """From the other side than that to which it was bent most, as far as it was there."""
+    """Return a release from the side opposite to the largest bend, with the same bend."""
     bends = np.concatenate([np.sum(one.theta, axis=1) for one in recordings])
     far, most = float(np.max(np.abs(bends))), bends[np.argmax(np.abs(bends))]
     side = -1.0 if most > 0 else 1.0
@@ -76,11 +75,11 @@ def _release(model: Model, recordings: Sequence[Recording], times: Array) -> Des
     if model.inputs is InputKind.CABLES:
         with contextlib.suppress(InvalidValueError):  # no cable holds it there, but hands do
             posture = pulled_posture(model, side * far).theta
-    bend = f"Bend the arm by {np.degrees(far):.0f} degrees in all to the {_side(side)} side"
+    bend = f"Bend the arm by {np.degrees(far):.0f} degrees in total to the {_side(side)} side"
     if model.inputs is InputKind.CABLES:
         text = f"{bend} with one cable, and let it go."
         return Design("release from the other side", text, posture, times, slack())
-    text = f"{bend} by hand, the drives off, and let it go."
+    text = f"{bend} by hand with the drives off, and let it go."
     return Design("release from the other side", text, posture, times, no_torques(model.n_joints))
 
 
@@ -89,7 +88,7 @@ def _side(sign: float) -> str:
 
 
 def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iterator[tuple[str, str, InputSignal]]:
-    """Commands that hold from row to row; none where nothing is known of what the arm bears."""
+    """Yield commands that hold from row to row; none if no safe load of the arm is known."""
     most, n = _largest(model, recordings), model.n_inputs
     if not np.any(most > 0):
         return
@@ -102,13 +101,13 @@ def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iter
         pair = np.column_stack([np.maximum(triangle, 0), np.maximum(-triangle, 0)])
         yield (
             "slow pull of one cable, then of the other",
-            f"Pull cable 1 slowly to {top:.0f} N and let it down again, then cable 2, {times[-1]:.0f} s in all.",
+            f"Pull cable 1 slowly to {top:.0f} N and slacken it again, then cable 2, {times[-1]:.0f} s in total.",
             Tensions(times, top * pair, held=True),
         )
         both = np.interp(share, [0, 0.5, 1], [0.07, 0.67, 0.07])[:, None] + np.column_stack([wave, -wave]) / 3
         yield (
             "co-contraction",
-            f"Tighten both cables together, and let down again, while their difference swings; {top:.0f} N at most.",
+            f"Tighten both cables together and slacken them again while their difference swings, up to {top:.0f} N.",
             Tensions(times, top * np.maximum(both, 0.0), held=True),
         )
         yield (
@@ -121,8 +120,8 @@ def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iter
     waves = np.column_stack([np.roll(wave, 7 * j) for j in range(n)])
     limits = ", ".join(f"{torque:.2g}" for torque in most)
     yield (
-        "slow torque at one joint after the other",
-        f"Raise the torque of one joint after the other slowly and back, to both sides, up to {limits} N m.",
+        "slow torque at one joint after another",
+        f"Raise and lower the torque of one joint after another slowly, to both sides, up to {limits} N m.",
         JointTorques(times, most * turns, held=True),
     )
     yield (
@@ -133,9 +132,9 @@ def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iter
 
 
 def _largest(model: Model, recordings: Sequence[Recording]) -> Array:
-    """Largest input of each cable or joint so far, (n_inputs,) [N or N m].
+    """Return the largest input of each cable or joint so far, (n_inputs,) [N or N m].
 
-    Where no cable's tension was recorded, what holds the arm bent as far as it was.
+    If no cable's tension was recorded, it is the tension that holds the arm at its largest bend.
     """
     most = np.max([np.max(np.abs(one.inputs_for(model).values), axis=0) for one in recordings], axis=0)
     if model.inputs is not InputKind.CABLES or np.any(most > -LET_GO):

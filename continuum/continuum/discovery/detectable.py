@@ -1,4 +1,4 @@
-"""What recordings would have shown, effect by effect, in the effects' units and with a reason where they would not."""
+"""What recordings would have shown of each effect, in the effect's units, with a reason if they would not."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from continuum.discovery.problem import Problem
 from continuum.discovery.result import Detectable
 
 _MOSTLY = 0.5
-"""Part of a change that counts as most of it."""
+"""Fraction of a change that counts as most of it."""
 
 
 def detectable(problem: Problem, powers: Sequence[Power]) -> tuple[Detectable, ...]:
-    """Of every effect of the library that may act on this arm, the smallest sizes first.
+    """Return the smallest detectable size of every effect that may act on this arm, the smallest first.
 
     Args:
-        problem: whose recordings.
-        powers: about the best set.
+        problem: problem with the recordings.
+        powers: power of each hypothesis about the best set.
     """
     offered = {effect.name: effect for effect in problem.structure.offered}
     found = []
@@ -53,8 +53,8 @@ def _reason(one: Power, smallest: float) -> str:
     if not one.changes > 0:
         return "It changes nothing in these recordings."
     if one.changes < 1:
-        return f"Its typical size changes the readings by {one.changes:.2g} times what the simulation errs by only."
+        return f"Its typical size changes the readings by only {one.changes:.2g} times the error of the simulation."
     if one.kept < _MOSTLY:
         taken = 100 * (1 - one.kept)
-        return f"{taken:.0f} % of what it changes looks like other springs, friction, masses or sensors' zeros."
+        return f"{taken:.0f} % of what it changes could also come from springs, friction, masses or sensors' zeros."
     return "It changes the readings, but acts in too few of them."

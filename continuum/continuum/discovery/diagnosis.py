@@ -1,4 +1,4 @@
-"""`diagnose`: recordings and a model in, an answer out."""
+"""`diagnose`: from recordings and a model to an answer."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ from continuum.recordings.rate_ratio import odd_rates
 from continuum.recordings.recording import Recording
 
 TOLERANCE = 3.0
-"""Open-loop error up to which a model is adequate, where no other is asked for, in units of the angles' noise: an error
-that no single reading shows. What sensors may be off by slowly is accepted in any case."""
+"""Default open-loop error up to which a model is adequate, in units of the angles' noise: an error that no single
+reading shows. The sensors' slow error is accepted in any case."""
 
 _PULLED = 2.4
-"""Standard deviations from a measured value at which the bound of 2.5 is what holds it."""
-_SEARCH = 0.65  # part of a diagnosis's time that the search takes, where power is worked out too
+"""Standard deviations from a measured value beyond which only the bound of 2.5 holds the fit."""
+_SEARCH = 0.65  # fraction of a diagnosis's time that the search takes if power is computed too
 
 
 def diagnose(
@@ -53,18 +53,19 @@ def diagnose(
 
     Args:
         recordings: runs of the arm.
-        model: with nominal values.
-        effects: names of those to try; all that are installed without.
-        tolerance: open-loop error up to which a model is adequate [rad]; TOLERANCE times the noise without.
-        progress: called with what is done, and the part of all that is over.
-        measured: values of effects that were measured by hand: every model of the diagnosis has them.
-        zeroed: recordings before which the sensors' zeros were set by hand, by number; sets that contradict these are
-            excluded.
+        model: model with nominal values.
+        effects: names of the effects to try; all installed effects if None.
+        tolerance: open-loop error up to which a model is adequate [rad]; TOLERANCE times the noise if None.
+        progress: called with the current step and the fraction of all work that is done.
+        measured: values of effects that were measured by hand; every model of the diagnosis has them.
+        zeroed: numbers, from 0, of the recordings before which the sensors' zeros were set by hand; sets that
+            contradict these are excluded.
         without: effects that were taken off the arm.
-        with_power: whether to work out what the recordings would have shown, and which run would tell more.
+        with_power: whether to compute what the recordings would have shown and which run would show more.
 
     Raises:
-        InvalidValueError: no recording, another number of joints or kind of inputs than the model's, a recording twice.
+        InvalidValueError: no recording, a number of joints or kind of inputs other than the model's, or a recording
+            given twice.
     """
     began = time.process_time()
     check_recordings(recordings, model)
@@ -97,13 +98,13 @@ def diagnose(
 def _left(
     effects: Sequence[str] | None, without: Collection[str], measured: Sequence[HandMeasurement]
 ) -> Sequence[str]:
-    """Names of the effects that are tried."""
+    """Return the names of the effects to try."""
     for name in without:
         if not effect_named(name).removal:
             able = [one for one in effect_names() if effect_named(one).removal]
             raise InvalidValueError("effect taken off the arm", name, f"one that can be: {', '.join(able)}")
         if name in {one.effect for one in measured}:
-            raise InvalidValueError("measured effect", name, "none that was taken off the arm")
+            raise InvalidValueError("measured effect", name, "an effect that was not taken off the arm")
     names = effect_names() if effects is None else effects
     return [name for name in names if name not in without]
 
@@ -114,7 +115,7 @@ def _answer(
     model: Model,
     tolerance: float | None,
 ) -> tuple[Diagnosis, Examined]:
-    """The answer without power, and the best set."""
+    """Return the answer without power, and the best set."""
     problem, base = found.problem, found.baseline
     floor = found.judge.floor
     accepted = max(TOLERANCE * floor, float(np.max(problem.noise.slow))) if tolerance is None else tolerance
@@ -124,7 +125,7 @@ def _answer(
     whole = float(np.sqrt(np.mean(np.square(errors))))
     verdict = decide(base.candidate, others, floor, accepted, whole, tolerance is not None)
     odd = odd_rates(recordings)
-    if odd:  # nothing that is fitted to readings which contradict each other can be trusted
+    if odd:  # no fit to readings that contradict each other can be trusted
         verdict = Verdict(Kind.UNKNOWN, (), (), False)
     keys = verdict.sets if is_named(verdict.kind) else ((verdict.helps,) if verdict.helps else ())
     sets = tuple(_causes(found, found.by_key[frozenset(key)]) for key in keys)
@@ -151,7 +152,7 @@ def _share(found: Examination, one: Examined) -> Share:
 
 
 def _causes(found: Examination, one: Examined) -> tuple[Cause, ...]:
-    """Effects of a set; its closed share is divided in proportion to what each closes besides the others."""
+    """Return the effects of a set; its closed share is divided in proportion to what each adds to the others."""
     evidence, chosen = one.found.lin.evidence, one.found.chosen
     whole, total = _share(found, one), evidence.total(chosen, with_constraints=True)
     errors = {each.found.key: each.fit.error for each in (found.baseline, *found.others)}
@@ -177,7 +178,7 @@ def _notes(recordings: Sequence[Recording], found: Examination, best: Examined) 
     if any(run.is_driven for run in recordings):
         held = all(run.held for run in found.problem.runs)
         notes.append(
-            "inputs are taken " + ("to hold until their next row" if held else "to change linearly from row to row")
+            "inputs are assumed " + ("to hold until their next row" if held else "to change linearly from row to row")
         )
     if len(recordings) < 3:
         notes.append("few recordings: nothing shows that the answer holds for another run")
@@ -189,12 +190,12 @@ def _notes(recordings: Sequence[Recording], found: Examination, best: Examined) 
 
 
 def _pulled(found: Examination, best: Examined) -> Iterator[str]:
-    """Measured values that the recordings would have elsewhere, farther than their standard deviations allow."""
+    """Yield a note on each measured value that the recordings contradict by more than its standard deviation allows."""
     fit = best.fit
     for one in found.problem.measured:
         for unknown, value in zip(fit.unknowns.common, fit.values.common, strict=True):
             if one.key in unknown.places and abs(value - unknown.mean) > _PULLED * one.sd:
                 yield (
-                    f"{one}: the recordings ask for {one.value + value:.4g} or beyond, more than {_PULLED:g} standard "
-                    "deviations away; measure it again, nothing else here is sure before that is cleared up"
+                    f"{one}: the recordings call for {one.value + value:.4g} or beyond, more than {_PULLED:g} standard "
+                    "deviations away; measure it again, as no other result is certain until this is resolved"
                 )

@@ -16,12 +16,12 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import PARAMETERS, Parameter
 from continuum.identification.estimate import Z_95, Estimate
 
-_IN_PARAMETERS = ("viscous", "coulomb")  # kinds of coordinates that are a parameter's change
+_IN_PARAMETERS = ("viscous", "coulomb")  # kinds of coordinates that are changes of a parameter
 _SHOWN = ("stiffness", "viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
 
 
 def estimates_of(problem: Problem, fit: Fitted, hypothesis: Hypothesis) -> tuple[Estimate, ...]:
-    """Values of one effect of a set."""
+    """Return the values of one effect of a set."""
     effect = effect_named(hypothesis.effect)
     out = list[Estimate]()
     for one, value, sd in zip(fit.unknowns.common, fit.values.common, fit.sd, strict=True):
@@ -41,7 +41,7 @@ def estimates_of(problem: Problem, fit: Fitted, hypothesis: Hypothesis) -> tuple
 
 
 def _lacking(problem: Problem, fit: Fitted, one: Unknown, sd: float) -> list[Estimate]:
-    """Of a parameter that the model file has none of."""
+    """Return the estimate of a parameter that the model file lacks; none if the coordinate is no parameter."""
     ((_, kind, joint),) = one.places
     name, step = PARAMETER[kind], float(problem.coordinates.steps[kind][joint])
     if kind not in _IN_PARAMETERS:
@@ -53,7 +53,7 @@ def _lacking(problem: Problem, fit: Fitted, one: Unknown, sd: float) -> list[Est
 
 
 def _estimates(spec: Mapping[str, Parameter], one: Unknown, value: float, sd: float, run: str = "") -> list[Estimate]:
-    """Of each parameter that an unknown moves; of one joint where it moves that of all joints alike."""
+    """Return an estimate of each parameter that an unknown changes; only one if it changes all joints alike."""
     found = []
     effect = next(iter(one.places))[0]
     for name in dict.fromkeys(name for _, name, _ in one.places):
@@ -74,7 +74,7 @@ def _estimates(spec: Mapping[str, Parameter], one: Unknown, value: float, sd: fl
 
 
 def baseline_estimates(problem: Problem, fit: Fitted) -> tuple[Estimate, ...]:
-    """The model's own springs and friction as fitted, the mean over joints."""
+    """Return the fitted springs and friction of the model, each as the mean over joints."""
     values, slots = point_of(problem, fit.state).values, problem.structure.slots
     given, found = problem.structure.given.values(), list[Estimate]()
     for name in _SHOWN:
@@ -87,9 +87,9 @@ def baseline_estimates(problem: Problem, fit: Fitted) -> tuple[Estimate, ...]:
 
 
 def correlation_of(fit: Fitted) -> tuple[tuple[str, ...], Array]:
-    """Names of a fit's values that all recordings have in common, and their posterior correlations, (k, k).
+    """Return the names of a fit's values common to all recordings and their posterior correlations, (k, k).
 
-    Ordinary differences of parts are left out.
+    Ordinary differences between parts are left out.
     """
     used = [k for k, one in enumerate(fit.unknowns.common) if one.hypothesis is not None or _is_refit(one)]
     return tuple(_name(fit.unknowns.common[k]) for k in used), fit.correlation[np.ix_(used, used)]

@@ -4,8 +4,8 @@ For run r and a level of the missing torque
 
     -2 log p(y_r | theta) = energy_r - 2 theta' e_r + theta' L_r theta + log_det_r.
 
-A hypothesis is a linear map H from its coefficients a to theta. Baseline parameters and ordinary differences of parts,
-the nuisances, are integrated out once; what each run has for itself by the Schur complement of its own block.
+A hypothesis is a linear map H from its coefficients a to theta. The nuisances, which are baseline parameters and
+ordinary differences between parts, are integrated out once; per-run coefficients by the Schur complement of a block.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ type Set = tuple[Hypothesis, ...]
 
 @dataclass(frozen=True)
 class Nuisance:
-    """Coefficients that every hypothesis has besides its own.
+    """Coefficients that all hypotheses share.
 
     Attributes:
         columns: indices, (k,).
         sd: prior standard deviations about zero, (k,).
         constraints, least: rows G theta >= least that keep the baseline physical, (m, P) and (m,).
-        most: largest size of each coefficient, infinite where there is none, (k,).
+        most: largest size of each coefficient, infinite if it has none, (k,).
     """
 
     columns: Array
@@ -44,7 +44,7 @@ class Nuisance:
 
     @property
     def bounds(self) -> tuple[Array, Array]:
-        """Rows and values of -most <= coefficient <= most, (m, k) and (m,)."""
+        """Rows and lower bounds of -most <= coefficient <= most, (m, k) and (m,)."""
         used = np.flatnonzero(np.isfinite(self.most))
         rows = np.zeros((used.size, self.sd.size))
         rows[np.arange(used.size), used] = 1.0
@@ -56,12 +56,12 @@ class Optimum:
     """Most probable coefficients of a set within all bounds.
 
     Attributes:
-        theta: on all columns, (P,).
-        values, sd: of the set's coefficients and their standard deviations.
-        local_columns: what each run has for itself.
-        local: its values, (runs, k).
-        rise: by which the bounds raise minus the log-posterior.
-        covariance: of the set's coefficients.
+        theta: coefficients of all columns, (P,).
+        values, sd: the set's coefficients and their standard deviations.
+        local_columns: columns with per-run coefficients.
+        local: these coefficients, (runs, k).
+        rise: amount by which the bounds raise minus the log-posterior.
+        covariance: covariance of the set's coefficients.
     """
 
     theta: Array
@@ -78,10 +78,10 @@ class Evidence:
 
     Args:
         runs: likelihoods, by level and run, about theta = 0.
-        nuisance: common to all.
-        hypotheses: all that may be asked for.
+        nuisance: coefficients common to all sets.
+        hypotheses: all hypotheses that sets may contain.
         width: number of columns.
-        prior_levels: number of levels that are alike beforehand; those that are not given are not probable.
+        prior_levels: number of levels that are equally probable a priori; those not in ``runs`` have no evidence.
     """
 
     def __init__(
@@ -108,7 +108,7 @@ class Evidence:
         return len(self.runs)
 
     def by_level(self, chosen: Set, with_constraints: bool = False) -> Array:
-        """Log-evidence at each level, (n_levels,)."""
+        """Return the log-evidence at each level, (n_levels,)."""
         key = frozenset(id(h) for h in chosen)
         if key not in self._memo:
             local, local_sd = local_of(chosen)
@@ -135,17 +135,17 @@ class Evidence:
         return self._constrained[key]
 
     def total(self, chosen: Set, with_constraints: bool = False) -> float:
-        """Log-evidence with all levels alike beforehand."""
+        """Return the log-evidence with all levels equally probable a priori."""
         return logsum(self.by_level(chosen, with_constraints)) - log(self._prior_levels)
 
     def best_level(self, chosen: Set) -> int:
-        """The most probable level."""
+        """Return the index of the most probable level."""
         return int(np.argmax(self.by_level(chosen, with_constraints=True)))
 
     def ranked(self, sets: Sequence[Set], price: float, enough: int) -> list[tuple[float, Set]]:
-        """The best sets by log-evidence less a price for each effect, constraints included; at least ``enough``.
+        """Return the best sets by log-evidence minus a price per effect, constraints included; at least ``enough``.
 
-        Constraints only lower an evidence, so that they are worked out from the top until no other set can be better.
+        Constraints only lower an evidence, so they are evaluated from the top until no other set can be better.
         """
         free = sorted(((self.total(s) - price * len(s), i) for i, s in enumerate(sets)), key=lambda pair: -pair[0])
         found: list[tuple[float, Set]] = []
@@ -158,7 +158,7 @@ class Evidence:
         return sorted(found, key=lambda pair: -pair[0])
 
     def _without_nuisances(self, local: tuple[int, ...], local_sd: tuple[float, ...]) -> tuple[Array, ...]:
-        """Information on all hypotheses' coefficients, by level: L, e, constant, constraints and their values."""
+        """Return the information on all coefficients by level: L, e, constant, constraints and their values."""
         if local not in self._reduced:
             parts = [self._reduced_at(level, local, local_sd) for level in range(self.n_levels)]
             self._reduced[local] = tuple(np.array(part) for part in zip(*parts, strict=True))
@@ -187,9 +187,11 @@ class Evidence:
         )
 
     def system(self, chosen: Set, level: int) -> tuple[Array, Array, list[tuple[Array, Array, float]], list[Array]]:
-        """Nuisances and the set's coefficients: map to theta, prior sd, and each run's (L, e, constant).
+        """Return the linear system of the nuisances and the set's coefficients.
 
-        And what gives each run's own coefficients from theta: columns (k, P + 1), value less effect of theta.
+        Returns:
+            Map to theta, prior standard deviations, each run's (L, e, constant), and for each run the columns
+            (k, P + 1) that give its per-run coefficients: last column minus the others times theta.
         """
         unit = np.eye(self.width)[:, self.nuisance.columns.astype(int)]
         H = np.hstack([unit, *(h.map(self.width) for h in chosen)])
@@ -208,7 +210,7 @@ class Evidence:
         return H, sd, runs, per_run
 
     def optimum(self, chosen: Set, level: int, run_bounds: bool = True) -> Optimum:
-        """Most probable coefficients within the constraints, and within the set's own bounds."""
+        """Return the most probable coefficients within the constraints and, if ``run_bounds``, the set's bounds."""
         H, sd, runs, per_run = self.system(chosen, level)
         A = np.sum([L for L, _, _ in runs], axis=0) + np.diag(sd**-2.0)
         b: Array = np.sum([e for _, e, _ in runs], axis=0)
@@ -232,13 +234,13 @@ class Evidence:
 
 
 def local_of(chosen: Set) -> tuple[tuple[int, ...], tuple[float, ...]]:
-    """Columns that each run has a coefficient of its own for, and their prior standard deviations."""
+    """Return the columns with per-run coefficients, and their prior standard deviations."""
     columns = tuple(c for h in chosen for c in h.local)
     return columns, tuple(float(s) for h in chosen for s in h.local_sd)
 
 
 def without_local(run: RunLikelihood, local: Array, sd: Array) -> tuple[Array, Array, float]:
-    """A run's information with its own coefficients integrated out: L, e, and the log-likelihood's constant."""
+    """Return a run's information with its per-run coefficients integrated out: L, e, constant of the log-likelihood."""
     constant = -0.5 * (run.energy + run.log_det)
     if not local.size:
         return run.L, run.e, constant
@@ -256,6 +258,6 @@ def _half_form(A: Array, b: Array) -> float:
 
 
 def logsum(values: Array) -> float:
-    """log sum exp."""
+    """Return log(sum(exp(values)))."""
     top = float(np.max(values))
     return top + float(np.log(np.sum(np.exp(values - top)))) if np.isfinite(top) else -np.inf

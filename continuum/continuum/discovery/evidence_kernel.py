@@ -1,4 +1,4 @@
-"""Log-evidence of a few coefficients with Gaussian priors and lower bounds, compiled: a search asks for thousands."""
+"""Log-evidence of a few coefficients with Gaussian priors and lower bounds, compiled: a search needs thousands."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from continuum.estimation.compiled_loops import compiled
 
 @compiled
 def _log_normal(z: float) -> float:
-    """Log of the standard normal distribution function."""
+    """Return the log of the standard normal distribution function."""
     if z < -8.0:
         return -0.5 * z * z - math.log(-z * math.sqrt(2 * math.pi))
     return math.log(0.5 * math.erfc(-z / math.sqrt(2.0)))
@@ -21,9 +21,9 @@ def _log_normal(z: float) -> float:
 
 @entry_point(Path(__file__), error_model="python")
 def evidences(L, e, c, G, g, index, sd, least, found, worst):  # type: ignore[no-untyped-def]
-    """Log-evidence of the coefficients ``index`` at every level, their bounds by their marginals.
+    """Compute the log-evidence of the coefficients ``index`` at every level, with bounds applied to their marginals.
 
-    worst: least value of the constraints g + G a >= 0 at the optimum, by level.
+    The results are written to ``found``, and to ``worst`` the least of the constraints g + G a >= 0 at the optimum.
     """
     n = index.size
     A, z, x = np.empty((n, n)), np.empty(n), np.empty(n)

@@ -1,4 +1,4 @@
-"""What a search comes to: all sets that were fitted, each with its state and its fit."""
+"""The result of a search: all sets that were fitted, each with its state and its fit."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from continuum.discovery.zeros_by_hand import agreement
 
 @dataclass(frozen=True)
 class Examined:
-    """A candidate with where the search left it.
+    """A set of effects with the results of search and fit.
 
     Attributes:
-        found: state, library and evidence about it.
-        fit: by open-loop simulations.
+        found: set with the linearised state about it.
+        fit: fit by open-loop simulations.
     """
 
     found: Found
@@ -27,7 +27,7 @@ class Examined:
 
     @cached_property
     def candidate(self) -> Candidate:
-        """For the decision."""
+        """The set as the decision needs it."""
         fit, zeros = self.fit, agreement(self.found.lin.problem, self.fit)
         effects = tuple(h.key for h in self.found.chosen)
         return Candidate(
@@ -40,11 +40,11 @@ class Examination:
     """All that a decision rests on.
 
     Attributes:
-        problem: fixed before the search.
-        judge: what fits were made by.
+        problem: what stays fixed during the search.
+        judge: output-error fits of the recordings.
         baseline: the refitted model alone.
         others: sets of effects.
-        log: of the search, for developers.
+        log: log of the search, for developers.
     """
 
     problem: Problem

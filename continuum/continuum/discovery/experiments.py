@@ -1,9 +1,9 @@
 """The next experiment: the run that separates the possible causes, or shows what these recordings cannot.
 
-Two sets of effects, each with the values that the recordings leave it, simulate a run that was not made. The one is
-refitted to the other's angles within what is known of its values. What it cannot follow is what the run would tell
-(Box and Hill, Technometrics 9, 1967, 57-71), less what the other one itself could not follow where its values are a
-little off, as where joints come to rest. From it follows how often the run has to be made for the decision.
+Each of two sets of effects, with its values fitted to the recordings, simulates a run that was not made. One set is
+refitted to the other's angles within the uncertainty of its values. The remaining residuals are the information of the
+run (Box and Hill, Technometrics 9, 1967, 57-71), minus those that the other set itself would leave if its values were
+slightly off, as where joints come to rest. They give the number of runs that the decision needs.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ from continuum.dynamics.trajectory import SimulationStatus
 from continuum.estimation.run import Run, Trajectory
 from continuum.recordings.recording import Recording
 
-_MOST_RUNS = 6  # that anybody repeats
-_REFITS = 8  # of a set to a run; the weights of residuals rise from one to the next as they become less alike
+_MOST_RUNS = 6  # most repetitions that a laboratory makes
+_REFITS = 8  # of a set to a run; the weights of residuals rise from one to the next as they become less correlated
 
 
 def experiments(
@@ -45,14 +45,14 @@ def experiments(
     recordings: Sequence[Recording],
     power: Sequence[Detectable],
 ) -> tuple[Experiment, ...]:
-    """Runs that would tell more, the best first.
+    """Return informative further runs, the best first.
 
     Args:
-        found: what was examined.
-        compared: the two sets that are to be told apart, as `rivals` has them; or one.
-        library: hypotheses about the first.
-        recordings: that were made.
-        power: what they would have shown.
+        found: result of the search.
+        compared: the two sets to distinguish, from `rivals`; or one.
+        library: hypotheses about the first set.
+        recordings: runs that were made.
+        power: what these would have shown.
     """
     hidden, out = {one.label for one in power if not one.is_shown}, list[Experiment]()
     gained = float(np.log(found.baseline.fit.error / compared[0].fit.error))
@@ -84,21 +84,21 @@ def experiments(
 
 
 def rivals(sets: Sequence[Examined]) -> Sequence[Examined]:
-    """The likeliest set, and the likeliest of other effects than its: where an effect acts matters less than which."""
+    """Return the likeliest set and the likeliest with other effects: which effect matters more than where it acts."""
     other = rival_of([{h.effect for h in one.found.chosen} for one in sets])
     return sets if other is None else [sets[0], sets[other]]
 
 
 def rival_of(effects: Sequence[Collection[str]]) -> int | None:
-    """Which set is compared with the first one, by the effects of all; None where there is one set only."""
+    """Return the number of the set to compare with the first, given the effects of each; None if there is only one."""
     return next((k for k, names in enumerate(effects) if names != effects[0]), 1 if len(effects) > 1 else None)
 
 
 def _runs_needed(excess: Array, recordings: int, alike: float) -> int:
-    """Runs after which the decision excludes a set that errs by so much more in each segment of one; 0 for none.
+    """Return the number of runs after which the decision excludes a set, given its excess log error; 0 for none.
 
-    The same t test, on as many segments as a diagnosis simulates, spread over all recordings; in those that were made
-    the sets err alike.
+    It is the same t test, on as many segments as a diagnosis simulates, distributed over all recordings; in those that
+    were made, the sets err alike.
     """
     for count in range(1, _MOST_RUNS + 1):
         new = round(ENOUGH * count / (recordings + count))
@@ -113,9 +113,9 @@ class _Run:
     """A run that was not made.
 
     Attributes:
-        run: rows whose readings are simulated, without noise.
+        run: rows with simulated readings, without noise.
         way: the simulated motion.
-        recording: with the inputs.
+        recording: recording with the inputs.
     """
 
     run: Run
@@ -124,7 +124,7 @@ class _Run:
 
 
 def _simulated(found: Examination, fit: Fitted, design: Design) -> _Run | None:
-    """The run as a set simulates it; None where the simulation fails."""
+    """Return the run as a set simulates it; None if the simulation fails."""
     problem, s = found.problem, found.problem.structure
     still = np.tile(design.posture, (design.times.size, 1))
     recording = Recording(
@@ -145,11 +145,11 @@ def _simulated(found: Examination, fit: Fitted, design: Design) -> _Run | None:
 
 
 class _Refit(NamedTuple):
-    """What a refit leaves.
+    """The result of a refit.
 
     Attributes:
-        excess: by how much the logarithm of the error in each segment is above the noise's, (segments,).
-        contradicts: whether it departs from zeros that were set by hand.
+        excess: log error of each segment above that of the noise, (segments,).
+        contradicts: whether it contradicts zeros that were set by hand.
     """
 
     excess: Array
@@ -160,12 +160,12 @@ class _Trial:
     """A set refitted to a run that another set simulates.
 
     Args:
-        judge: of the recordings.
-        fit: of the set to the recordings.
-        made: the run.
-        design: what it was made by.
-        drawn: whether the set's values are off by what the recordings leave unknown of them: what the set that
-            simulated the run itself errs by at first.
+        judge: output-error fits of the recordings.
+        fit: fit of the set to the recordings.
+        made: the simulated run.
+        design: design of the run.
+        drawn: whether the set's values are drawn from their posterior, which gives the initial error of the set that
+            simulated the run.
     """
 
     def __init__(self, judge: OutputError, fit: Fitted, made: _Run, design: Design, drawn: bool = False) -> None:
@@ -195,7 +195,7 @@ class _Trial:
         )  # fmt: skip
 
     def refitted(self) -> _Refit:
-        """The set after some steps towards the run, with noise."""
+        """Return what is left after some steps of the set towards the run, with noise."""
         fit, judge = self._fit, self._judge
         segments = judge.simulated(fit.unknowns, fit.values)
         if not all(np.isfinite(one.square) for one in segments):
@@ -216,13 +216,13 @@ class _Trial:
         return _Refit(excess, probability(zeros_in(refitted, 0)) < CHANCE)
 
     def shown(self, library: Library, hidden: set[str]) -> set[str]:
-        """Labels of effects that the run would show at their typical sizes, of those whose size enters linearly."""
+        """Return labels of the ``hidden`` effects with linear sizes that the run would show at their typical sizes."""
         found = powers(self._judge, self._fit, library, linear_only=True, only=hidden)
         return {one.hypothesis.label for one in found if one.probability(1.0) >= POWER}
 
 
 def _is_zeroed(problem: Problem, key: ValueKey, design: Design) -> bool:
-    """Whether a value is a zero of a sensor, and these are set by hand."""
+    """Whether a value is the zero of a sensor in a design in which these are set by hand."""
     effect, name, _ = key
     sensors = {one.name: one.parameters for one in problem.structure.sensors}
     return design.zeroed and effect in sensors and is_zero(sensors[effect][name])

@@ -1,4 +1,4 @@
-"""The model file's model with what was found: refitted parameters, and the effects of a set."""
+"""The diagnosed model, extended by refitted parameters and the effects of a set."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _SOURCE = "fitted to recordings by a diagnosis"
 
 
 def model_of(problem: Problem, state: State, key: Key, model: Model) -> Model:
-    """A model with the state's values.
+    """Return a model with the values of a state.
 
-    Ordinary differences of parts become the model's own parameters. What each recording has for itself is left out, and
-    so is an effect that has nothing else: as a part of the model it would not be looked for again.
+    Ordinary differences between parts become parameters of the model. Per-run values are left out, and so is an effect
+    without any others: as a part of the model, it would not be searched for again.
 
     Args:
-        problem, state: where values come from.
+        problem, state: source of the values.
         key: effects of the set.
-        model: that was diagnosed.
+        model: model that was diagnosed.
     """
     s, named = problem.structure, {effect for effect, _ in key}
     base = with_vector(s.model, point_of(problem, state).values)

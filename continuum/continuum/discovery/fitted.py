@@ -1,4 +1,4 @@
-"""What a fit by open-loop simulations gives: values with their spreads, errors, and simulations of whole recordings."""
+"""The result of a fit by open-loop simulations: values with uncertainties, errors, simulations of whole recordings."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from continuum.dynamics.effect_lookup import effect_named
 
 @dataclass(frozen=True)
 class OpenLoop:
-    """Simulations of all recordings from their beginnings.
+    """Simulations of all recordings from start to end.
 
     Attributes:
         angles: as the sensors would read them, by recording, (n_times, n) each [rad]; NaN where a simulation failed.
-        floor: of the error by the sensors' noise [rad].
-        of_segments: error of short segments, simulated each from its own beginning [rad].
+        floor: error from the sensors' noise alone [rad].
+        of_segments: error of short segments, each simulated from its initial state [rad].
     """
 
     angles: tuple[Array, ...]
@@ -29,24 +29,24 @@ class OpenLoop:
     of_segments: float
 
     def error(self, run: int, theta: Array) -> float:
-        """Root mean square distance from measured angles (n_times, n) [rad], over rows and joints."""
+        """Return the root mean square distance from measured angles (n_times, n) [rad], over rows and joints."""
         return float(np.sqrt(np.nanmean((self.angles[run] - theta) ** 2)))
 
 
 @dataclass(frozen=True)
 class Fitted:
-    """A set's fit.
+    """The fit of a set.
 
     Attributes:
-        state: with the fitted values.
+        state: state with the fitted values.
         unknowns, values: what was fitted, and the result.
         sd: standard deviations of the common unknowns, larger where segments disagree, (k,).
-        correlation: of the common unknowns, (k, k).
-        per_run_sd: standard deviations of each recording's own.
-        errors: root mean square over rows and joints of each segment, with what the other segments say of all that
-            recordings have in common, (segments,) [rad]; NaN where a simulation failed.
-        observations: residuals that are independent of each other, their number.
-        agreement: of segments about sizes of effects, as `Candidate.agreement`.
+        correlation: correlation of the common unknowns, (k, k).
+        per_run_sd: standard deviations of the per-run unknowns, by recording.
+        errors: root mean square over rows and joints of each segment, with common values estimated from the other
+            segments, (segments,) [rad]; NaN where a simulation failed.
+        observations: number of independent residuals.
+        agreement: p-value of the segments' disagreement, as `Candidate.agreement`.
         settled: whether further steps would change little.
     """
 
@@ -68,9 +68,10 @@ class Fitted:
 
     @property
     def occam(self) -> float:
-        """Logarithm of Occam's factor of each recording's own values (MacKay, Neural Computation 4, 1992, 415).
+        """Minus the log Occam factor of all per-run values (MacKay, Neural Computation 4, 1992, 415).
 
-        What segments have in common is judged by segments that it was not fitted to; these values are not.
+        Left-out segments test common values as a new recording would, but not per-run values, which the recording's
+        other segments determine.
         """
         pairs = [(one.sd, sd) for those, sds in zip(self.unknowns.per_run, self.per_run_sd, strict=True)
                  for one, sd in zip(those, sds, strict=True)]  # fmt: skip
@@ -78,7 +79,7 @@ class Fitted:
 
     @property
     def departure(self) -> float:
-        """Minus the logarithm of the prior density of the common values, less a constant: how unusual they are."""
+        """Minus the log prior density of the common values, up to a constant: how unusual they are."""
         pairs = zip(self.unknowns.common, self.values.common, strict=True)
         return 0.5 * float(sum(((value - one.mean) / one.sd) ** 2 for one, value in pairs))
 
@@ -94,20 +95,20 @@ class Fitted:
 
     @property
     def of_effects(self) -> frozenset[object]:
-        """What the set's effects change; values in each recording hold the one that all recordings may share."""
+        """What the set's effects change; per-run values include the one that all recordings may share."""
         per_run = [one for one in self.unknowns.all if one.hypothesis]
         shared = {place for one in per_run if one.of_run is not None for place in _shared(one)}
         return frozenset(one.place for one in per_run) | shared
 
     @property
     def start(self) -> dict[tuple[object, ...], float]:
-        """Where a fit of another set may begin, by `Unknown.key`."""
+        """Starting values for a fit of another set, by `Unknown.key`."""
         values = np.concatenate([self.values.common, *self.values.per_run])
         return {one.key: float(value) for one, value in zip(self.unknowns.all, values, strict=True)}
 
 
 def _shared(one: Unknown) -> list[tuple[object, ...]]:
-    """Places of what a value in each recording is where all are the same: of the effect itself, and of another one."""
+    """Return the places of a per-run value if it is the same in all runs: of its effect, and of an equivalent one."""
     ((effect, _, joint), factor), *_ = one.places.items()
     found, name = [(*one.place[:-1], None)], effect_named(effect).alike_in_all_runs
     if name:

@@ -1,4 +1,4 @@
-"""One Gauss-Newton step: the most probable coefficients of a set become values, and trajectories are smoothed there."""
+"""One Gauss-Newton step: the most probable coefficients of a set become values, and trajectories are smoothed again."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from continuum.estimation.augmented_filter import smoothed
 from continuum.estimation.friction_modes import FrictionModes, friction_modes
 
 _STEP = 1.5
-"""Largest step of the logarithm of an effect's value, in units of the logarithm of the difference's ratio."""
+"""Largest step of the logarithm of an effect's value, in units of the log ratio of its finite difference."""
 _LEAST_SIZE = 0.2
-"""Least coefficient of an effect's torque that a step is divided by: of less, the torque tells no direction."""
+"""Least coefficient of an effect's torque by which a step is divided: a smaller one gives no direction."""
 
 
 def moved(lin: Linearised, chosen: Set, level: int, sigma_index: int) -> State:
-    """The state after one step.
+    """Return the state after one step.
 
     Args:
         lin: linearised state.
@@ -51,12 +51,12 @@ def moved(lin: Linearised, chosen: Set, level: int, sigma_index: int) -> State:
 
 
 def smoothed_runs(lin: Linearised, best: Optimum, sigma: Array) -> Iterator[tuple[Array, Array]]:
-    """Smoothed deviations and their variances of every run at an optimum, (n_times, 4 n) each.
+    """Yield the smoothed deviations and their variances of every run at an optimum, (n_times, 4 n) each.
 
     Args:
         lin: linearised state.
         best: coefficients.
-        sigma: of the missing torque, (n,) [N m].
+        sigma: standard deviation of the missing torque, (n,) [N m].
     """
     noise = lin.problem.noise.at(sigma)
     for r, (run, way, one) in enumerate(zip(lin.problem.runs, lin.state.ways, lin.runs, strict=True)):
@@ -69,7 +69,7 @@ def smoothed_runs(lin: Linearised, best: Optimum, sigma: Array) -> Iterator[tupl
 
 
 def _of_each(chosen: Sequence[Hypothesis], values: Array) -> Iterator[tuple[Hypothesis, Array]]:
-    """Each hypothesis with its coefficients."""
+    """Yield each hypothesis with its coefficients."""
     at = 0
     for hypothesis in chosen:
         yield hypothesis, values[at : at + len(hypothesis.coefficients)]
@@ -77,7 +77,7 @@ def _of_each(chosen: Sequence[Hypothesis], values: Array) -> Iterator[tuple[Hypo
 
 
 def _stepped(lin: Linearised, chosen: Set, values: Array) -> dict[str, dict[str, Array]]:
-    """Values of the chosen effects that are not linear, after a step to the coefficients ``values``."""
+    """Return the values of the chosen nonlinear effects after a step to the coefficients ``values``."""
     active: dict[str, dict[str, Array]] = {}
     library = lin.library
     for hypothesis, mine in _of_each(chosen, values):
@@ -91,7 +91,7 @@ def _stepped(lin: Linearised, chosen: Set, values: Array) -> dict[str, dict[str,
             if c.kind == "log":
                 factor = library.ratio ** np.clip(value / max(mine[0], _LEAST_SIZE), -_STEP, _STEP)
                 per_run[c.parameter] = within(effect.parameters[c.parameter], per_run[c.parameter] * factor)
-        if effect.name in active:  # at another joint besides
+        if effect.name in active:  # also at another joint
             per_run = {name: np.maximum(value, active[effect.name][name]) for name, value in per_run.items()}
         active[effect.name] = per_run
     return active
@@ -104,7 +104,7 @@ def _take_shapes(
     active: dict[str, dict[str, Array]],
     shared: dict[tuple[str, str, int], float],
 ) -> None:
-    """Effects without states that were found at one of several shapes: from now on the shape is a value too."""
+    """Make the shape of effects without states a value as well, from the one of several at which they were found."""
     s = lin.problem.structure
     late = {effect.name for effect in s.late}
     for hypothesis, mine in _of_each(chosen, values):
@@ -120,7 +120,7 @@ def _take_shapes(
 
 
 def modes_along(problem: Problem, state: State) -> tuple[FrictionModes, ...]:
-    """Friction's modes along the state's trajectories."""
+    """Return the friction modes along the state's trajectories."""
     s = problem.structure
     p = point_of(problem, state).values
     stribeck = p[s.slots["coulomb_friction"]] * p[s.slots["stribeck_gain"]]

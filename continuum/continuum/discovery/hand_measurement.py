@@ -1,4 +1,4 @@
-"""Values of effects that somebody measured by hand: facts, which every model of a diagnosis has."""
+"""Values of effects that were measured by hand: facts that every model of a diagnosis includes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from continuum.dynamics.parameters import RATIO, ByHand, Parameter
 from continuum.errors import InvalidValueError
 from continuum.estimation.structure import absent_values
 
-_FORM: Final = "NAME[JOINT]=VALUE UNIT, perhaps +-SD, as tip_payload.mass=50g, rest_angle.angle[3]=4+-0.5deg"
+_FORM: Final = "NAME[JOINT]=VALUE UNIT, optionally +-SD, as tip_payload.mass=50g, rest_angle.angle[3]=4+-0.5deg"
 _NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _MEASURED: Final = re.compile(
     rf"(\w+)\.(\w+)(?:\[(\d+)\])?\s*=\s*({_NUMBER})\s*(?:(?:\+-|\+/-|±)\s*({_NUMBER}))?\s*([a-zA-Z%/]*)\s*"
@@ -26,17 +26,17 @@ _UNITS: Final = {
     "rad": {"rad": 1.0, "deg": np.pi / 180}, "kg": {"kg": 1.0, "g": 1e-3}, "s": {"s": 1.0, "ms": 1e-3},
     "1": {"": 1.0, "%": 0.01}, "%": {"%": 0.01},
 }  # fmt: skip
-"""Units in which a value may be given, by its SI unit; a ratio less one is given in percent."""
+"""Units in which a value may be given, by its SI unit; a ratio minus one is given in percent."""
 
 
 @dataclass(frozen=True)
 class HandMeasurement:
-    """A value of the arm.
+    """A measured value of the arm.
 
     Attributes:
         effect, parameter: what was measured.
-        joint: where, from 0; None where it belongs to none.
-        value, sd: with its standard deviation [unit of the parameter].
+        joint: where, from 0; None if it belongs to none.
+        value, sd: value and standard deviation [unit of the parameter].
 
     Raises:
         InvalidValueError: no such effect, parameter or joint; one that cannot be measured by hand; a value out of
@@ -61,17 +61,17 @@ class HandMeasurement:
 
     @property
     def name(self) -> str:
-        """As tables have it, joints from 1."""
+        """Name as in tables, joints from 1."""
         return f"{self.effect}.{self.parameter}" + (f"[{self.joint + 1}]" if self.joint is not None else "")
 
     @property
     def key(self) -> tuple[str, str, int]:
-        """Effect, parameter and joint, -1 where it belongs to none."""
+        """Effect, parameter and joint, -1 if it belongs to none."""
         return self.effect, self.parameter, -1 if self.joint is None else self.joint
 
     @property
     def is_none(self) -> bool:
-        """Whether it is no more than the instrument's error."""
+        """Whether the value is no more than the instrument's error."""
         return abs(self.value) <= 2 * self.sd
 
     def __str__(self) -> str:
@@ -80,10 +80,10 @@ class HandMeasurement:
 
 
 def measurement_of(text: str) -> HandMeasurement:
-    """A measurement as a person writes it; without a standard deviation that of the usual instrument.
+    """Parse a measurement; if it has no standard deviation, it gets that of the usual instrument.
 
     Raises:
-        InvalidValueError: another form, no unit or an unknown one, or as of `HandMeasurement`.
+        InvalidValueError: another form, no unit or an unknown one, or as for `HandMeasurement`.
     """
     found = _MEASURED.fullmatch(text)
     if found is None:
@@ -99,7 +99,7 @@ def measurement_of(text: str) -> HandMeasurement:
 
 
 def _measurable(effect: str, parameter: str) -> tuple[Parameter, ByHand]:
-    """A parameter that all recordings have in common and that hands can measure."""
+    """Return a parameter that all recordings share and that can be measured by hand."""
     known = effect_named(effect).parameters
     if parameter not in known:
         raise InvalidValueError(f"parameter of {effect}", parameter, f"one of {', '.join(known)}")
@@ -108,35 +108,35 @@ def _measurable(effect: str, parameter: str) -> tuple[Parameter, ByHand]:
         able = [name for name, one in known.items() if one.by_hand and not one.per_recording]
         raise InvalidValueError(
             "measured value", f"{effect}.{parameter}",
-            f"of {effect}, {', '.join(able)}" if able else "another effect's: this one's counts from what is fitted",
+            f"of {effect}, {', '.join(able)}" if able else "one of another effect: this is relative to fitted values",
         )  # fmt: skip
     if spec.per_recording:
-        allowed = "one that all recordings share; set the sensors' zeros and name the recording by --zeroed"
+        allowed = "one that all recordings share; set the sensors' zeros and name the recording with --zeroed"
         raise InvalidValueError("measured value", f"{effect}.{parameter}", allowed)
     return spec, spec.by_hand
 
 
 def check_measured(measured: Sequence[HandMeasurement], model: Model) -> None:
-    """Refuse what this arm cannot have.
+    """Check that measurements fit this arm.
 
     Raises:
-        InvalidValueError: a joint beyond the last, a value twice, or an effect that the model has already or cannot
-            have.
+        InvalidValueError: a joint beyond the last, a value given twice, or an effect that the model already has or
+            cannot have.
     """
     present = {active.effect.name for active in model.effects}
     for number, one in enumerate(measured):
         if one.joint is not None and not 0 <= one.joint < model.n_joints:
             raise InvalidValueError("joint of a measured value", one.joint + 1, f"1 to {model.n_joints}")
         if one.effect in present:
-            raise InvalidValueError("measured effect", one.effect, "none that the model has: change its value there")
+            raise InvalidValueError("measured effect", one.effect, "one that is not in the model: change it there")
         if not effect_named(one.effect).acts_on(model.parameters):
             raise InvalidValueError("measured effect", one.effect, "one that can act on this arm")
         if one.key in {other.key for other in measured[:number]}:
-            raise InvalidValueError("measured value", one.name, "each once")
+            raise InvalidValueError("measured value", one.name, "each value only once")
 
 
 def with_measured(model: Model, measured: Sequence[HandMeasurement]) -> Model:
-    """The model with what was measured in it; what is no more than an instrument's error is none."""
+    """Return the model with the measured values; one within its instrument's error counts as absent."""
     values = dict[str, dict[str, Array]]()
     for one in measured:
         if not one.is_none:
@@ -147,9 +147,9 @@ def with_measured(model: Model, measured: Sequence[HandMeasurement]) -> Model:
 
 
 def known_whole(effect: Effect, measured: Iterable[HandMeasurement], n_joints: int) -> bool:
-    """Whether measurements leave nothing of an effect to be looked for.
+    """Whether measurements leave nothing of an effect to search for.
 
-    Of an effect with states, or one that delays, whatever it has more is known with its size.
+    An effect with states, or one that delays, is entirely known if its size is.
     """
     those = [one for one in measured if one.effect == effect.name]
     has_shape = bool(effect.n_states(n_joints)) or any(one.parameter == "delay" for one in those)

@@ -1,4 +1,4 @@
-"""Measurements by hand, and removals, that would tell two possible sets of effects apart."""
+"""Measurements by hand, and removals, that would distinguish two possible sets of effects."""
 
 from __future__ import annotations
 
@@ -18,13 +18,12 @@ from continuum.dynamics.parameters import ByHand
 
 
 def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest, ...]:
-    """Values about which two sets differ, the most telling first.
+    """Return the values about which two sets differ, the most informative first.
 
-    What differs from recording to recording and is measured once may be taken for what all recordings share; such
-    pairs are left out.
+    A per-run value that is measured once can be mistaken for one that all recordings share; such pairs are left out.
 
     Args:
-        found: what was examined.
+        found: result of the search.
         rivals: two sets, or one.
     """
     if len(rivals) < 2:
@@ -47,14 +46,14 @@ def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest
 
 
 def removals(rivals: Sequence[Examined]) -> tuple[Removal, ...]:
-    """Effects of one of two sets that can be taken off the arm."""
+    """Return the effects of only one of two sets that can be taken off the arm."""
     names = [{h.effect for h in one.found.chosen} for one in rivals]
     per_run = sorted(names[0] ^ names[1]) if len(names) > 1 else []
     return tuple(Removal(name, text) for name in per_run if (text := effect_named(name).removal))
 
 
 def value_and_sd(fit: Fitted, key: ValueKey) -> tuple[float, float]:
-    """What a set makes of a value, and its standard deviation; a set without the effect says that there is none."""
+    """Return a set's estimate of a value and its standard deviation; zeros if the set does not have the value."""
     effect, name, joint = key
     active, variance = fit.state.active.get(effect, {}), 0.0
     value = float(active[name][max(joint, 0)]) if name in active else fit.state.shared.get(key, 0.0)
@@ -65,7 +64,7 @@ def value_and_sd(fit: Fitted, key: ValueKey) -> tuple[float, float]:
 
 
 def _measurable(keys: Set[tuple[str, tuple[int, ...] | None]], n: int) -> Iterator[tuple[ValueKey, ByHand]]:
-    """Values that effects at places change and hands can measure, each once."""
+    """Yield the values of effects at places that can be measured by hand, each once."""
     seen = set[ValueKey]()
     for effect, joints in sorted(keys, key=str):
         for name, spec in effect_named(effect).parameters.items():

@@ -1,8 +1,8 @@
-"""Hypotheses: which columns an effect may use, with a Gaussian prior on its coefficients, made from the effect library.
+"""Hypotheses from the effect library: the columns of an effect, with a Gaussian prior on its coefficients.
 
 A coefficient is one of three kinds. ``slot``: a value of the compiled model, or of a sensor, in which Eq. 12 is nearly
-linear. ``value``: the whole torque of an effect with states at given values, 1 where these are right. ``log``: a
-relative change of one of those values.
+linear. ``value``: the whole torque of an effect with states at given values, 1 if these are right. ``log``: a relative
+change of one of those values.
 """
 
 from __future__ import annotations
@@ -20,26 +20,26 @@ from continuum.estimation.structure import absent_values
 
 PRIOR = 3.0
 """Prior standard deviation of an effect's size in units of its typical one: effects that matter are typical or a few
-times that, and evidence changes by the logarithm of this number only."""
+times larger, and the evidence changes only by the logarithm of this number."""
 GRID = (0.3, 1.0, 3.0)
-"""Sizes, in units of the typical one, at which an effect with states is screened: neighbours are alike enough for a
-Gauss-Newton step to lead from one to the other."""
+"""Sizes, in units of the typical one, at which an effect with states is screened: close enough for a Gauss-Newton step
+to lead from one to the next."""
 ORDINARY = 0.5
 """Prior standard deviation of the coefficient of an effect with states at its ordinary size."""
 FRICTION = "joint_friction"
-"""What friction is called where a model file has none."""
+"""Name of friction as an effect if a model file has none."""
 TOLERANCE = 2.5
-"""Standard deviations beyond which a part is not an ordinary one: one in eighty is."""
+"""Standard deviations beyond which a part is not ordinary: one in eighty lies beyond."""
 
 
 @dataclass(frozen=True)
 class Coefficient:
-    """What one coefficient of a hypothesis means.
+    """The meaning of one coefficient of a hypothesis.
 
     Attributes:
         kind: slot, value or log.
-        effect, parameter: whose.
-        joints: at which, from 0; empty where it belongs to none.
+        effect, parameter: effect and parameter that it belongs to.
+        joints: joints that it belongs to, from 0; empty if none.
     """
 
     kind: str
@@ -53,15 +53,15 @@ class Hypothesis:
     """An effect at a place, as a linear map from a few coefficients to columns.
 
     Attributes:
-        effect: by name.
-        joints: at which it acts, from 0; None where it belongs to the whole arm.
-        columns, weights: of each coefficient, indices and factors; all 1 without.
-        coefficients: what they mean.
+        effect: name of the effect.
+        joints: joints at which it acts, from 0; None if it acts on the whole arm.
+        columns, weights: indices and factors of each coefficient's columns; factors of 1 if empty.
+        coefficients: meaning of the coefficients.
         sd: their prior standard deviations, (k,).
-        least: their lower bounds, (k,), minus infinity where there is none.
-        local: columns that each recording has a coefficient of its own for.
+        least: their lower bounds, (k,), minus infinity if there is none.
+        local: columns with per-run coefficients.
         local_sd: their prior standard deviations.
-        start: values of an effect with states at which its torque was taken.
+        start: values at which the torque of an effect with states was evaluated.
     """
 
     effect: str
@@ -77,7 +77,7 @@ class Hypothesis:
 
     @property
     def key(self) -> tuple[str, tuple[int, ...] | None]:
-        """Effect and place, whatever its values."""
+        """Effect and place, regardless of values."""
         return self.effect, self.joints
 
     @property
@@ -87,11 +87,11 @@ class Hypothesis:
 
     @property
     def label(self) -> str:
-        """For tables, joints from 1."""
+        """Label for tables, joints from 1."""
         return self.effect + ("@" + ",".join(str(j + 1) for j in self.joints) if self.joints is not None else "")
 
     def map(self, width: int) -> Array:
-        """(width, k): from coefficients to columns."""
+        """Return the matrix from coefficients to columns, (width, k)."""
         H = np.zeros((width, len(self.columns)))
         for k, used in enumerate(self.columns):
             H[list(used), k] = self.weights[k] if self.weights else 1.0
@@ -99,7 +99,7 @@ class Hypothesis:
 
 
 def friction_of_all(n: int) -> Hypothesis:
-    """Friction of an arm whose model file has none: its sizes are coordinates of the baseline, at each joint."""
+    """Return friction of an arm whose model file has none: its sizes are coordinates of the baseline at each joint."""
     return Hypothesis(FRICTION, tuple(range(n)), (), (), np.zeros(0), np.zeros(0))
 
 
@@ -110,10 +110,10 @@ def at_values(
     logs: Sequence[tuple[int, str, tuple[int, ...]]],
     start: Mapping[str, Array],
 ) -> Hypothesis:
-    """An effect with states at given values: its whole torque, and relative changes of these values.
+    """Return an effect with states at given values: its whole torque, and relative changes of these values.
 
     Args:
-        effect, joints: which, and where.
+        effect, joints: effect and joints.
         value: column of the torque.
         logs: columns of the relative changes, with parameter and joints.
         start: the values.
@@ -130,12 +130,12 @@ def at_values(
 def not_measured(
     hypotheses: Sequence[Hypothesis], measured: Collection[tuple[str, str, int]], columns: Collection[int]
 ) -> list[Hypothesis]:
-    """What measurements by hand leave open of hypotheses.
+    """Return what measurements by hand leave open of hypotheses.
 
     Args:
-        hypotheses: of one library.
-        measured: values that are known, by effect, parameter and joint, -1 where it belongs to none.
-        columns: of these values.
+        hypotheses: hypotheses of one library.
+        measured: known values, by effect, parameter and joint, -1 if a value belongs to none.
+        columns: columns of these values.
     """
     places, found = {(effect, joint) for effect, _, joint in measured}, list[Hypothesis]()
     for h in hypotheses:
@@ -154,13 +154,13 @@ def not_measured(
 
 
 def sizes_and_shapes(effect: Effect) -> tuple[list[str], list[str]]:
-    """Parameters by which an effect is linear and absent at 0, and those that only say what it looks like."""
+    """Return the parameters in which an effect is linear and at 0 absent, and those that only give its shape."""
     shapes = [name for name, spec in effect.parameters.items() if spec.default or spec.shape]
     return [name for name in effect.parameters if name not in shapes], shapes
 
 
 def shape_variants(effect: Effect, shapes: Sequence[str]) -> Iterator[dict[str, float]]:
-    """Shapes at their defaults, and all a typical amount above and below where that is allowed."""
+    """Yield the shapes at their defaults, and all a typical amount above and below, within bounds."""
     seen = set()
     for step in (0.0, 1.0, -1.0):
         values = {}
@@ -174,7 +174,7 @@ def shape_variants(effect: Effect, shapes: Sequence[str]) -> Iterator[dict[str, 
 
 
 def grid(effect: Effect, n: int) -> Iterator[dict[str, Array]]:
-    """Values at which an effect with states is screened: its own beginnings, or three sizes."""
+    """Yield the values at which an effect with states is screened: its ``beginnings``, or three sizes."""
     absent = absent_values(effect, n)
     if effect.beginnings:
         for begin in effect.beginnings:
@@ -186,13 +186,13 @@ def grid(effect: Effect, n: int) -> Iterator[dict[str, Array]]:
 
 
 def fitted_parameters(effect: Effect) -> list[str]:
-    """Of an effect with states, those that are fitted: its size, and those of which it has beginnings."""
+    """Return the fitted parameters of an effect with states: its size, and those in its ``beginnings``."""
     first = next(iter(effect.parameters))
     return list(dict.fromkeys([first, *itertools.chain.from_iterable(effect.beginnings)]))
 
 
 def prior_sd(spec: Parameter) -> float:
-    """Standard deviation of a size, or of a shape, about its value where the effect is absent."""
+    """Return the prior standard deviation of a size or a shape about its value without the effect."""
     return (1.0 if spec.default or spec.shape else PRIOR) * (spec.typical or 1.0)
 
 

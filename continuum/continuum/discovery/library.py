@@ -34,15 +34,15 @@ class Library:
     """All columns and hypotheses about one point of linearisation.
 
     Args:
-        structure: of the model.
-        active: values of the effects with states that are in the model, and of those whose shape is fitted.
-        ratio: by which their values are changed for differences.
-        baseline: columns that every hypothesis has, by coordinate or name.
-        covered: parameters that these change as well where they change alike at all joints.
-        live: effects that have hypotheses; all without.
+        structure: structure of the model.
+        active: values of the effects in the model that have states or a fitted shape.
+        ratio: factor by which these values are changed for finite differences.
+        baseline: columns that all hypotheses share, by coordinate or name.
+        covered: parameters whose equal change at all joints these columns include.
+        live: effects that have hypotheses; all if None.
         lacks_friction: whether friction is a hypothesis, as `friction_of_all`.
-        measured: standard deviations of values that were measured by hand. They are no hypotheses; values that are
-            columns differ from what was measured as parts of one batch differ from each other.
+        measured: standard deviations of values that were measured by hand. These are no hypotheses; their columns
+            become ordinary differences with these standard deviations.
     """
 
     def __init__(
@@ -60,9 +60,9 @@ class Library:
         self.structure, self.active, self.ratio = structure, active, ratio
         self.columns, self.width, self.hypotheses = list[Column](), 0, list[Hypothesis]()
         self.at: dict[tuple[str, str, int], int] = {}  # columns of values, by effect, parameter and joint
-        self.torque_only: dict[str, int] = {}  # columns of torque that no value holds, by name
+        self.torque_only: dict[str, int] = {}  # columns of torque without a value, by name
         self.held: list[int] = []  # columns of effects with states that are in the nominal motion
-        self.ordinary: list[tuple[int, float]] = []  # columns by which parts of one batch differ, and by how much
+        self.ordinary: list[tuple[int, float]] = []  # columns of ordinary differences, with standard deviations
         for name, column in baseline:
             at = self._add(column)
             if isinstance(name, str):
@@ -89,7 +89,7 @@ class Library:
             self.hypotheses = not_measured(self.hypotheses, self._measured, columns)
 
     def _add(self, column: Column) -> int:
-        """Append columns; the first one's index."""
+        """Append columns; return the index of the first."""
         self.columns.append(column)
         self.width += column.width
         return self.width - column.width
@@ -117,12 +117,12 @@ class Library:
             self._placed(effect, at, changed)
 
     def _sd(self, effect: Effect, name: str, k: int) -> float:
-        """By which a value differs in any arm: as was measured, or as parts of one batch do."""
+        """Return the standard deviation of a value: of its measurement, or between parts of one batch."""
         spec = effect.parameters[name]
         return self._measured.get((effect.name, name, k if spec.per_joint else -1), spec.ordinary)
 
     def _placed(self, effect: Effect, at: Mapping[str, int], changed: Mapping[str, float]) -> None:
-        """Hypotheses of an effect that is linear in its sizes: at each joint, and at all alike."""
+        """Add the hypotheses of an effect that is linear in its sizes: at each joint, and at all alike."""
         n, spec = self.structure.n, effect.parameters
         start = {name: np.array([value]) for name, value in changed.items()} or None
         of_joints = [name for name in at if spec[name].per_joint]
@@ -138,14 +138,14 @@ class Library:
         for j in range(n):
             self._one(effect, (j,), [((at[name] + j,), name, (j,)) for name in of_joints], start)
         everywhere = tuple(range(n))
-        if n > 1 and not overrides(effect, "measure"):  # one gain of all sensors would be a unit
+        if n > 1 and not overrides(effect, "measure"):  # a common gain of all sensors is a change of units
             new = [name for name in of_joints if f"{effect.name}.{name}" not in self._covered]
             if new:
                 alike = [(tuple(at[name] + j for j in everywhere), name, everywhere) for name in new]
                 self._one(effect, everywhere, alike, start)
 
     def _along_directions(self, effect: Effect, at: Mapping[str, int]) -> None:
-        """Of an effect whose sizes go together, a coefficient for each combination, at each joint and at all alike."""
+        """Add hypotheses of an effect with fixed combinations of sizes: for each, at each joint and at all alike."""
         n = self.structure.n
         for joints in [(j,) for j in range(n)] + [tuple(range(n))] * (n > 1):
             for direction in effect.directions:
@@ -182,7 +182,7 @@ class Library:
         )
 
     def _local(self, effect: Effect, at: Mapping[str, int], of_joints: Sequence[str]) -> None:
-        """Of an effect that every recording has a value of its own for."""
+        """Add the hypotheses of an effect with per-run values."""
         spec, nothing = effect.parameters, np.zeros(0)
         if not of_joints:
             (name,) = at
@@ -255,7 +255,7 @@ class Library:
                     self._nonlinear(effect, None, value, [], values)
 
     def _active(self, effect: Effect, params: Mapping[str, Array], of_joints: Sequence[str]) -> None:
-        """The effect's torque at its values, and how it changes with each of those that the data may tell."""
+        """Add the effect's torque at its values, and its change with each fitted value."""
         joints = tuple(int(j) for j in np.flatnonzero(params[of_joints[0]])) if of_joints else ()
         value = self._add(StatefulTorque(effect.name, params, joints))
         logs = []
@@ -281,7 +281,7 @@ class Library:
         self.hypotheses.append(at_values(effect, joints, value, logs, start))
 
     def held_vector(self, held: Mapping[str, float]) -> Array:
-        """Coefficients of the columns of torque that are in the nominal motion, (P,)."""
+        """Return the coefficients of the columns of torque that are in the nominal motion, (P,)."""
         out = np.zeros(self.width)
         out[self.held] = 1.0
         for name, value in held.items():
@@ -290,7 +290,7 @@ class Library:
         return out
 
     def nuisances(self, baseline_sd: Array) -> tuple[Array, Array, Array]:
-        """Columns that every hypothesis has, with the prior standard deviations and largest sizes of coefficients."""
+        """Return the columns that all hypotheses share, with prior standard deviations and largest coefficients."""
         columns = [*self._baseline, *(at for at, _ in self.ordinary)]
         sd = np.array([sd for _, sd in self.ordinary])
         most = np.concatenate([np.full(len(self._baseline), np.inf), TOLERANCE * sd])

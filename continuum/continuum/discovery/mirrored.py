@@ -1,7 +1,7 @@
-"""The same torque by the other of two joints.
+"""The same torques by an effect at the other of two joints.
 
-The refitted model has springs and friction of all joints alike, so that two joints that differ can be told in two ways:
-the common value and a factor at one joint, or that joint's value for both and the inverse factor at the other.
+The refitted model has common springs and friction, so two different joints can be described in two ways: the common
+value and a factor at one joint, or that joint's value at both and the inverse factor at the other.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import Values
 from continuum.discovery.unknowns import linear_unknown
 
-_TWO = 2  # joints, of which neither is the ordinary one
+_TWO = 2  # joints, neither of which is the normal one
 _SCALES = {
     ("joint_friction", "viscous"): "viscous", ("joint_friction", "coulomb"): "coulomb",
     ("joint_stiffness", "excess"): "stiffness",
@@ -28,13 +28,13 @@ _SCALES = {
 def mirrored(
     fit: Fitted, one: Hypothesis, library: Library, coordinates: Coordinates
 ) -> tuple[Hypothesis, Fitted] | None:
-    """The hypothesis at the other of two joints, and where its fit begins; None where an effect is no such factor.
+    """Return the hypothesis at the other of two joints, and the start of its fit; None if its effect is no such factor.
 
     Args:
-        fit: of a set that has ``one``.
-        one: at one of two joints.
-        library: with both.
-        coordinates: of the baseline.
+        fit: fit of a set that contains ``one``.
+        one: hypothesis at one of two joints.
+        library: library with both hypotheses.
+        coordinates: coordinates of the baseline.
     """
     kinds = [_SCALES.get((one.effect, c.parameter)) for c in one.coefficients]
     if coordinates.structure.n != _TWO or one.joints is None or len(one.joints) != 1 or None in kinds or not kinds:

@@ -1,4 +1,4 @@
-"""The torque that a set of effects leaves missing: its size by expectation-maximisation, and its course."""
+"""The torque that a set of effects leaves missing: its size by expectation-maximisation, and its time course."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from continuum.discovery.gauss_newton import smoothed_runs
 from continuum.discovery.problem import Problem
 from continuum.discovery.search import Found
 
-_ITERATIONS = 4  # of expectation-maximisation: sizes have settled to some percent
+_ITERATIONS = 4  # of expectation-maximisation, after which sizes have settled to a few percent
 
 
 def missing_torque(problem: Problem, found: Found) -> tuple[Array, tuple[Array, ...]]:
-    """Standard deviation at each joint, (n,) [N m], and smoothed torque of every run, (n_times, n) [N m]."""
+    """Return the standard deviation at each joint, (n,) [N m], and the smoothed torques, (n_times, n) per run [N m]."""
     lin, n = found.lin, problem.structure.n
     level = lin.evidence.best_level(found.chosen)
     best = lin.evidence.optimum(found.chosen, level)

@@ -1,7 +1,7 @@
 """Normal equations of an output-error fit: unknowns of segments, then of recordings, eliminated by Schur complements.
 
-Residuals of a simulation are alike from row to row. They count as rows (1 - rho) / (1 + rho) independent ones, rho
-their correlation from row to row (Bayley and Hammersley, JRSS suppl. 8, 1946), so that intervals hold model error too.
+Residuals of a simulation are correlated from row to row. They count as rows (1 - rho) / (1 + rho) independent ones,
+where rho is that correlation (Bayley and Hammersley, JRSS suppl. 8, 1946), so that intervals include model error.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ class Values:
     """Values of all unknowns.
 
     Attributes:
-        common: of all recordings, (k,).
-        per_run: of each recording.
-        local: of each segment, (3 n,) each.
+        common: values common to all recordings, (k,).
+        per_run: values of each recording.
+        local: values of each segment, (3 n,) each.
     """
 
     common: Array
@@ -39,17 +39,17 @@ class Values:
 
 
 class Scale:
-    """How residuals of segments count: as much as their root mean square, not its square (Huber 1964).
+    """Weights of segments: their cost is linear in the root mean square of their residuals, not quadratic (Huber 1964).
 
-    A joint that comes to rest elsewhere puts all of its segment off; such a segment must not outweigh all others.
+    A joint that comes to rest elsewhere spoils its whole segment; such a segment must not outweigh all others.
 
     Args:
-        segments: from which the scale is taken.
+        segments: segments that set the scale.
         floor: standard deviation of the sensors' white noise [rad].
 
     Attributes:
-        independent: share of residuals that are independent of each other.
-        observations: their number.
+        independent: fraction of residuals that are independent.
+        observations: number of independent residuals.
     """
 
     def __init__(self, segments: Sequence[Segment], floor: float) -> None:
@@ -59,11 +59,11 @@ class Scale:
         self.observations: float = self.independent * sum(one.readings.size for one in segments)
 
     def weights(self, errors: Sequence[float]) -> list[float]:
-        """Of squared residuals of segments with these errors [1/rad^2]."""
+        """Return the weights of squared residuals of segments with these errors [1/rad^2]."""
         return [self.independent / (self._typical * max(error, self.floor)) for error in errors]
 
     def cost(self, one: Segment) -> float:
-        """Minus the log-likelihood of a segment, less a constant."""
+        """Return minus the log-likelihood of a segment, up to a constant."""
         error = one.error
         if error < self.floor:
             error = 0.5 * (error**2 / self.floor + self.floor)
@@ -71,14 +71,14 @@ class Scale:
 
 
 def independent(square: float, product: float) -> float:
-    """Share of residuals that are independent, by the sum of their squares and that of products one row apart."""
+    """Return the fraction of independent residuals, from the sum of squares and that of products one row apart."""
     rho = product / square if square > 0 else 0.0
     rho = min(max(rho, 0.0), _MOST_CORRELATION) if np.isfinite(rho) else _MOST_CORRELATION
     return (1 - rho) / (1 + rho)
 
 
 def prior_cost(unknowns: Unknowns, values: Values, local_precision: Array) -> float:
-    """Minus the log-prior, less a constant."""
+    """Return minus the log-prior, up to a constant."""
     of_all = [(values.common, unknowns.common), *zip(values.per_run, unknowns.per_run, strict=True)]
     common = sum(((v - one.mean) / one.sd) ** 2 for x, those in of_all for v, one in zip(x, those, strict=True))
     return 0.5 * float(common + sum(x @ (local_precision * x) for x in values.local))
@@ -89,11 +89,11 @@ class _Run:
     """Information of one recording.
 
     Attributes:
-        A, b: on the common unknowns, the others eliminated, (k, k) and (k,).
-        of_segments: the same on the common unknowns and the recording's own, by segment.
-        per_run_prior: on these, (k + m, k + m) and (k + m,).
-        per_run, segments: what gives the recording's own unknowns and its segments' from the common ones.
-        per_run_covariance: at given common unknowns, (m, m).
+        A, b: information on the common unknowns, with the others eliminated, (k, k) and (k,).
+        of_segments: the same by segment, on the common and the per-run unknowns.
+        per_run_prior: prior information on these, (k + m, k + m) and (k + m,).
+        per_run, segments: back substitution to the per-run unknowns and to those of each segment.
+        per_run_covariance: covariance of the per-run unknowns given the common ones, (m, m).
     """
 
     A: Array
@@ -105,7 +105,7 @@ class _Run:
     per_run_covariance: Array
 
     def without(self, segment: int) -> tuple[Array, Array, Array]:
-        """On the common unknowns, without one segment, and what gives the recording's own then."""
+        """Return the information on the common unknowns without a segment, and back substitution to per-run ones."""
         A, b = self.per_run_prior
         for i, (more, right) in enumerate(self.of_segments):
             if i != segment:
@@ -113,22 +113,22 @@ class _Run:
         return _eliminated(A, b, len(self.b))
 
     def rest(self, step: Array) -> tuple[Array, tuple[Array, ...]]:
-        """Steps of the recording's own unknowns and of those of its segments."""
+        """Return the steps of the per-run unknowns and of those of each segment."""
         per_run = self.per_run[:, -1] - self.per_run[:, :-1] @ step
         both = np.concatenate([step, per_run])
         return per_run, tuple(part[:, -1] - part[:, :-1] @ both for part in self.segments)
 
 
 class WithoutEach(NamedTuple):
-    """What changes where segments are left out, one after the other.
+    """Changes when each segment in turn is left out.
 
     Attributes:
-        moves: of the common unknowns, (segments, k).
-        sds: their standard deviations where the model is right, (segments, k).
-        errors: of the segment that is left out, root mean square, (segments,) [rad]. Its own unknowns are data as well:
-            one that is z prior standard deviations off counts as a residual of z times the noise, and as as many rows
-            as hold one independent residual. What a set cannot simulate no segment may take for wrong zeros of its
-            sensors without a price.
+        moves: changes of the common unknowns, (segments, k).
+        sds: their standard deviations if the model is right, (segments, k).
+        errors: root mean square error of the segment that is left out, (segments,) [rad]. Its local unknowns count as
+            data: one that is z prior standard deviations off counts as a residual of z times the noise in as many rows
+            as contain one independent residual. Otherwise a segment could explain errors of a set by wrong zeros of
+            its sensors at no cost.
     """
 
     moves: Array
@@ -137,12 +137,12 @@ class WithoutEach(NamedTuple):
 
     @property
     def disagreement(self) -> Array:
-        """Mean square of the moves in units of their spreads, (k,): about 1 where segments agree."""
+        """Mean square of the moves in units of their standard deviations, (k,): about 1 if segments agree."""
         size = np.divide(self.moves, self.sds, out=np.zeros_like(self.moves), where=self.sds > 0)
         return np.asarray(np.mean(size**2, axis=0))
 
     def probability(self, which: Sequence[int]) -> float:
-        """Of as much disagreement about any of some unknowns, where there is none: chi-square, Bonferroni."""
+        """Return the p-value of the disagreement about any of some unknowns: chi-square with Bonferroni correction."""
         df = len(self.moves) - 1
         if df < 1 or not len(which):
             return 1.0
@@ -150,13 +150,13 @@ class WithoutEach(NamedTuple):
 
 
 class NormalEquations:
-    """About values at which the segments were simulated.
+    """Normal equations about values at which segments were simulated.
 
     Args:
-        unknowns, values: where.
-        segments: simulated there.
-        weights: of their squared residuals [1/rad^2].
-        local_precision: inverse prior variances of a segment's own unknowns, (3 n,).
+        unknowns, values: unknowns and their values.
+        segments: segments simulated at these values.
+        weights: weights of their squared residuals [1/rad^2].
+        local_precision: inverse prior variances of a segment's local unknowns, (3 n,).
     """
 
     def __init__(
@@ -192,7 +192,7 @@ class NormalEquations:
         return [one for one in self._segments if one.run == run]
 
     def stepped(self, damping: float) -> Values:
-        """Values after a Levenberg-Marquardt step within the bounds."""
+        """Return the values after a Levenberg-Marquardt step within the bounds."""
         A, unit = self._A + damping * np.diag(np.diag(self._A)), np.eye(len(self._low))
         low, high = np.isfinite(self._low), np.isfinite(self._high)
         G, least = np.concatenate([unit[low], -unit[high]]), np.concatenate([self._low[low], -self._high[high]])
@@ -206,12 +206,12 @@ class NormalEquations:
         )
 
     def expected_residuals(self, there: Values) -> list[Array]:
-        """Residuals of each segment at other values, linearised, (rows, n) each [rad]."""
+        """Return the linearised residuals of each segment at other values, (rows, n) each [rad]."""
         moves = zip(self._segments, self._moves(there), strict=True)
         return [one.residuals_at(move).reshape(one.readings.shape) for one, move in moves]
 
     def _moves(self, there: Values) -> Iterator[Array]:
-        """Changes of each segment's unknowns on the way to other values."""
+        """Yield the changes of each segment's unknowns from here to other values."""
         here = self._values
         local = iter([after - before for before, after in zip(here.local, there.local, strict=True)])
         for r, (before, after) in enumerate(zip(here.per_run, there.per_run, strict=True)):
@@ -219,14 +219,14 @@ class NormalEquations:
                 yield np.concatenate([there.common - here.common, after - before, next(local)])
 
     def expected_fall(self, there: Values) -> float:
-        """Fall of minus the log-posterior on the way to other values, by the linearised residuals."""
+        """Return the fall of minus the log-posterior from here to other values, with linearised residuals."""
         squares = [float(np.sum(left**2)) for left in self.expected_residuals(there)]
         falls = [one.square - square for one, square in zip(self._segments, squares, strict=True)]
         priors = [prior_cost(self._unknowns, values, self._local_precision) for values in (self._values, there)]
         return 0.5 * float(np.dot(self._weights, falls)) + priors[0] - priors[1]
 
     def per_run_sd(self) -> tuple[Array, ...]:
-        """Standard deviations of each recording's own unknowns."""
+        """Return the standard deviations of the per-run unknowns, by recording."""
         out = []
         for one in self._runs:
             through = one.per_run[:, :-1]
@@ -234,10 +234,10 @@ class NormalEquations:
         return tuple(out)
 
     def without_each(self, scale: Scale) -> WithoutEach:
-        """One Newton step from the optimum for each segment left out; what is the segment's own is fitted to it.
+        """Take one Newton step from the optimum for each segment left out; its local unknowns are fitted to it.
 
         Args:
-            scale: of residuals.
+            scale: weights of residuals.
         """
         held = ((self._low > -_AT_BOUND) & (self._b < 0)) | ((self._high < _AT_BOUND) & (self._b > 0))
         free, k = ~held, len(held)
@@ -264,7 +264,7 @@ class NormalEquations:
 
 
 def _solved(A: Array, b: Array, free: NDArray[np.bool_]) -> tuple[Array, Array]:
-    """Solution of A x = b and the inverse of A, some unknowns being held: these are zero."""
+    """Return the solution of A x = b and the inverse of A on the free unknowns; both are zero at the others."""
     x, inverse = np.zeros_like(b), np.zeros_like(A)
     if np.any(free):
         inverse[np.ix_(free, free)] = np.linalg.inv(A[np.ix_(free, free)])
@@ -275,7 +275,7 @@ def _solved(A: Array, b: Array, free: NDArray[np.bool_]) -> tuple[Array, Array]:
 def _run(
     systems: Sequence[tuple[Array, Array]], parts: Sequence[Array], values: Array, per_run: Sequence[Unknown]
 ) -> _Run:
-    """Eliminate a recording's own unknowns, the last of its segments' systems."""
+    """Eliminate the per-run unknowns, the last in the systems of the segments."""
     precision, means = _prior(per_run)
     k = len(systems[0][1]) - len(per_run)
     prior = np.zeros_like(systems[0][0]), np.zeros_like(systems[0][1])
@@ -286,11 +286,11 @@ def _run(
 
 
 def _eliminated(A: Array, b: Array, k: int) -> tuple[Array, Array, Array]:
-    """Schur complement of A x = b on the first k unknowns, (k, k) and (k,), and what gives the others, (m, k + 1)."""
+    """Return the Schur complement on the first k unknowns, (k, k) and (k,), and the back substitution, (m, k + 1)."""
     solved = np.linalg.solve(A[k:, k:], np.column_stack([A[k:, :k], b[k:]]))
     return A[:k, :k] - A[:k, k:] @ solved[:, :-1], b[:k] - A[:k, k:] @ solved[:, -1], solved
 
 
 def _prior(those: Sequence[Unknown]) -> tuple[Array, Array]:
-    """Precisions and means."""
+    """Return the prior precisions and means."""
     return np.array([one.sd for one in those]) ** -2.0, np.array([one.mean for one in those])

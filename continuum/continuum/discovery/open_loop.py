@@ -23,18 +23,18 @@ from continuum.dynamics.values import parameter_slots, parameter_vector, with_ve
 from continuum.estimation.structure import delay_of
 from continuum.recordings.recording import Recording
 
-_TOLERANCES = Tolerances(1e-3, 1e-4, 0.01, 2000)  # errors stay below a hundredth of a degree; what needs more diverges
-_LATER = 0.03  # step of a delay's logarithm: inputs jump, and an integration's steps with them
-_LEAD_IN = 1.0  # s, two swings of an arm's slowest mode: in it effects' states forget what they were before
+_TOLERANCES = Tolerances(1e-3, 1e-4, 0.01, 2000)  # errors stay below 0.01 degrees; a motion with more steps diverges
+_LATER = 0.03  # step in the log of a delay: inputs jump, and so do the steps of an integration
+_LEAD_IN = 1.0  # s, two swings of an arm's slowest mode: effects' states forget their initial values
 
 
 class Simulators:
-    """Simulators of one problem's models, by the effects that are compiled in, and their inputs.
+    """Simulators of one problem's models, one for each set of compiled effects, and their inputs.
 
     Args:
-        problem: whose runs are simulated.
-        recordings: with the inputs of the runs.
-        tolerances: of integration.
+        problem: problem with the runs.
+        recordings: recordings with the inputs of the runs.
+        tolerances: tolerances of integration.
     """
 
     def __init__(
@@ -44,20 +44,20 @@ class Simulators:
         self._compiled: dict[tuple[str, ...], Simulator] = {}
 
     def around(self, problem: Problem, recordings: tuple[Recording, ...] | None = None) -> Simulators:
-        """The same compiled equations for another problem of the same structure, of other recordings where given."""
+        """Return the same compiled equations for another problem of the same structure; recordings change if given."""
         other = copy(self)
         other.problem, other._recordings = problem, self._recordings if recordings is None else recordings
         return other
 
     def of(self, model: Model) -> Simulator:
-        """The compiled equations of a model's effects, with its values."""
+        """Return the compiled equations of a model's effects, with its values."""
         names = tuple(a.effect.name for a in model.effects)
         if names not in self._compiled:
             self._compiled[names] = Simulator(model, self._tolerances)
         return self._compiled[names].around(model)
 
     def inputs(self, state: State, run: int) -> InputSignal:
-        """What drives a run, as late as the state says."""
+        """Return the inputs of a run with the delay of the state."""
         s = self.problem.structure
         delay = sum(float(np.sum(e.late(params))) for e in s.late if (params := state.active.get(e.name)))
         delay += lateness(s.given)
@@ -66,13 +66,13 @@ class Simulators:
 
 
 class RunSimulation:
-    """Segments of one run at a state.
+    """Simulation of the segments of one run at a state.
 
     Args:
         simulators: compiled equations.
-        state: values, and trajectories whose angles and rates segments begin near.
-        run: which, by number.
-        unknowns: by which segments are differentiated, besides their own.
+        state: values, and trajectories near which segments start.
+        run: number of the run.
+        unknowns: unknowns by which segments are differentiated, in addition to their local ones.
     """
 
     def __init__(self, simulators: Simulators, state: State, run: int, unknowns: Sequence[Unknown] = ()) -> None:
@@ -102,11 +102,11 @@ class RunSimulation:
                     self._shifted[i] = extended_model(problem, shifted(state, unknown, run), run)
 
     def segment(self, rows: slice, local: Array) -> Segment:
-        """One segment.
+        """Simulate one segment.
 
         Args:
-            rows: of the run.
-            local: its own unknowns: what is added to the smoothed angles and rates at its beginning, and zeros of the
+            rows: rows of the run.
+            local: local unknowns: offsets from the smoothed angles and rates at the first row, and zeros of the
                 sensors, (3 n,) [rad, rad/s, rad].
         """
         n, run, k = self._problem.structure.n, self._run, self._directions.shape[1]
@@ -139,19 +139,19 @@ class RunSimulation:
         return Segment.of(self._r, rows, none, np.full((size * n, width), np.nan), none.ravel())
 
     def readings(self, rows: slice, local: Array) -> Array:
-        """The same as `Segment.readings`, without derivatives, (rows, n) [rad]."""
+        """Simulate `Segment.readings` without derivatives, (rows, n) [rad]."""
         found, n = self.motion(rows, local), self._problem.structure.n
         if found.status is not SimulationStatus.COMPLETE:
             return np.full_like(found.theta, np.nan)
         return self._read(rows, found.theta, found.theta_rate, self._params) + local[2 * n :]
 
     def motion(self, rows: slice, local: Array) -> Motion:
-        """The simulated motion of some rows."""
+        """Simulate the motion of some rows."""
         x0, _ = self._beginning(rows.start, local)
         return self._simulator.run(x0, self._run.times[rows], self._inputs)
 
     def _beginning(self, row: int, local: Array) -> tuple[Array, Array]:
-        """State at a row, (n_x,), and its derivative by all unknowns but the zeros, (n_x, k + 2 n)."""
+        """Return the state at a row, (n_x,), and its derivative by all unknowns except the zeros, (n_x, k + 2 n)."""
         n, k = self._problem.structure.n, self._directions.shape[1]
         q, w = self._way.q[row] + local[:n], self._way.w[row] + local[n : 2 * n]
         states = self._at_rest(q, row)
@@ -168,7 +168,7 @@ class RunSimulation:
         return np.concatenate([q, w, states]), sensitivities
 
     def _at_rest(self, q: Array, row: int, model: Model | None = None) -> Array:
-        """Effects' states in an arm that rests at angles q."""
+        """Return the effects' states of an arm that rests at angles q."""
         model = self._model if model is None else model
         u, p = self._run.inputs[self._run.first[row]], model.changed_parameters
         found = [
@@ -179,7 +179,7 @@ class RunSimulation:
         return np.concatenate([np.zeros(0), *found])
 
     def _rest_sensitivities(self, q: Array, row: int) -> tuple[Array, Array]:
-        """Derivatives of the states at rest by the angles (n_z, n), and by the effects' own values, (n_z, k)."""
+        """Return the derivatives of the states at rest by the angles, (n_z, n), and by the unknowns, (n_z, k)."""
         at_rest = self._at_rest(q, row)
         by_angles = [(self._at_rest(q + step, row) - at_rest) / STEP for step in STEP * np.eye(q.size)]
         by_unknowns = np.zeros((at_rest.size, self._directions.shape[1]))
@@ -188,9 +188,9 @@ class RunSimulation:
         return np.stack(by_angles, axis=1), by_unknowns
 
     def _moved(self, row: int) -> tuple[Array, Array]:
-        """By how much effects' states are not those at rest, and the derivative of that, (n_z,) and (n_z, k).
+        """Return the difference of effects' states from those at rest, (n_z,), and its derivative, (n_z, k).
 
-        They are led in: simulated from what they would be at rest, from smoothed angles and rates a while before.
+        States have a lead-in: they are simulated from earlier smoothed angles and rates, where they start as at rest.
         """
         n, k, times = self._problem.structure.n, self._directions.shape[1], self._run.times
         first = min(int(np.searchsorted(times, times[row] - _LEAD_IN)), row - 1)
@@ -206,12 +206,12 @@ class RunSimulation:
         return found.states[-1, 2 * n :] - self._at_rest(found.theta[-1], row), sensitivities
 
     def _read(self, rows: slice, q: Array, w: Array, params: Mapping[str, Mapping[str, Array]]) -> Array:
-        """Angles as the sensors read them but for their zeros, (rows, n) [rad]."""
+        """Return the angles as the sensors read them, without the segment's zeros, (rows, n) [rad]."""
         return self._problem.structure.readings(self._run, q, w, params, rows)[:, : q.shape[1]]
 
 
 def extended_model(problem: Problem, state: State, run: int) -> Model:
-    """The model with a state's values and the effects that it names but those on sensors, in one recording."""
+    """Return the model of one recording with a state's values and its effects, except those on sensors."""
     s, point = problem.structure, point_of(problem, state)
     base = with_vector(s.model, point.values_in(s, run))
     named = {effect for values in (state.shared, *state.per_run) for effect, _, _ in values}
@@ -223,7 +223,7 @@ def extended_model(problem: Problem, state: State, run: int) -> Model:
 
 
 def _direction(problem: Problem, state: State, slots: Mapping[str, slice], unknown: Unknown) -> Mapping[int, float]:
-    """Derivatives of a model's values by an unknown, by where they stand among all values; others are zero."""
+    """Return the derivatives of a model's values by an unknown, by index among all values; others are zero."""
     found: dict[int, float] = {}
     for (effect, name, joint), factor in unknown.places.items():
         if effect:

@@ -1,8 +1,8 @@
 """Fit of a set of effects by output error: open-loop simulations of the exact equations against the readings.
 
 Multiple shooting (Bock 1983): recordings are cut into segments, each with unknown initial angles, rates and zeros of
-its sensors. Where a joint comes to rest depends on friction as a coin's side on its throw, which leaves kinks in the
-cost: segments are short, so that most end before that, and Levenberg-Marquardt steps may climb a little.
+its sensors. Where a joint comes to rest depends on friction as a coin toss does on the throw, which leaves kinks in the
+cost: segments are short, so that most end before that, and Levenberg-Marquardt steps may raise the cost slightly.
 """
 
 from __future__ import annotations
@@ -29,22 +29,22 @@ from continuum.dynamics.trajectory import Trajectory as Motion
 from continuum.recordings.recording import Recording
 
 SEGMENT = 0.5
-"""Length of a segment [s]: about a swing of an arm's slowest mode. What is wrong with the equations shows within it;
-in 2 s segments fits ended 1.5 to 4 times above the noise, by joints that came to rest elsewhere."""
+"""Length of a segment [s]: about one swing of an arm's slowest mode. Errors of the equations show within it; with 2 s
+segments, fits ended 1.5 to 4 times above the noise, because joints came to rest elsewhere."""
 ENOUGH = 16
-"""Segments that are simulated, spread evenly over all recordings, or two of each where these are many: the time of a
-fit does not grow with their length. What is a recording's own is tried on another of its segments."""
-_FIRST = 2  # steps, after which the nearest start is followed, and what is far is given up
+"""Number of segments to simulate, evenly distributed over all recordings, or two of each if these are many: the time of
+a fit does not grow with their length. A second segment tests a recording's per-run values."""
+_FIRST = 2  # steps, after which the best start is followed and a poor fit is abandoned
 _ITERATIONS = 5  # further steps at most
-_MOST = 12  # steps of a fit that nothing is compared with
-_FAR = 2.0  # times the error of another set's fit, with which a set is not fitted further
-_SETTLED = 1.0  # fall of minus the log-posterior: less moves no decision
-_STILL = 2  # steps in a row with less, after which a fit ends
-_RISE = 0.2  # rise of errors that a step may have
-_SHARES = (0.5, 0.25)  # of a step of a segment's own unknowns where its error rises by more
-DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and by how much it grows where the cost rises
+_MOST = 12  # steps of a fit that is not compared with others
+_FAR = 2.0  # multiple of another set's error above which a set is not fitted further
+_SETTLED = 1.0  # fall of minus the log-posterior: less changes no decision
+_STILL = 2  # consecutive steps with less, after which a fit ends
+_RISE = 0.2  # relative rise of errors that a step may cause
+_SHARES = (0.5, 0.25)  # fractions of a step of a segment's local unknowns to try if its error rises by more
+DAMPING, _MORE = 1e-4, 100.0  # of Levenberg and Marquardt, and the factor by which it grows if the cost rises
 _MOST_DAMPING = 1.0  # halves a step, and steps of all directions alike
-_BEGINNING = (0.1, 1.0)  # rad, rad/s: prior of a segment's beginning about the smoothed state
+_BEGINNING = (0.1, 1.0)  # rad, rad/s: prior standard deviations of a segment's initial state about the smoothed one
 
 
 @dataclass(frozen=True)
@@ -70,8 +70,8 @@ class OutputError:
     """Fits of one problem's recordings.
 
     Args:
-        problem: whose runs are simulated.
-        recordings: with the inputs of the runs.
+        problem: problem with the runs.
+        recordings: recordings with the inputs of the runs.
     """
 
     def __init__(self, problem: Problem, recordings: Sequence[Recording]) -> None:
@@ -81,16 +81,16 @@ class OutputError:
         self.local_precision = sd**-2.0
         cuts = [cut(run.times, SEGMENT) for run in problem.runs]
         apart = max(1, round(sum(map(len, cuts)) / ENOUGH))
-        self._cuts = [rows[:: min(apart, max(1, len(rows) - 1))] for rows in cuts]  # two of each recording at least
+        self._cuts = [rows[:: min(apart, max(1, len(rows) - 1))] for rows in cuts]  # at least two of each recording
 
     def around(self, problem: Problem) -> OutputError:
-        """The same with another problem of the same structure, recordings and rows."""
+        """Return the same for another problem with the same structure, recordings and rows."""
         other = copy(self)
         other.problem, other._simulators = problem, self._simulators.around(problem)
         return other
 
     def along(self, problem: Problem, recordings: Sequence[Recording]) -> OutputError:
-        """The same of other recordings, all segments of them."""
+        """Return the same for other recordings, with all of their segments."""
         other = copy(self)
         other.problem, other._simulators = problem, self._simulators.around(problem, tuple(recordings))
         other._cuts = [cut(run.times, SEGMENT) for run in problem.runs]
@@ -102,7 +102,7 @@ class OutputError:
         return sum(map(len, self._cuts))
 
     def motion(self, state: State, run: int) -> tuple[Motion, Array]:
-        """A whole run simulated from where the state's trajectory begins, and its angles as they would be read."""
+        """Simulate a whole run from the start of the state's trajectory; return the motion and the angles as read."""
         rows, none = slice(0, len(self.problem.runs[run].times)), np.zeros(len(self.local_precision))
         simulation = RunSimulation(self._simulators, state, run)
         return simulation.motion(rows, none), simulation.readings(rows, none)
@@ -117,14 +117,14 @@ class OutputError:
         """Fit a set.
 
         Args:
-            found: the set, and where a search left it.
-            near: fits of other sets, from which this one begins, besides where a search left it on trajectories of its
-                own; by multi-start without any.
+            found: the set with the state in which a search left it.
+            near: fits of other sets to start from, in addition to that state if its trajectories differ from theirs;
+                multi-start if empty.
         """
         starts = [self._start(found, one) for one in near]
         if near and all(one.state.ways is not found.lin.state.ways for one in near):
             starts.insert(0, ({}, None))
-        if near and not near[0].key:  # what the baseline takes for friction of all joints may be one joint's
+        if near and not near[0].key:  # what the baseline fits as friction of all joints may belong to one
             starts.append((as_given(self.problem, found), None))
         if not near:
             rises = [at_rest(self.problem, found, rise) for rise in AT_REST]
@@ -140,19 +140,19 @@ class OutputError:
         return self._fitted(self._optimum(best, _ITERATIONS))
 
     def _gains_nothing(self, found: Found, there: _Iterate, part: Fitted) -> bool:
-        """Whether a set's further effects are not worth it on a part of it, so far."""
+        """Whether a set's further effects have not gained enough over a part of it so far."""
         observations = Scale(there.segments, self.floor).observations
         return part.key < found.key and not is_worth(np.log(part.error / there.error), observations)
 
     def further(self, found: Found, fit: Fitted, least: float = np.inf) -> Fitted:
-        """Go on with a set's fit, or begin it where another ended, while it errs by less than ``least`` [rad]."""
+        """Continue a set's fit, or start it where another ended; stop early if its error is above ``least`` [rad]."""
         there = self._optimum(self._begun(found, *self._start(found, fit)), _FIRST)
         return self._fitted(there if there.error > least else self._optimum(there, _ITERATIONS - _FIRST))
 
     def multi_start(self, found: Found, near: Sequence[Fitted] = ()) -> Fitted:
-        """Fit a set from where other fits ended, from the model file's values and from other frictions near rest.
+        """Fit a set from the ends of other fits, from the model file's values and from other frictions near rest.
 
-        Every start is followed to its end, as an identification can afford.
+        Every start is followed to its end, which an identification can afford.
         """
         rises = [at_rest(self.problem, found, rise) for rise in FAR_AT_REST]
         starts = [(start, None) for start in ({}, as_given(self.problem, found), *rises)]
@@ -166,7 +166,7 @@ class OutputError:
         return self._fitted(self._optimum(self._begun(found, start, local), _MOST))
 
     def whole(self, fit: Fitted) -> OpenLoop:
-        """Every recording simulated from where its first segment begins."""
+        """Simulate every recording from the start of its first segment."""
         number, found = 0, []
         for r, run in enumerate(self.problem.runs):
             simulation = RunSimulation(self._simulators, fit.state, r)
@@ -175,9 +175,9 @@ class OutputError:
         return OpenLoop(tuple(found), self.floor, fit.error)
 
     def readings(self, state: State, values: Values, every: int = 1) -> list[Array | None]:
-        """Segments at a state, beginning where some values say, (rows, n) each [rad]; NaN where a simulation fails.
+        """Simulate segments at a state with the local unknowns of ``values``, (rows, n) each [rad]; NaN if one fails.
 
-        None for those that are left out.
+        Only one in ``every`` segments is simulated; the others are None.
         """
         local, found = iter(values.local), list[Array | None]()
         for r, rows in enumerate(self._cuts):
@@ -188,9 +188,9 @@ class OutputError:
         return found
 
     def _start(self, found: Found, fit: Fitted) -> tuple[Start, Sequence[Array] | None]:
-        """Where another set's fit ended: common and own unknowns, and those of segments about the same trajectories.
+        """Return where another set's fit ended: its unknowns, and local ones if about the same trajectories, else None.
 
-        Further effects begin absent where that set is a part of this one, else where the search left them.
+        Further effects start absent if that set is a part of this one, else where the search left them.
         """
         start, had = fit.start, fit.key
         if had <= found.key:
@@ -200,7 +200,7 @@ class OutputError:
         return start, fit.values.local if fit.state.ways is found.lin.state.ways else None
 
     def _begun(self, found: Found, start: Start, local: Sequence[Array] | None) -> _Iterate:
-        """Where a fit begins, some unknowns being given."""
+        """Return the start of a fit, given some unknowns."""
         unknowns = Unknowns(self.problem, found, start)
         none = np.zeros(len(self.local_precision))
         common = np.array([one.start for one in unknowns.common])
@@ -208,7 +208,7 @@ class OutputError:
         return _Iterate(unknowns, values, self.simulated(unknowns, values))
 
     def _optimum(self, here: _Iterate, iterations: int) -> _Iterate:
-        """The best of some Levenberg-Marquardt steps."""
+        """Return the best of some Levenberg-Marquardt steps."""
         best, damping, still = here, DAMPING, 0
         for _ in range(0 if here.settled else iterations):
             if not here.completed:
@@ -233,7 +233,7 @@ class OutputError:
         return best
 
     def _stepped(self, here: _Iterate, trial: Values) -> _Iterate:
-        """Every segment after a step."""
+        """Simulate every segment after a step."""
         unknowns, found = here.unknowns, list[tuple[Segment, Array]]()
         before = iter(zip(here.segments, here.values.local, trial.local, strict=True))
         for run, rows in self._runs(unknowns, trial):
@@ -244,7 +244,7 @@ class OutputError:
     def _shortened(
         self, run: RunSimulation, rows: slice, before: Segment, begin: Array, end: Array
     ) -> tuple[Segment, Array]:
-        """A segment after a step, and its own unknowns, whose step is shortened where it leads astray."""
+        """Return a segment after a step and its local unknowns; their step is shortened if the error rises too much."""
         best, local = run.segment(rows, end), end
         for share in _SHARES:
             if best.error < (1 + _RISE) * max(before.error, self.floor):
@@ -259,17 +259,17 @@ class OutputError:
         return NormalEquations(at.unknowns, at.values, at.segments, weights, self.local_precision)
 
     def _cost(self, at: _Iterate, scale: Scale) -> float:
-        """Minus the log-posterior, less a constant; infinite where a simulation failed."""
+        """Return minus the log-posterior, up to a constant; infinite where a simulation failed."""
         cost = sum(scale.cost(one) for one in at.segments) + prior_cost(at.unknowns, at.values, self.local_precision)
         return cost if np.isfinite(cost) else np.inf
 
     def simulated(self, unknowns: Unknowns, values: Values) -> list[Segment]:
-        """Every segment, with derivatives by all unknowns."""
+        """Simulate every segment, with derivatives by all unknowns."""
         local = iter(values.local)
         return [run.segment(one, next(local)) for run, rows in self._runs(unknowns, values) for one in rows]
 
     def _runs(self, unknowns: Unknowns, values: Values) -> Iterator[tuple[RunSimulation, Sequence[slice]]]:
-        """Each recording with the rows of its segments."""
+        """Yield each recording with the rows of its segments."""
         state = unknowns.state(values.common, values.per_run)
         for r, rows in enumerate(self._cuts):
             yield RunSimulation(self._simulators, state, r, [*unknowns.common, *unknowns.per_run[r]]), rows

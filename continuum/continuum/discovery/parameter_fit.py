@@ -1,8 +1,8 @@
 """Identification of springs and friction by output error: thesis 3.3 with a likelihood in place of its objective.
 
-Segments of the recordings are simulated open loop by Eq. 12 from unknown beginnings (multiple shooting, Bock 1983).
-Parts of one batch differ by a few percent, so joints differ a little about the values that all have in common; per
-joint, nothing is known beforehand of how far they differ.
+Segments of the recordings are simulated open loop by Eq. 12 from unknown initial states (multiple shooting, Bock 1983).
+Parts of one batch differ by a few percent, so joints differ slightly about common values; with ``per_joint``, little is
+assumed about their differences.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ _DIFFERENCES = {
 }
 """Values by which a joint differs from the others, and the parameter that each changes."""
 _FREE = 0.5
-"""Prior standard deviation of such a difference, relative, where nothing is known of it."""
+"""Relative prior standard deviation of such a difference if little is known of it."""
 _LITTLE = 0.5
-"""Part of its prior variance that a value has left about which recordings say little."""
-_STEP = 1e-3  # standard deviations, for differences
+"""Fraction of its prior variance above which a value counts as undetermined by the recordings."""
+_STEP = 1e-3  # standard deviations, for finite differences
 
 
 def fit_parameters(
@@ -50,11 +50,11 @@ def fit_parameters(
     """Identify the thesis's five parameters.
 
     Args:
-        recordings: runs to be fitted.
-        model: with nominal values; its springs and friction are where the fit begins.
-        per_joint: whether every joint has a spring, viscous and Coulomb friction of its own; the Stribeck effect is
-            that of all joints.
-        progress: called with what is done, and the part of all that is over.
+        recordings: runs to fit.
+        model: model with nominal values; the fit starts from its springs and friction.
+        per_joint: whether every joint has a separate spring, viscous and Coulomb friction; all joints share the
+            Stribeck effect.
+        progress: called with the current step and the fraction of all work that is done.
 
     Raises:
         InvalidValueError: no recording, a recording twice, or recordings that do not fit the model.
@@ -64,7 +64,7 @@ def fit_parameters(
     start, judge = refitted(recordings, model)
     progress("fitting from several starts", 0.3)
     found, fit = start.found, judge.multi_start(start.found)
-    if per_joint:  # a joint that hardly swings is found from what joints have in common only
+    if per_joint:  # for a joint that hardly swings, only the common values are a good start
         found = _with_free_joints(found)
         fit = judge.multi_start(found, [fit])
     progress("fitting all segments", 0.8)
@@ -80,7 +80,7 @@ def fit_parameters(
 
 
 def _with_free_joints(found: Found) -> Found:
-    """The same with differences of springs and friction between joints of which nothing is known."""
+    """Return the same set with wide priors on differences of springs and friction between joints."""
     library = copy(found.lin.library)
     free = {column for (effect, name, _), column in library.at.items() if (effect, name) in _DIFFERENCES}
     library.ordinary = [(column, _FREE if column in free else sd) for column, sd in library.ordinary]
@@ -88,10 +88,10 @@ def _with_free_joints(found: Found) -> Found:
 
 
 def _estimates(problem: Problem, fit: Fitted, key: Key, model: Model, singly: Collection[str]) -> tuple[Estimate, ...]:
-    """Values with intervals, of single joints or the mean over these, linearised about the fit."""
+    """Return the values with intervals, of single joints or means over joints, linearised about the fit."""
 
     def values(common: Array) -> Array:
-        """All joints' values of the parameters, (n_parameters, n)."""
+        """Return the parameters of all joints, (n_parameters, n)."""
         state = fit.unknowns.state(common, fit.values.per_run)
         found = model_of(problem, state, key, model).values()
         return np.stack([np.broadcast_to(found[name], (problem.structure.n,)) for name in THESIS_PARAMETERS])
@@ -118,7 +118,7 @@ def _estimates(problem: Problem, fit: Fitted, key: Key, model: Model, singly: Co
 
 
 def _undetermined(fit: Fitted) -> tuple[str, ...]:
-    """Parameters whose coordinate has half of its prior variance left, or more."""
+    """Return the parameters whose coordinate keeps more than half of its prior variance."""
     found = [
         PARAMETER[name]
         for one, sd in zip(fit.unknowns.common, fit.sd, strict=True)

@@ -12,11 +12,11 @@ from continuum.discovery.fitted import OpenLoop
 from continuum.recordings.recording import Recording
 
 MEASURED, REFITTED, EXTENDED = "#222222", "#d1802b", "#1f6fb4"
-_LEGEND_HEIGHT = 0.25  # in, kept free for it: loc="outside ..." is not known to Matplotlib before 3.7
+_LEGEND_HEIGHT = 0.25  # in, space for the legend: Matplotlib before 3.7 lacks loc="outside ..."
 
 
 class Simulated(Protocol):
-    """What pictures need of a diagnosis: recordings, open-loop simulations, missing torque; before and after."""
+    """What pictures need of a diagnosis: recordings, open-loop simulations and missing torque, before and after."""
 
     @property
     def recordings(self) -> tuple[Recording, ...]: ...
@@ -31,7 +31,7 @@ class Simulated(Protocol):
 
 
 def overview(result: Simulated) -> Figure:
-    """Angles of the recording that the refitted model simulates worst, above the missing torque there."""
+    """Plot the angles of the recording that the refitted model simulates worst, above its missing torque."""
     worst = int(np.nanargmax([result.before.error(r, run.theta) for r, run in enumerate(result.recordings)]))
     run, n = result.recordings[worst], result.recordings[0].n_joints
     figure = Figure(figsize=(2.3 * n, 4.0), layout="constrained")

@@ -1,10 +1,11 @@
-"""Power: how small an effect may be that these recordings would have shown.
+"""Power: the smallest size of an effect that these recordings would have shown.
 
-An effect of size theta in the arm would change the readings by theta S. A refit of the baseline takes a part of that
-away; what stays, theta P S, raises the open-loop error of segment s from the noise sigma_s to
-sqrt(sigma_s^2 + theta^2 a_s^2), a_s the root mean square of P S there. N independent residuals give these errors with a
-chance that is known (chi-square); errors of many repetitions are drawn and decided on as those of a diagnosis are. S is
-the open-loop sensitivity of an effect whose size enters linearly, and what its typical size changes of any other.
+An effect of size theta in the arm would change the readings by theta S. A refit of the baseline absorbs a part of that;
+the remainder, theta P S, raises the open-loop error of segment s from the noise sigma_s to
+sqrt(sigma_s^2 + theta^2 a_s^2), where a_s is the root mean square of P S there. With N independent residuals, the
+distribution of these errors is known (chi-square); errors of many repetitions are drawn and decided on as in a
+diagnosis. S is the open-loop sensitivity to an effect whose size enters linearly; for any other, it is the change at
+its typical size.
 """
 
 from __future__ import annotations
@@ -29,31 +30,31 @@ from continuum.discovery.sensitivities import Sensitivities
 from continuum.discovery.typical import typical_states
 
 POWER = 0.8
-"""Probability of being named at the size that is stated (Cohen, Statistical Power Analysis, 1988)."""
+"""Probability of being named at the stated size (Cohen, Statistical Power Analysis, 1988)."""
 _SIZES = np.geomspace(1e-2, 30.0, 64)
-"""Typical sizes that are tried, 14 % from one to the next; what only shows beyond is not tested by these recordings."""
-_EVERY = 2  # which segments are simulated with an effect that is not linear; the next ones are taken to change as much
-REFITS = 2  # of the baseline to a change at most, each with the weights that the one before leaves
-_SETTLED = 0.1  # relative change of what stays, below which there is no further one
+"""Sizes to try, in typical ones, 14 % apart; these recordings do not test an effect that shows only beyond."""
+_EVERY = 2  # one segment in so many is simulated with a nonlinear effect; the next are assumed to change as much
+REFITS = 2  # most refits of the baseline to a change, each with the weights that the one before leaves
+_SETTLED = 0.1  # relative change of the remainder below which refits end
 _SMALL, _LARGE = 0.3, 4.0
-"""Multiples of the typical size for which the baseline is refitted besides: the side on which the answer lies."""
+"""Multiples of the typical size at which the baseline is refitted too: the one on the side where the answer lies."""
 _REPEATS = 100
-"""Repeated experiments: 80 % is then known to 4 %."""
+"""Number of repeated experiments: 80 % is then known to 4 %."""
 
 
 @dataclass(frozen=True)
 class Power:
-    """Of one effect at one place.
+    """Power to show one effect at one place.
 
     Attributes:
-        hypothesis: which.
+        hypothesis: effect and place.
         changes: root mean square change of the readings by its typical size, in units of the noise.
-        tried: two of the typical size's multiples, rising.
-        left: what a refit leaves of a change by these, over the multiple, (2, segments) [noise].
-        noise: in each segment, (segments,) [rad].
-        floor: of an error, by the sensors' noise [rad].
-        observations: residuals that are independent, their number.
-        values: of it that each recording has for itself, their number.
+        tried: two multiples of the typical size, in rising order.
+        left: remainders of these changes after a refit, divided by the multiple, (2, segments) [noise].
+        noise: noise of each segment, (segments,) [rad].
+        floor: open-loop error from the sensors' noise alone [rad].
+        observations: number of independent residuals.
+        values: number of its per-run values over all recordings.
     """
 
     hypothesis: Hypothesis
@@ -67,11 +68,11 @@ class Power:
 
     @property
     def kept(self) -> float:
-        """Part of what it changes that a refit of springs, friction and inertia leaves, 0 to 1."""
+        """Fraction of its change that remains after a refit of springs, friction and inertia, 0 to 1."""
         return _size(self._changed(1.0)) / self.changes if self.changes > 0 else 0.0
 
     def probability(self, size: float) -> float:
-        """Of being named at a size in typical ones."""
+        """Return the probability of being named at a size, in units of the typical one."""
         chance = self._draws
         x, each = self._changed(size), self.observations / len(self.noise)
         with_effect = np.sqrt(np.maximum(chance.squares, 1e-12))
@@ -86,7 +87,7 @@ class Power:
         return float(np.mean(worth & explains & is_seen))
 
     def _changed(self, size: float) -> Array:
-        """What a refit, which has bounds, leaves of a size; never less of a larger one, (segments,) [noise]."""
+        """Return the remainder of a size after a refit with bounds, (segments,) [noise]; it never falls with size."""
         low, high = self.tried
         at_low = low * self.left[0]
         at_high = np.maximum(high * self.left[1], at_low)
@@ -98,14 +99,14 @@ class Power:
 
     @cached_property
     def _draws(self) -> _Draws:
-        """Chance in repeated experiments, the same at all sizes."""
+        """Random draws of repeated experiments, the same at all sizes."""
         random, each = np.random.default_rng(0), self.observations / len(self.noise)
         shape = (_REPEATS, len(self.noise))
         return _Draws(random.chisquare(each, shape) / each, random.standard_normal(shape))
 
     @cached_property
     def smallest(self) -> float:
-        """Size from which it is named with the probability POWER, in typical ones; infinite where there is none."""
+        """Size from which it is named with probability POWER, in units of the typical one; infinite if none."""
         if not self.probability(_SIZES[-1]) >= POWER:
             return np.inf
         low, high = 0, len(_SIZES) - 1
@@ -116,7 +117,7 @@ class Power:
 
 
 class _Draws(NamedTuple):
-    """Squares of the noise, by its variance, and its products with a change, (repeats, segments) each."""
+    """Squares of the noise over its variance, and its products with a change, (repeats, segments) each."""
 
     squares: Array
     products: Array
@@ -130,15 +131,15 @@ def powers(
     linear_only: bool = False,
     only: Collection[str] | None = None,
 ) -> list[Power]:
-    """Of each hypothesis; of those at one place and of one effect, the one that shows most.
+    """Return the power of each hypothesis; of several for one effect at one place, the greatest.
 
     Args:
-        judge: by which the set was fitted.
-        fit: of the set about which effects are asked for; what it errs by, or the sensors do, is taken for the noise.
-        library: with the hypotheses.
-        about: fit of the baseline, from which what is not linear departs; the same without.
-        only: labels of the hypotheses that are asked for; all without.
-        linear_only: whether to leave out effects whose size does not enter linearly, which takes simulations of each.
+        judge: output-error fits of the recordings.
+        fit: fit of the set to which effects are added; the larger of its error and the sensors' counts as noise.
+        library: library with the hypotheses.
+        about: fit of the baseline, to which nonlinear effects are added; ``fit`` if None.
+        only: labels of the hypotheses to evaluate; all if None.
+        linear_only: whether to leave out effects whose size does not enter linearly: each of these takes simulations.
     """
     sensitivities = Sensitivities(judge, fit, library)
     if not sensitivities.completed:
@@ -152,7 +153,10 @@ def powers(
     values = replace(fit.values, local=tuple(np.zeros_like(one) for one in fit.values.local))
 
     def left(changed: Sequence[Segment]) -> Array:
-        """Of a change, root mean square by segment; residuals of a wrong model count less, as alike from row to row."""
+        """Return the remainder of a change, root mean square by segment.
+
+        Residuals of a wrong model count less, as they are correlated from row to row.
+        """
         scale, stays = _with_noise(changed, sensitivities.segments), np.zeros(len(changed))
         for _ in range(REFITS):
             _, after = sensitivities.stepped(still, values, changed, scale)
@@ -199,7 +203,7 @@ def powers(
 
 
 def _with_noise(changed: Sequence[Segment], fitted: Sequence[Segment]) -> list[Segment]:
-    """Segments whose residuals are a change and what a fit left."""
+    """Return segments whose residuals are a change plus those of a fit."""
     both = zip(changed, fitted, strict=True)
     return [one.with_residuals(one.residuals + other.residuals) for one, other in both]
 

@@ -28,7 +28,7 @@ def power_in_words(result: Diagnosis) -> tuple[list[tuple[str, str]], list[tuple
             shown.append((effect, f"{_size_in_words(best)}{_at(best)}{rest}"))
         else:
             best = min(places, key=lambda one: one.smallest)
-            size = "" if math.isinf(best.smallest) else f" Seen from {_size_in_words(best)}{_at(best)} on."
+            size = "" if math.isinf(best.smallest) else f" Detectable from {_size_in_words(best)}{_at(best)}."
             hidden.append((effect, f"{best.reason}{size}"))
     return shown, hidden
 
@@ -52,9 +52,9 @@ def separating_in_words(result: Diagnosis) -> str:
     """What tells the possible causes apart, and what to do with what it gives."""
     match result.separating:
         case None:
-            return "no usual run or measurement tells the likeliest causes apart; do what is said above."
+            return "no standard run or measurement separates the most likely causes; follow the instructions above."
         case Experiment() as run:
-            return f"{run.name}. {repeated(run)} It should tell the likeliest causes apart."
+            return f"{run.name}. {repeated(run)} It should separate the most likely causes."
         case Removal() as removal:
             return f"{removal.instruction} {RECORD_AGAIN} Diagnose these with --without {removal.effect}."
         case test:

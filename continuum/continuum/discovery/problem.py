@@ -1,4 +1,4 @@
-"""The state of a search: values and trajectories, linearised together, and one Gauss-Newton step from there."""
+"""The state of a search: values and trajectories, linearised together."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ from continuum.estimation.structure import Point, Structure, absent_values
 from continuum.estimation.transition import Transition, transition
 
 type ValueKey = tuple[str, str, int]
-"""Effect ("" for the baseline), parameter, and joint from 0 (-1 where it belongs to none)."""
+"""Effect ("" for the baseline), parameter, and joint from 0 (-1 if it belongs to none)."""
 type Values = Mapping[ValueKey, float]
 """Coefficients by what they belong to."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """What does not change during a search.
+    """What stays fixed during a search.
 
     Attributes:
-        structure, coordinates: of the model.
+        structure, coordinates: structure and coordinates of the model.
         runs: recordings.
-        noise: of sensors; sigma is the unit of the levels, (n,) [N m].
+        noise: noise of sensors; its sigma is the unit of the levels, (n,) [N m].
         levels: multiples of that sigma.
         measured: values of effects that were measured by hand.
-        zeroed: recordings before which the sensors' zeros were set by hand, by number.
+        zeroed: numbers of the recordings before which the sensors' zeros were set by hand.
     """
 
     structure: Structure
@@ -50,17 +50,17 @@ class Problem:
 
 @dataclass(frozen=True)
 class State:
-    """Where a search stands.
+    """The point that a search has reached.
 
     Attributes:
         shared: coefficients of the compiled model and the sensors, common to all recordings.
-        per_run: what each recording has for itself.
-        active: values of effects with states, and of effects whose shape is fitted, that are in the model.
+        per_run: per-run coefficients, by recording.
+        active: values of the effects in the model that have states or a fitted shape.
         held: coefficients of columns of torque that are in the nominal motion, by name.
-        ratio: by which active values are changed for differences.
+        ratio: factor by which active values are changed for finite differences.
         ways: trajectories.
-        modes: of friction.
-        rate_sd: standard deviations of the smoothed rates, (n_times, n) each [rad/s]; none at first.
+        modes: friction modes.
+        rate_sd: standard deviations of the smoothed rates, (n_times, n) each [rad/s]; empty at first.
     """
 
     shared: Values
@@ -78,12 +78,12 @@ class Linearised:
     """A state with its columns and likelihoods.
 
     Attributes:
-        problem, state: of what.
+        problem, state: problem and state about which it is linearised.
         library: hypotheses about this point.
-        evidence: of them.
+        evidence: evidence of these hypotheses.
         runs: linearised runs.
-        theta: of each run, what of the columns is in the nominal motion, (runs, P).
-        levels: of the evidence, among the problem's.
+        theta: coefficients of the columns in the nominal motion of each run, (runs, P).
+        levels: levels of the evidence, as indices of the problem's levels.
     """
 
     problem: Problem
@@ -103,7 +103,7 @@ class _Run:
 
 
 def point_of(problem: Problem, state: State) -> Point:
-    """Values at a state."""
+    """Return the values at a state."""
     s = problem.structure
     base = {(name, joint): value for (effect, name, joint), value in state.shared.items() if effect == ""}
     values = problem.coordinates.values(base)
@@ -122,7 +122,7 @@ def point_of(problem: Problem, state: State) -> Point:
 
 
 def sensors_at(problem: Problem, state: State, run: int) -> dict[str, dict[str, Array]]:
-    """Values of the effects on sensors in a recording, by effect and parameter."""
+    """Return the values of the effects on sensors in a recording, by effect and parameter."""
     s = problem.structure
     given = {a.effect.name: dict(a.values) for a in s.given.effects if a.effect in s.sensors}
     found = given | {e.name: absent_values(e, s.n) for e in s.sensors if e.name not in given}
@@ -134,7 +134,7 @@ def sensors_at(problem: Problem, state: State, run: int) -> dict[str, dict[str, 
 
 
 def _add(values: Array, s: Structure, coefficients: Values) -> None:
-    """Add coefficients of effects; sums stay what makes physical sense, as of an effect and an ordinary difference."""
+    """Add coefficients of effects; sums, as of an effect and an ordinary difference, stay within physical bounds."""
     for (effect, name, joint), value in coefficients.items():
         slot = s.slots.get(f"{effect}.{name}")
         if effect and slot is not None:
@@ -152,9 +152,9 @@ def linearise(
     """Linearise about a state, and filter every run at some levels of missing torque.
 
     Args:
-        problem, state: what, and where.
-        levels: indices of those levels; all without.
-        live: effects that have hypotheses; all without.
+        problem, state: problem, and state about which to linearise.
+        levels: indices of these levels; all if None.
+        live: effects that have hypotheses; all if None.
     """
     s, point = problem.structure, point_of(problem, state)
     library = Library(
@@ -172,7 +172,7 @@ def linearise(
         scene = Scene(s, point, r, run, way, substep_motion(run, way, step.slip, step.acceleration), modes.sign)
         torque, reading = assembled(library.columns, scene)
         in_motion = library.held_vector(state.held)
-        if np.any(in_motion):  # the nominal motion once more, with what is held along this very trajectory
+        if np.any(in_motion):  # repeat the nominal motion with the held columns along the same trajectory
             step = transition(s.equations, run, way, modes, values, reference, torque @ in_motion)
         columns = to_states(step.W, torque, run.first)
         seen = s.measurement(run, way, point.by_run[r])
@@ -193,12 +193,12 @@ def linearise(
 
 
 def near(problem: Problem, level: int) -> list[int]:
-    """A level of missing torque and its neighbours."""
+    """Return a level of missing torque and its neighbours."""
     return [k for k in (level - 1, level, level + 1) if 0 <= k < len(problem.levels)]
 
 
 def _likelihood(problem: Problem, run: Run, way: Trajectory, lin: _Run, theta: Array, level: float) -> RunLikelihood:
-    """A run's likelihood about theta = 0, where the linearisation is about ``theta``."""
+    """Return a run's likelihood about theta = 0, given a linearisation about ``theta``."""
     noise = problem.noise.at(level * problem.noise.sigma)
     found = run_likelihood(run, way, lin.step, lin.seen, lin.columns, noise)
     energy = found.energy + 2 * found.e @ theta + theta @ found.L @ theta
@@ -206,7 +206,7 @@ def _likelihood(problem: Problem, run: Run, way: Trajectory, lin: _Run, theta: A
 
 
 def _theta(library: Library, shared: Values, per_run: Values, held: Mapping[str, float]) -> Array:
-    """What of every column is in the nominal motion and readings of a run, (P,)."""
+    """Return the coefficients of the columns in the nominal motion and readings of a run, (P,)."""
     theta = library.held_vector(held)
     for key, value in (*shared.items(), *per_run.items()):
         if (column := library.at.get(key)) is not None:

@@ -1,4 +1,4 @@
-"""A convex quadratic programme: few unknowns, few active constraints."""
+"""A convex quadratic programme with few unknowns and few active constraints."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ import numpy as np
 
 from continuum.arrays import Array
 
-_SLACK = 1e-9  # by which a constraint may be missed
-_DEPENDENT = 1e-12  # part of a constraint's own curvature below which it depends on the active ones
+_SLACK = 1e-9  # by which a constraint may be violated
+_DEPENDENT = 1e-12  # fraction of a constraint's curvature below which it depends on the active ones
 
 
 def bounded_minimum(A: Array, b: Array, G: Array, least: Array) -> tuple[Array, float]:
-    """argmin of x'Ax / 2 - b'x with G x >= least, and by how much the constraints raise the minimum.
+    """Minimise x'Ax / 2 - b'x subject to G x >= least; return x, and by how much the constraints raise the minimum.
 
-    Dual active set (Goldfarb and Idnani, Mathematical Programming 27, 1983): from the free minimum, the constraint that
-    is missed most is made active; one whose multiplier would turn negative on the way is dropped. Where no point meets
-    all constraints the last point is returned.
+    Dual active set (Goldfarb and Idnani, Mathematical Programming 27, 1983): from the free minimum, the most violated
+    constraint is made active; one whose multiplier would turn negative on the way is dropped. If no point satisfies all
+    constraints, the last point is returned.
     """
     free = np.linalg.solve(A, b)
     if not len(G):
@@ -50,7 +50,7 @@ def bounded_minimum(A: Array, b: Array, G: Array, least: Array) -> tuple[Array, 
 
 
 def _directions(G: Array, Y: Array, active: list[int], worst: int) -> tuple[Array, Array]:
-    """Step of x that keeps the active constraints, and what it takes off their multipliers, per unit of the new one."""
+    """Return the step of x along the active constraints, and the fall of their multipliers, per unit of the new one."""
     if not active:
         return Y[:, worst], np.zeros(0)
     release = np.linalg.lstsq(G[active] @ Y[:, active], G[active] @ Y[:, worst], rcond=_DEPENDENT)[0]
@@ -58,7 +58,7 @@ def _directions(G: Array, Y: Array, active: list[int], worst: int) -> tuple[Arra
 
 
 def _first_to_leave(multipliers: Array, release: Array) -> tuple[float, int]:
-    """Length at which the first multiplier reaches zero, and whose; infinite where none does."""
+    """Return the length at which the first multiplier reaches zero, and its index; infinite if none does."""
     falling = np.flatnonzero(release > 1e-14)
     if not falling.size:
         return np.inf, -1

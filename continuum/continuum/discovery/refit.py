@@ -1,4 +1,4 @@
-"""The refitted model: springs and friction as the recordings ask for, before any effect is added."""
+"""The refitted model: springs and friction fitted to the recordings, before any effect is added."""
 
 from __future__ import annotations
 
@@ -15,25 +15,24 @@ from continuum.discovery.hand_measurement import HandMeasurement, known_whole
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem, linearise
 from continuum.discovery.search import Found
-from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.effect_lookup import effect_named, effect_names
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import Model, with_dry_friction
 from continuum.errors import InvalidValueError
 from continuum.estimation.structure import Structure
 from continuum.recordings.cable_sides import refuse_swapped_cables
 from continuum.recordings.recording import Recording
 
 _STRETCH, _ONE_RUN = 10, 0.5
-"""Rows of a stretch, and part of a recording's stretches that another one has as well: noise and motions are never the
-same twice, a copy is."""
+"""Rows of a stretch, and fraction of common stretches above which two recordings are one: noise and motions never
+repeat, copies do."""
 
 
 def check_recordings(recordings: Sequence[Recording], model: Model) -> None:
-    """Whether a model can be fitted to recordings.
+    """Check that a model can be fitted to recordings.
 
     Raises:
-        InvalidValueError: no recording, another number of joints or kind of inputs than the model's, cables that are
-            swapped, or a recording twice.
+        InvalidValueError: no recording, a number of joints or kind of inputs other than the model's, swapped cables, or
+            a recording given twice.
     """
     if not recordings:
         raise InvalidValueError("recordings", 0, "one or more")
@@ -42,18 +41,18 @@ def check_recordings(recordings: Sequence[Recording], model: Model) -> None:
         refuse_swapped_cables(one)
         for other in recordings[:number]:
             if _share_of_common_rows(one, other) > _ONE_RUN:
-                raise InvalidValueError("recordings", f"{other.name} and {one.name}", "different runs: these are one")
+                raise InvalidValueError("recordings", f"{other.name} and {one.name}", "different runs, not copies")
 
 
 def _share_of_common_rows(one: Recording, other: Recording) -> float:
-    """Part of the shorter recording's different stretches of angles that the other one has too."""
+    """Return the fraction of the shorter recording's distinct stretches of angles that the other one has too."""
     first, second = (np.unique(_stretches(run.theta), axis=0) for run in (one, other))
     both = np.unique(np.concatenate([first, second]), axis=0)
     return (len(first) + len(second) - len(both)) / min(len(first), len(second))
 
 
 def _stretches(theta: Array) -> Array:
-    """All stretches of some rows, (n_stretches, rows n) [rad]: single rows of rounded angles may well be alike."""
+    """Return all stretches of some rows, (n_stretches, rows n) [rad]: single rows of rounded angles may coincide."""
     rows = min(_STRETCH, len(theta))
     return sliding_window_view(theta, rows, axis=0).reshape(len(theta) - rows + 1, -1)
 
@@ -64,12 +63,12 @@ def problem_for(
     effects: Sequence[str] | None = None,
     measured: Sequence[HandMeasurement] = (),
 ) -> Problem:
-    """All that is fixed before a fit.
+    """Return what stays fixed during a fit.
 
     Args:
         recordings: runs of the arm.
-        model: with nominal values, and with what was measured by hand.
-        effects: names of those that may be added; all that are installed without.
+        model: model with nominal values and the values measured by hand.
+        effects: names of the effects that may be added; all installed effects if None.
         measured: values of effects that were measured by hand.
     """
     dry, n = with_dry_friction(model), model.n_joints
@@ -81,12 +80,12 @@ def problem_for(
 
 
 def refit(problem: Problem, recordings: Sequence[Recording]) -> tuple[Examined, OutputError, OutputError | None]:
-    """The refitted model alone, inputs taken as they simulate nearer: held from row to row, or linear between rows.
+    """Refit the model alone, with inputs held from row to row or linear between rows, whichever simulates better.
 
-    Where the model file lacks friction, with friction: without it little tells.
+    If the model file lacks friction, friction is added: without it, the errors are not informative.
 
     Returns:
-        The baseline, what fits by these inputs, and what does by the others.
+        The baseline, the fits with these inputs, and the fits with the others, None if no input varies.
     """
     judge, found = OutputError(problem, tuple(recordings)), _smoothed(problem)
     fit, linear = judge.fit(found, ()), with_linear_inputs(problem)
@@ -101,12 +100,12 @@ def refit(problem: Problem, recordings: Sequence[Recording]) -> tuple[Examined, 
 
 
 def refitted(recordings: Sequence[Recording], model: Model) -> tuple[Examined, OutputError]:
-    """The refitted model, and what fitted it."""
+    """Return the refitted model and the output-error fits of the recordings."""
     start, judge, _ = refit(problem_for(recordings, model), recordings)
     return start, judge
 
 
 def _smoothed(problem: Problem) -> Found:
-    """The model with the springs and the friction that the filter finds."""
+    """Return the model with the springs and the friction that the filter finds."""
     lin = linearise(problem, fitted_baseline(problem))
     return Found(lin, tuple(h for h in lin.library.hypotheses if h.is_refit))

@@ -16,12 +16,12 @@ from continuum.recordings.recording import Recording
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_FEW = 2  # runs, which are less work than to take an arm apart
+_FEW = 2  # runs, which are less work than taking an arm apart
 
 
 @dataclass(frozen=True)
 class Share:
-    """Part of the distance between the open-loop error and the noise that an effect closes, with its 95 % interval."""
+    """Fraction of the distance between open-loop error and noise that an effect closes, with its 95 % interval."""
 
     value: float
     low: float
@@ -33,11 +33,11 @@ class Cause:
     """An effect of a set.
 
     Attributes:
-        effect: by name.
-        joints: at which it acts, from 0; None where it belongs to the whole arm.
-        share: what it closes of the open-loop error.
-        gain: by which it raises the set's log-evidence.
-        estimates: of its values.
+        effect: name of the effect.
+        joints: joints at which it acts, from 0; None if it acts on the whole arm.
+        share: fraction of the open-loop error that it closes.
+        gain: amount by which it raises the set's log-evidence.
+        estimates: estimates of its values.
     """
 
     effect: str
@@ -55,15 +55,15 @@ class Cause:
 
 @dataclass(frozen=True)
 class Detectable:
-    """How small an effect may be that these recordings would have shown.
+    """The smallest size of an effect that these recordings would have shown.
 
     Attributes:
-        effect, joints: which, and where; joints are None where it belongs to the whole arm.
-        parameter: that says its size.
-        unit: of that, SI.
+        effect, joints: name and joints of the effect; joints are None if it acts on the whole arm.
+        parameter: parameter that gives its size.
+        unit: SI unit of the parameter.
         typical: size that it has where it matters [unit].
-        smallest: size from which it would have been named with a probability of 80 % [unit]; infinite where at no size.
-        reason: why it is not shown at its typical size, one sentence; empty where it is.
+        smallest: size from which it would have been named with a probability of 80 % [unit]; infinite if at no size.
+        reason: why it is not shown at its typical size, one sentence; empty if it is.
     """
 
     effect: str
@@ -87,15 +87,14 @@ class Detectable:
 
 @dataclass(frozen=True)
 class Experiment:
-    """A run that would tell more.
+    """An informative further run.
 
     Attributes:
         name: a few words.
         instruction: what to do, one or two sentences for a mechanic.
-        separates: expected difference in the logarithm of the open-loop error between the two likeliest sets; NaN where
-            there is one set only.
-        runs: such runs after which only one of them is expected to be possible; 0 where no number of runs does that.
-        shows: labels of effects that these recordings cannot show at their typical sizes and this run would.
+        separates: expected difference of log open-loop error between the two likeliest sets; NaN if there is only one.
+        runs: number of such runs after which only one of them is expected to stay possible; 0 if no number suffices.
+        shows: labels of effects that these recordings cannot show at their typical sizes but this run would.
     """
 
     name: str
@@ -107,13 +106,13 @@ class Experiment:
 
 @dataclass(frozen=True)
 class HandTest:
-    """A value that, measured by hand, would tell the two likeliest sets apart.
+    """A value that would distinguish the two likeliest sets if measured by hand.
 
     Attributes:
-        effect, parameter, joint: which; joint from 0, None where it belongs to none.
-        unit: SI.
+        effect, parameter, joint: the value; joint from 0, None if it belongs to none.
+        unit: SI unit.
         sd: standard deviation of the usual instrument [unit].
-        apart: by how many standard deviations the sets differ about it.
+        apart: number of standard deviations by which the sets differ about it.
         decides: whether that is enough to exclude one of them with a probability of 80 %.
         instruction: what to do, one or two sentences for a mechanic.
     """
@@ -129,7 +128,7 @@ class HandTest:
 
     @property
     def name(self) -> str:
-        """As tables have it, joints from 1."""
+        """Name as in tables, joints from 1."""
         return f"{self.effect}.{self.parameter}" + (f"[{self.joint + 1}]" if self.joint is not None else "")
 
 
@@ -138,7 +137,7 @@ class Removal:
     """An effect that can be taken off the arm; the same recordings without it leave one of the two likeliest sets.
 
     Attributes:
-        effect: which.
+        effect: name of the effect.
         instruction: what to do, one sentence for a mechanic.
     """
 
@@ -151,23 +150,23 @@ class Diagnosis:
     """The answer.
 
     Attributes:
-        verdict: what is said.
-        sets: causes of each possible set, the most probable first; of an unknown cause, the set that helps most.
+        verdict: the verdict.
+        sets: causes of each possible set, the most probable first; for an unknown cause, the set that helps most.
         closed: share that the best set closes.
         sigma: standard deviation of the missing torque before and after, (n,) each [N m].
         missing: smoothed missing torque of every run before and after, (n_times, n) each [N m].
-        estimates: of the model's own parameters.
+        estimates: estimates of the model's parameters.
         before, after: open-loop simulations of the refitted and of the extended model.
-        refitted_model, extended_model: with their values.
-        recordings: what was diagnosed.
-        power: smallest size of each effect that would have been shown, about the best set.
-        experiments: runs that would tell more, the best first.
-        hand_tests: values that would tell the likeliest sets apart if they were measured by hand, the best first.
+        refitted_model, extended_model: these models with their values.
+        recordings: recordings that were diagnosed.
+        power: smallest size of each effect that would have been shown in addition to the best set.
+        experiments: informative further runs, the best first.
+        hand_tests: values that would distinguish the likeliest sets if measured by hand, the best first.
         correlation: names of the best set's values and their posterior correlations, (k, k).
-        notes: on the data, one sentence each.
+        notes: notes on the data, one sentence each.
         tolerance: open-loop error up to which a model is adequate [rad].
-        seconds: of processor time.
-        removals: effects whose removal would tell the likeliest sets apart.
+        seconds: processor time [s].
+        removals: effects whose removal would distinguish the likeliest sets.
         measured: values that were measured by hand, as text; every model here has them.
         without: effects that were taken off the arm.
         zeroed: recordings before which the sensors' zeros were set by hand.
@@ -198,7 +197,7 @@ class Diagnosis:
 
     @property
     def known(self) -> tuple[str, ...]:
-        """What the answer rests on besides the recordings, a phrase each."""
+        """Facts on which the answer rests in addition to the recordings, a phrase each."""
         return (
             *(f"{one} is in every model" for one in self.measured),
             *(f"the sensors' zeros were set by hand before {one}" for one in self.zeroed),
@@ -207,12 +206,12 @@ class Diagnosis:
 
     @property
     def causes(self) -> tuple[Cause, ...]:
-        """Of the most probable set, or of the one that helps most."""
+        """Causes of the most probable set, or of the one that helps most."""
         return self.sets[0] if self.sets else ()
 
     @property
     def shares(self) -> Mapping[str, Share]:
-        """What each effect of the best set closes, and what stays unknown; the values add up to one."""
+        """Share that each effect of the best set closes, and the share that stays unknown; the values add up to one."""
         found = {cause.label: cause.share for cause in self.causes}
         rest = 1 - sum(share.value for share in found.values())
         return found | {"unknown": Share(rest, 1 - self.closed.high, 1 - self.closed.low)}
@@ -224,9 +223,9 @@ class Diagnosis:
 
     @property
     def separating(self) -> Experiment | HandTest | Removal | None:
-        """What tells the two likeliest sets apart with the least work; None where nothing does.
+        """What distinguishes the two likeliest sets with the least work; None if nothing does.
 
-        A run that is made once or twice, else a measurement by hand, else more runs, else all runs without an effect.
+        It is a run made once or twice, else a measurement by hand, else more runs, else all runs without an effect.
         """
         run = next((one for one in self.experiments if one.runs), None)
         test = next((one for one in self.hand_tests if one.decides), None)
@@ -236,11 +235,11 @@ class Diagnosis:
 
     @property
     def is_extended(self) -> bool:
-        """Whether the extended model has an effect that the refitted one has not."""
+        """Whether the extended model has an effect that the refitted one lacks."""
         return bool(self.causes)
 
     def plot(self) -> Figure:
-        """Measured and simulated joint angles, and the missing torque before and after."""
+        """Plot measured and simulated joint angles, and the missing torque before and after."""
         from continuum.discovery.pictures import overview
 
         return overview(self)

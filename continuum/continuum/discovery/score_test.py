@@ -1,7 +1,7 @@
-"""Screening by open-loop sensitivities: what one more effect would gain by one step from a fit (score test, Rao 1948).
+"""Screening by open-loop sensitivities: the gain of one more effect by one step from a fit (score test, Rao 1948).
 
-The filter's screening rests on a linearisation from row to row; this one on the exact equations over whole segments, by
-the same simulations that decide. One pass serves all effects whose sizes enter linearly.
+The filter's screening rests on a linearisation from row to row; this one rests on the exact equations over whole
+segments, in the same simulations that decide. One pass serves all effects whose sizes enter linearly.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ from continuum.discovery.unknowns import Unknowns
 
 
 class Promise(NamedTuple):
-    """What one step with a hypothesis promises.
+    """The expected gain of one step with a hypothesis.
 
     Attributes:
-        gain: by how much it lowers the logarithm of the error, less what as many unknowns gain by chance (Akaike 1974).
-        observations: residuals that are independent after it, their number.
-        hypothesis: which.
-        near: the fit of the set with its values after one step to those with the hypothesis.
+        gain: fall of the log error, minus what as many unknowns gain by chance (Akaike 1974).
+        observations: number of independent residuals after the step.
+        hypothesis: the added hypothesis.
+        near: the fit of the set with the hypothesis and values after one step.
     """
 
     gain: float
@@ -41,13 +41,13 @@ class Promise(NamedTuple):
 
 
 def promises(judge: OutputError, fit: Fitted, library: Library, instead_of: Hypothesis | None = None) -> list[Promise]:
-    """What each hypothesis whose size enters linearly promises, the best first.
+    """Return the expected gain of each hypothesis whose size enters linearly, the best first.
 
     Args:
-        judge: by which the set was fitted.
-        fit: of a set.
-        library: with the hypotheses.
-        instead_of: one of the set, whose size enters linearly, that leaves it for the other.
+        judge: output-error fits of the recordings.
+        fit: fit of a set.
+        library: library with the hypotheses.
+        instead_of: hypothesis of the set, with a linear size, that each one replaces.
     """
     about = Sensitivities(judge, fit, library)
     if not about.completed:
@@ -74,7 +74,7 @@ def _log_error(residuals: Sequence[Array]) -> float:
 
 
 def _without(fit: Fitted, left: Hypothesis | None) -> tuple[Unknowns, Values]:
-    """Unknowns and values of a fit but those of one hypothesis."""
+    """Return the unknowns and values of a fit except those of one hypothesis."""
     lists, values = [fit.unknowns.common, *fit.unknowns.per_run], [fit.values.common, *fit.values.per_run]
     kept = [[k for k, one in enumerate(those) if left is None or one.hypothesis is not left] for those in lists]
     common, *per_run = [[those[k] for k in ks] for those, ks in zip(lists, kept, strict=True)]
@@ -83,7 +83,7 @@ def _without(fit: Fitted, left: Hypothesis | None) -> tuple[Unknowns, Values]:
 
 
 def _less(one: Segment, wide: Unknowns, fitted: Values, left: Hypothesis | None) -> Segment:
-    """A segment with the residuals that stay where a hypothesis leaves the set."""
+    """Return a segment with the residuals of the set without a hypothesis."""
     if left is None:
         return one
     filled, every = padded(fitted, wide), [*wide.common, *wide.per_run[one.run]]

@@ -1,7 +1,7 @@
-"""Search for sets of effects: what one effect more promises about a set.
+"""Search for sets of effects: the expected gain of one more effect.
 
 Effects whose sizes enter linearly are screened by open-loop sensitivities. Those with states, delays and shapes are
-screened by the filter's evidence and brought to their own optimum there: an open-loop fit finds them from nearby only.
+screened by the filter's evidence and brought to its optimum: an open-loop fit converges to them only from nearby.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.problem import Linearised, Problem, linearise, near
 
 MOST = 2
-"""Effects that are named together at most: three would need more runs than a laboratory makes."""
+"""Most effects that are named together: three would need more runs than a laboratory makes."""
 RATIO = (1.6, 1.25, 1.1)
-"""By which values of effects that are not linear are changed for differences, one Gauss-Newton step after the other."""
+"""Factors by which values of nonlinear effects are changed for finite differences, in successive Gauss-Newton steps."""
 FAMILIES = 3
-"""Effects of each kind, linear or not, that are fitted about a set at most."""
+"""Most effects of each kind, linear or not, that are fitted about a set."""
 LONG_SHOT = 0.2
-"""Part of the best effect's gain in evidence from which one that is not linear is fitted: its linearisation is poor."""
+"""Fraction of the best effect's gain in evidence from which a nonlinear one is fitted: its linearisation is poor."""
 RUNNER_UP = 0.6
-"""Part of the best effect's expected gain from which another linear one is fitted: screening ranks to a third."""
+"""Fraction of the best effect's expected gain from which another linear one is fitted: screening errs by a third."""
 _FASTEST = 200.0  # rad/s, of a joint: a trajectory has diverged
 
 type Progress = Callable[[str, float], None]
@@ -34,10 +34,10 @@ type Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True)
 class Found:
-    """A set of effects at its own optimum.
+    """A set of effects at its optimum.
 
     Attributes:
-        lin: the state about the set, linearised.
+        lin: linearised state.
         chosen: the set.
     """
 
@@ -46,12 +46,12 @@ class Found:
 
     @property
     def label(self) -> str:
-        """For tables."""
+        """Label for tables."""
         return " + ".join(h.label for h in self.chosen) or "none"
 
     @property
     def log_evidence(self) -> float:
-        """Of the set."""
+        """Log-evidence of the set."""
         return self.lin.evidence.total(self.chosen, with_constraints=True)
 
     @property
@@ -60,14 +60,14 @@ class Found:
         return frozenset(h.key for h in self.chosen)
 
     def without(self, left: Hypothesis) -> Found:
-        """A part of the set, about the same state without one effect."""
+        """Return the set without one effect, about the same state."""
         state, rest = self.lin.state, tuple(h for h in self.chosen if h is not left)
         active = {effect: params for effect, params in state.active.items() if effect in {h.effect for h in rest}}
         return Found(replace(self.lin, state=replace(state, active=active)), rest)
 
     @property
     def effects(self) -> int:
-        """Number of its effects; friction that a model file lacks is fitted to all other arms without being one."""
+        """Number of effects; friction that a model file lacks does not count, as it is fitted to any other arm too."""
         return sum(not h.is_refit for h in self.chosen)
 
     @property
@@ -77,18 +77,18 @@ class Found:
 
 
 def with_library(problem: Problem, found: Found) -> Found:
-    """The set about the same state, with all hypotheses."""
+    """Return the set about the same state, with all hypotheses."""
     lin = linearise(problem, found.lin.state, near(problem, found.level))
     return Found(lin, matching(lin, found.chosen))
 
 
 def with_one_more(problem: Problem, about: Found, linear: Sequence[tuple[float, Hypothesis]]) -> list[Found]:
-    """Sets with one effect more, those of which most is expected.
+    """Return the most promising sets with one more effect.
 
     Args:
-        problem: of what.
-        about: a set with all hypotheses about its state.
-        linear: gains that open-loop sensitivities promise, the best first.
+        problem: what stays fixed during the search.
+        about: set with all hypotheses about its state.
+        linear: gains expected from open-loop sensitivities, the best first.
     """
     out = with_linear(about, linear)
     evidence, alone = about.lin.evidence, about.log_evidence
@@ -104,14 +104,14 @@ def with_one_more(problem: Problem, about: Found, linear: Sequence[tuple[float, 
 
 
 def with_linear(about: Found, linear: Sequence[tuple[float, Hypothesis]]) -> list[Found]:
-    """Sets with one more effect whose size enters linearly, by the gains that these promise, the best first."""
+    """Return sets with one more effect whose size enters linearly, by expected gain, the best first."""
     able = [(gain, h) for gain, h in linear if _may_join(about.chosen, h)]
     promising = [(gain, h) for gain, h in able if gain > RUNNER_UP * able[0][0]]
     return [Found(about.lin, (*about.chosen, h)) for _, h in _by_effect(promising)[:FAMILIES]]
 
 
 def with_unseen(problem: Problem, about: Found) -> list[Found]:
-    """The set with each effect that the filter is blind to, at its likeliest usual values."""
+    """Return the set with each effect that the filter cannot see, at the likeliest of its screened values."""
     out, lin = list[Found](), about.lin
     for effect in problem.structure.offered:
         new = [h for h in lin.library.hypotheses if h.effect == effect.name and h.start and _may_join(about.chosen, h)]
@@ -126,7 +126,7 @@ def with_unseen(problem: Problem, about: Found) -> list[Found]:
 
 
 def _by_effect(ranked: Sequence[tuple[float, Hypothesis]]) -> list[tuple[float, Hypothesis]]:
-    """The best two places of each effect, the best first: where an effect acts is told by fits alone."""
+    """Return the best two places of each effect, the best first: only fits show where an effect acts."""
     seen: dict[str, int] = {}
     out = list[tuple[float, Hypothesis]]()
     for gain, h in ranked:
@@ -137,7 +137,7 @@ def _by_effect(ranked: Sequence[tuple[float, Hypothesis]]) -> list[tuple[float, 
 
 
 def refined(problem: Problem, lin: Linearised, chosen: Set) -> Found | None:
-    """Gauss-Newton steps towards a set's own optimum; None where they diverge."""
+    """Take Gauss-Newton steps towards a set's optimum; return None if they diverge."""
     effects = {h.effect for h in chosen}
     for ratio in RATIO:
         level = lin.evidence.best_level(chosen)
@@ -154,7 +154,7 @@ def refined(problem: Problem, lin: Linearised, chosen: Set) -> Found | None:
 
 
 def matching(lin: Linearised, chosen: Set) -> Set:
-    """The hypotheses of a new linearisation that are these; of those with states, the one at the state's values."""
+    """Return the same hypotheses in a new linearisation; of those with states, the one at the state's values."""
     out = []
     for old in chosen:
         same = [h for h in lin.library.hypotheses if _is_same(h, old)]
@@ -163,7 +163,7 @@ def matching(lin: Linearised, chosen: Set) -> Set:
 
 
 def _is_same(new: Hypothesis, old: Hypothesis) -> bool:
-    """Whether two hypotheses are of the same effect, place and unknowns; values of one with a shape vary."""
+    """Whether two hypotheses have the same effect, place and unknowns; values of one with a shape may differ."""
     if new.key != old.key or bool(new.local) != bool(old.local):
         return False
     named = [[c.parameter for c in h.coefficients] for h in (new, old)]
@@ -172,7 +172,7 @@ def _is_same(new: Hypothesis, old: Hypothesis) -> bool:
 
 
 def _may_join(chosen: Set, new: Hypothesis) -> bool:
-    """Not one effect twice at one place."""
+    """Whether a hypothesis can join a set: no effect acts twice at one place."""
     for other in chosen:
         if new.effect == other.effect and (
             new.joints is None or other.joints is None or set(new.joints) & set(other.joints)

@@ -1,4 +1,4 @@
-"""Segments of recordings: where they are cut, and what their simulation gives."""
+"""Segments of recordings: where they are cut, and the results of their simulation."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from continuum.arrays import Array
 
-_SHORT = 0.25  # part of a segment by which the last one may be longer
+_SHORT = 0.25  # fraction of a segment's length up to which a remainder makes no further segment
 
 
 @dataclass(frozen=True)
@@ -19,10 +19,10 @@ class Segment:
     """A simulated stretch of a recording.
 
     Attributes:
-        run, rows: which.
-        readings: as the sensors would read the angles, (rows, n) [rad]; NaN where the simulation failed.
-        jacobian: derivatives J of the residuals of all rows and joints by the unknowns common to all recordings, by the
-            run's own, and by the segment's own: initial angles, initial rates, zeros of the sensors, (rows n, k).
+        run, rows: number of the run, and rows in it.
+        readings: angles as the sensors would read them, (rows, n) [rad]; NaN where the simulation failed.
+        jacobian: derivatives J of the residuals of all rows and joints by the unknowns: common to all recordings, of
+            the run, and of the segment (initial angles, initial rates, zeros of the sensors), (rows n, k).
         residuals: r, (rows n,) [rad].
         information: J'J, (k, k).
     """
@@ -36,20 +36,20 @@ class Segment:
 
     @classmethod
     def of(cls, run: int, rows: slice, readings: Array, jacobian: Array, residuals: Array) -> Segment:
-        """A segment with its information."""
+        """Return a segment with its information."""
         return cls(run, rows, readings, jacobian, residuals, jacobian.T @ jacobian)
 
     def with_residuals(self, residuals: Array) -> Segment:
-        """The same with other residuals, (rows n,) [rad]."""
+        """Return the same with other residuals, (rows n,) [rad]."""
         return replace(self, residuals=residuals)
 
     def with_unknowns(self, which: Sequence[int]) -> Segment:
-        """The same with derivatives by some of the unknowns only."""
+        """Return the same with derivatives by only some of the unknowns."""
         information = self.information[np.ix_(which, which)]
         return replace(self, jacobian=self.jacobian[:, which], information=information)
 
     def residuals_at(self, step: Array) -> Array:
-        """Residuals after a step of the unknowns (k,), linearised, (rows n,) [rad]."""
+        """Return the linearised residuals after a step of the unknowns (k,), (rows n,) [rad]."""
         return self.residuals + self.jacobian @ step
 
     @cached_property
@@ -70,7 +70,7 @@ class Segment:
 
 
 def cut(times: Array, length: float) -> list[slice]:
-    """Rows of segments of about a length [s], two rows or more each."""
+    """Return the rows of segments of about the given length [s], with two rows or more each."""
     count = max(1, int(np.ceil((times[-1] - times[0]) / length - _SHORT)))
     edges = [0]
     for edge in np.searchsorted(times, np.linspace(times[0], times[-1], count + 1)[1:-1]):

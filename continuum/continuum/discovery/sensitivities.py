@@ -1,4 +1,4 @@
-"""Open-loop sensitivities of one fit by all effects whose sizes enter linearly: one simulation of every segment."""
+"""Open-loop sensitivities of one fit to all effects whose sizes enter linearly: one simulation of every segment."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ class Sensitivities:
     """Residuals of a fit, and their derivatives by what was fitted and by all further effects.
 
     Args:
-        judge: by which the set was fitted.
-        fit: of a set.
-        library: with the hypotheses.
+        judge: output-error fits of the recordings.
+        fit: fit of a set.
+        library: library with the hypotheses.
 
     Attributes:
-        hypotheses: those that are linear.
+        hypotheses: the linear ones.
         wide: the unknowns of the fit and those of all hypotheses.
-        segments: with derivatives by these.
+        segments: segments with derivatives by these.
     """
 
     def __init__(self, judge: OutputError, fit: Fitted, library: Library) -> None:
@@ -43,14 +43,14 @@ class Sensitivities:
 
     @property
     def completed(self) -> bool:
-        """Whether the simulations did not fail."""
+        """Whether no simulation failed."""
         return all(np.isfinite(one.square) for one in self.segments)
 
     def _weights(self, segments: Sequence[Segment]) -> list[float]:
         return Scale(segments, self._judge.floor).weights([one.error for one in segments])
 
     def with_effect(self, unknowns: Unknowns, h: Hypothesis) -> Unknowns:
-        """Some unknowns, and those of a hypothesis."""
+        """Return some unknowns with those of a hypothesis."""
         return _joined(unknowns, *self._added[h])
 
     def stepped(
@@ -60,13 +60,13 @@ class Sensitivities:
         segments: Sequence[Segment] | None = None,
         scaled_by: Sequence[Segment] | None = None,
     ) -> tuple[Values, list[Array]]:
-        """Values after a step by some of the unknowns, and residuals of each segment there, (rows, n) each [rad].
+        """Return the values after a step of some of the unknowns, and the residuals there, (rows, n) per segment [rad].
 
         Args:
-            unknowns: of the step.
-            values: from which it begins; unknowns beyond these begin at 0.
-            segments: with other residuals than the fit's.
-            scaled_by: segments whose residuals say how much these count; the fit's without.
+            unknowns: unknowns of the step.
+            values: start of the step; unknowns beyond these start at 0.
+            segments: segments with other residuals; the fit's if None.
+            scaled_by: segments whose residuals set the weights; the fit's if None.
         """
         local = len(self._judge.local_precision)
         chosen = [self._by(one, unknowns, local) for one in segments or self.segments]
@@ -77,18 +77,18 @@ class Sensitivities:
         return there, normal.expected_residuals(there)
 
     def _by(self, one: Segment, unknowns: Unknowns, local: int) -> Segment:
-        """A segment with the derivatives by some unknowns only, and by its own."""
+        """Return a segment with derivatives by only some unknowns and its local ones."""
         at, width = self._at[one.run], one.jacobian.shape[1]
         some = [at[each.place] for each in (*unknowns.common, *unknowns.per_run[one.run])]
         return one.with_unknowns([*some, *range(width - local, width)])
 
     def changes(self, h: Hypothesis, sizes: Array, per_run_sizes: Array) -> list[Segment]:
-        """Segments whose residuals are what a hypothesis would leave if it were in the data.
+        """Return segments whose residuals are those that a hypothesis would leave if it were true in the data.
 
         Args:
-            h: one of the linear ones.
-            sizes: of its unknowns that all recordings have in common, (k,).
-            per_run_sizes: of those that each recording has for itself, (m,), in turn with either sign.
+            h: one of the linear hypotheses.
+            sizes: sizes of its unknowns that all recordings share, (k,).
+            per_run_sizes: sizes of its per-run unknowns, (m,), with a sign that alternates from run to run.
         """
         of_all, of_runs = self._added[h]
         found = []
@@ -100,12 +100,12 @@ class Sensitivities:
 
 
 def is_linear(h: Hypothesis) -> bool:
-    """Whether sizes of a hypothesis enter linearly."""
+    """Whether the sizes of a hypothesis enter linearly."""
     return h.start is None and all(c.kind == "slot" for c in h.coefficients)
 
 
 def padded(values: Values, unknowns: Unknowns) -> Values:
-    """The same values, and zero for further unknowns."""
+    """Return the same values, with zero for further unknowns."""
     common = np.pad(values.common, (0, len(unknowns.common) - len(values.common)))
     per_run = [np.pad(x, (0, len(those) - len(x))) for x, those in zip(values.per_run, unknowns.per_run, strict=True)]
     return Values(common, tuple(per_run), values.local)
@@ -117,5 +117,5 @@ def _joined(unknowns: Unknowns, more: Sequence[Unknown], more_per_run: Sequence[
 
 
 def _once(unknowns: Sequence[Sequence[Unknown]]) -> list[Unknown]:
-    """One for each place."""
+    """Return one unknown for each place."""
     return list({one.place: one for those in unknowns for one in those}.values())

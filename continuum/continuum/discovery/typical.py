@@ -1,4 +1,4 @@
-"""States of a fit with an effect of its typical size besides: of effects with states, delays and shapes."""
+"""States of a fit with one more effect of typical size, for effects with states, delays and shapes."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from continuum.discovery.problem import Problem, State
 
 
 def typical_states(problem: Problem, state: State, library: Library) -> Iterator[tuple[Hypothesis, State]]:
-    """Each hypothesis whose size does not enter linearly and that the state has not, and the state with it.
+    """Yield each hypothesis that is not linear in its size and not in the state, and the state with it.
 
-    Of effects that are screened at several sizes or shapes, at the one that is nearest to typical.
+    Effects that are screened at several sizes or shapes have the one closest to typical.
     """
     offered, chosen = {effect.name: effect for effect in problem.structure.offered}, dict[object, Hypothesis]()
     for h in library.hypotheses:
@@ -36,7 +36,7 @@ def typical_states(problem: Problem, state: State, library: Library) -> Iterator
 
 
 def _departure(problem: Problem, h: Hypothesis) -> float:
-    """How far an effect's values are from its typical ones, or from the defaults of its shape, in logarithms."""
+    """Return the distance of an effect's values from typical ones, or from the defaults of its shape, in logarithms."""
     effect = next(e for e in problem.structure.offered if e.name == h.effect)
     out = 0.0
     for name, value in (h.start or {}).items():

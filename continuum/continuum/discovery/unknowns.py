@@ -1,7 +1,7 @@
 """The unknowns of a set of effects in the exact equations: all that a fit may change, with priors and bounds.
 
-Common to all recordings are the baseline's coordinates, ordinary differences of parts and the set's own coefficients;
-values of effects with states count by their logarithm. Some effects have a value in each recording.
+Common to all recordings are the baseline's coordinates, ordinary differences between parts and the coefficients of the
+set; for values of effects with states, the unknown is their logarithm. Some effects have per-run values.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ from continuum.discovery.problem import Problem, State, ValueKey, Values
 from continuum.discovery.search import Found
 
 STEP = 1e-6
-"""Change of an unknown for the difference of what is linear, or nearly."""
+"""Step of an unknown for finite differences of what is linear, or nearly so."""
 
 type Start = Mapping[tuple[object, ...], float]
-"""Where unknowns begin, by `Unknown.key`."""
+"""Starting values of unknowns, by `Unknown.key`."""
 
 
 @dataclass(frozen=True)
 class Unknown:
-    """One number.
+    """One unknown number.
 
     Attributes:
-        places: values that it is added to, with factors; or whose logarithm it changes.
-        is_log: which of these.
-        start, mean, sd: where a fit begins, and its Gaussian prior.
-        absent: value where what it belongs to is absent.
+        places: values to which it is added, with factors, or whose logarithm it is.
+        is_log: whether it is a logarithm.
+        start, mean, sd: start of a fit, and Gaussian prior.
+        absent: its value if what it belongs to is absent.
         lower, upper: bounds.
         hypothesis: effect and place of the set that it belongs to; None for the baseline and ordinary differences.
-        of_run: recording that it belongs to; None for all.
+        of_run: number of the recording that it belongs to; None for all.
     """
 
     places: Mapping[ValueKey, float]
@@ -57,12 +57,12 @@ class Unknown:
 
     @property
     def key(self) -> tuple[object, ...]:
-        """What it is in any set: an effect's size, say, or the ordinary difference that changes the same value."""
+        """Identity in any set: distinguishes, say, an effect's size from an ordinary difference of the same value."""
         return self.place, None if self.hypothesis is None else self.hypothesis.key
 
 
 def shifted(state: State, unknown: Unknown, run: int, step: float = STEP) -> State:
-    """A state with one unknown changed by a step, of one recording where it is that recording's own."""
+    """Return a state with one unknown changed by a step, in one recording if it is a per-run unknown."""
     if unknown.is_log:
         active = {effect: {n: np.array(v) for n, v in values.items()} for effect, values in state.active.items()}
         for effect, name, joint in unknown.places:
@@ -80,13 +80,13 @@ class Unknowns:
     """Coordinates of a state.
 
     Args:
-        problem: whose structure and recordings.
-        found: a set of effects and the state that a search left it in.
-        start: where some of them begin; others begin where the search left them.
+        problem: problem with structure and recordings.
+        found: set of effects with the state in which a search left it.
+        start: starting values of some of them; others start where the search left them.
 
     Attributes:
-        common: those of all recordings.
-        per_run: those of each recording.
+        common: unknowns common to all recordings.
+        per_run: unknowns of each recording.
     """
 
     def __init__(self, problem: Problem, found: Found, start: Start) -> None:
@@ -97,28 +97,28 @@ class Unknowns:
 
     @property
     def all(self) -> list[Unknown]:
-        """Common ones, then each recording's."""
+        """All unknowns: the common ones, then those of each recording."""
         return [*self.common, *(one for those in self.per_run for one in those)]
 
     @property
     def per_run_start(self) -> tuple[Array, ...]:
-        """Where a fit of each recording's own begins."""
+        """Starting values of the per-run unknowns, by recording."""
         return tuple(np.array([one.start for one in mine]) for mine in self.per_run)
 
     def with_lists(self, common: Sequence[Unknown], per_run: Sequence[Sequence[Unknown]]) -> Unknowns:
-        """Other unknowns about the same state."""
+        """Return other unknowns about the same state."""
         other = copy(self)
         other.common, other.per_run = list(common), tuple(list(those) for those in per_run)
         return other
 
     def about(self, state: State, common: Sequence[Unknown], per_run: Sequence[Sequence[Unknown]]) -> Unknowns:
-        """Other unknowns about another state of the same set."""
+        """Return other unknowns about another state of the same set."""
         other = self.with_lists(common, per_run)
         other._state = state
         return other
 
     def state(self, common: Array, per_run: tuple[Array, ...]) -> State:
-        """The state with values at these coordinates, (k,) and (m,) for each recording."""
+        """Return the state with values at these coordinates, (k,) and (m,) for each recording."""
         free = {key for one in self.common for key in one.places}
         absent = {("", *one): value for one, value in self._problem.coordinates.without_friction.items()}
         shared: dict[ValueKey, float] = {key: value for key, value in absent.items() if key not in free}
@@ -193,7 +193,7 @@ class Unknowns:
 
 
 def linear_unknown(h: Hypothesis, k: int, library: Library, start: float = 0.0) -> Unknown:
-    """Of a hypothesis's coefficient that enters linearly."""
+    """Return the unknown of a coefficient of a hypothesis that enters linearly."""
     key_of = {column: key for key, column in library.at.items()}
     factors = h.weights[k] if h.weights else (1.0,) * len(h.columns[k])
     places = {key_of[column]: w for column, w in zip(h.columns[k], factors, strict=True)}
@@ -202,7 +202,7 @@ def linear_unknown(h: Hypothesis, k: int, library: Library, start: float = 0.0) 
 
 
 def run_unknowns(h: Hypothesis, library: Library, run: int, values: Values) -> list[Unknown]:
-    """What a recording has for itself by a hypothesis, beginning at its values."""
+    """Return the per-run unknowns of a hypothesis in one recording, starting at its values."""
     key_of = {column: key for key, column in library.at.items()}
     return [
         Unknown({(key := key_of[column]): 1.0}, False, values.get(key, 0.0), 0.0, float(sd), -np.inf, np.inf, h, run)
@@ -211,5 +211,5 @@ def run_unknowns(h: Hypothesis, library: Library, run: int, values: Values) -> l
 
 
 def _beginning(one: Unknown, start: Start) -> Unknown:
-    """The same where its beginning is not given, else with that."""
+    """Return the same unknown with a given start, if there is one, within bounds."""
     return replace(one, start=float(np.clip(start.get(one.key, one.start), one.lower, one.upper)))

@@ -1,4 +1,4 @@
-"""The answer for machines."""
+"""The answer in machine-readable form."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ def write_json(result: Diagnosis, path: str | Path, made: Mapping[str, object]) 
 
     Args:
         result: the answer.
-        path: where.
-        made: how it was made: what was read, version, seed.
+        path: file to write.
+        made: how it was made: inputs, version, seed.
 
     Raises:
         FileError: the file cannot be written.
@@ -32,7 +32,7 @@ def write_json(result: Diagnosis, path: str | Path, made: Mapping[str, object]) 
 
 
 def as_mapping(result: Diagnosis) -> dict[str, Any]:
-    """Numbers, strings, lists and mappings; joints count from 1, units are SI."""
+    """Return the answer as numbers, strings, lists and mappings; joints count from 1, units are SI."""
     verdict = result.verdict
     effects = [[_cause(cause) for cause in causes] for causes in result.sets]
     probabilities = verdict.probabilities if is_named(verdict.kind) else (1.0,) * len(effects)

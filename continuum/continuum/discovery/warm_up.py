@@ -1,4 +1,4 @@
-"""Compile what a first diagnosis of the prototype needs, or load it from its cache, before somebody waits for it.
+"""Compile what a first diagnosis of the prototype needs, or load it from its cache, before a user waits for it.
 
 `python3 -m continuum.discovery.warm_up` does it once for all programs after an installation.
 """
@@ -11,8 +11,7 @@ import numpy as np
 
 from continuum.discovery.diagnosis import diagnose
 from continuum.dynamics.compiled.equations import CompiledEquations
-from continuum.dynamics.dry_friction import with_dry_friction
-from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.model import ActiveEffect, Model, with_dry_friction
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
@@ -25,7 +24,7 @@ _BEND = np.radians([4.0, 6.0, 8.0, 6.0, 4.0])
 
 
 def warm_up() -> None:
-    """Compile the prototype's equations with all effects, with cables that pull and without, and diagnose for once."""
+    """Compile the prototype's equations with all effects, with and without pulling cables, and diagnose once each."""
     model = load_model("lamecc_prototype.yaml")
     for with_tension in (False, True):
         structure = Structure(with_dry_friction(model), with_tension=with_tension)
@@ -36,7 +35,7 @@ def warm_up() -> None:
 
 
 def _compile_simulators(structure: Structure) -> None:
-    """Of open-loop fits, with ordinary differences of parts and one effect more; of screening, with all effects."""
+    """Compile equations of open-loop fits, with ordinary differences and one more effect, and those of screening."""
     model, n = structure.model, structure.n
     always = {a.effect.name for a in model.effects if any(p.ordinary for p in a.effect.parameters.values())}
     stateful = [ActiveEffect(along.effect, absent_values(along.effect, n)) for along in structure.stateful.values()]
@@ -50,7 +49,7 @@ def _compile_simulators(structure: Structure) -> None:
 
 
 def _recordings(model: Model) -> tuple[Recording, Recording]:
-    """A release without rates, and a pull with them, of a model whose springs are softer."""
+    """Return a release without rates and a pull with them, of a model with softer springs."""
     softer = Simulator(model.with_values({"stiffness": 0.8 * float(model.parameters.stiffness[0])}))
     pull = Tensions(_TIMES, np.stack([20.0 * _TIMES, np.zeros(_TIMES.size)], axis=1))
     noise = np.random.default_rng(0).standard_normal((2, _TIMES.size, model.n_joints)) * [[[_NOISE]], [[10 * _NOISE]]]

@@ -14,11 +14,11 @@ from continuum.dynamics.parameters import RATIO
 from continuum.identification.estimate import Estimate
 from continuum.identification.nrmse import nrmse
 
-MORE_RUNS = "Record three more runs or more, of other motions, each with the arm at rest at its beginning or end."
+MORE_RUNS = "Record at least three more runs with other motions, each with the arm at rest at its beginning or end."
 
-UNSTEADY = "Pieces of the recordings disagree about sizes: something else acts too, or in its place."
+UNSTEADY = "Parts of the recordings disagree about the sizes of the effects: something else acts as well, or instead."
 _NOTHING_MORE = "Nothing in them calls for a further effect."
-_WITHIN_TOLERANCE = "An effect of the library would help, but what is missing is within the tolerance."
+_WITHIN_TOLERANCE = "An effect of the library would help, but the error is within the tolerance."
 
 
 def verdict_in_words(result: Diagnosis) -> str:
@@ -34,14 +34,14 @@ def verdict_in_words(result: Diagnosis) -> str:
         case Kind.AMBIGUOUS:
             names = "; or ".join(" and ".join(map(in_full, causes)) or "nothing" for causes in result.sets)
             return (
-                f"Something is missing, but these recordings cannot tell which of these it is: {names}. "
+                f"Something is missing, but these recordings cannot tell which: {names}. "
                 f"To tell them apart: {_experiment(result)}{_unsteady(result)}"
             )
         case Kind.UNKNOWN if result.causes:
             helps = " with ".join(in_full(cause) for cause in result.causes)
             return (
                 "The simulation misses something that no effect of the library explains. "
-                f"{helps} helps most, but much stays unexplained: do not take it for the cause. {MORE_RUNS}"
+                f"{helps} helps most but leaves much unexplained: do not take it for the cause. {MORE_RUNS}"
             )
         case _:
             return f"The simulation misses something, and no effect of the library even helps. {MORE_RUNS}"
@@ -138,7 +138,7 @@ def _closes(result: Diagnosis) -> str:
 def _rest(result: Diagnosis) -> str:
     if result.verdict.complete:
         return "No further torque is missing beyond what any model leaves."
-    return "A remainder stays, and its cause is unknown." + _unsteady(result)
+    return "Part of the error remains, and its cause is unknown." + _unsteady(result)
 
 
 def _unsteady(result: Diagnosis) -> str:
@@ -148,9 +148,9 @@ def _unsteady(result: Diagnosis) -> str:
 def _error(result: Diagnosis) -> str:
     worst = max(result.before.error(r, run.theta) for r, run in enumerate(result.recordings))
     pieces, whole, accepted = (np.degrees(x) for x in (result.before.of_segments, worst, result.tolerance))
-    text = f"Pieces of half a second stay within {pieces:.2f} degrees of the measured angles, whole recordings within "
+    text = f"Half-second segments stay within {pieces:.2f} degrees of the measured angles, whole recordings within "
     text += f"{whole:.2f} (root mean square; tolerance {accepted:.2f})."
-    return text + " Joints come to rest elsewhere, as friction near rest decides." * bool(whole > accepted)
+    return text + " Joints come to rest at other angles, which depends on friction near rest." * bool(whole > accepted)
 
 
 def _experiment(result: Diagnosis) -> str:

@@ -12,19 +12,19 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import Parameter
 
 WIDENING = 2.0
-"""Factor of a fitted value's standard deviation: on the benchmark's arms 95 % intervals hold the truth in 65 of 100
-cases, as those of half the deviation would."""
+"""Factor on a fitted value's standard deviation: on the benchmark's arms, 95 % intervals contain the truth in 65 of 100
+cases, as expected if standard deviations are too small by a factor of 2."""
 
 
 def is_zero(spec: Parameter) -> bool:
-    """Whether a parameter is a sensor's zero, which a protractor shows."""
+    """Whether a parameter is a sensor's zero, which a protractor can measure."""
     return spec.per_recording and spec.by_hand is not None
 
 
 def zeros_in(fit: Fitted, run: int) -> list[tuple[float, float, float]]:
-    """Zeros that a set has in a recording: value, standard deviation, and that of a protractor [rad].
+    """Return the zeros of a set in a recording: value, standard deviation, and that of a protractor [rad].
 
-    A set without a value for a zero agrees with a sensor whose zero was set, and is not asked.
+    A zero without a value in the set is left out: it agrees with a zero that was set by hand.
     """
     values = dict[ValueKey, float]()
     variances = dict[ValueKey, float]()
@@ -40,11 +40,11 @@ def zeros_in(fit: Fitted, run: int) -> list[tuple[float, float, float]]:
 
 
 def probability(zeros: Iterable[tuple[float, float, float]]) -> float:
-    """That any of some zeros is as far from where hands set it, or farther; Bonferroni. 1 where there is none."""
+    """Return the p-value of the largest departure of zeros set by hand, with Bonferroni correction; 1 without zeros."""
     found = [2 * float(ndtr(-abs(value) / (by_hand**2 + (WIDENING * sd) ** 2) ** 0.5)) for value, sd, by_hand in zeros]
     return min(1.0, len(found) * min(found)) if found else 1.0
 
 
 def agreement(problem: Problem, fit: Fitted) -> float:
-    """The same of all recordings before which zeros were set."""
+    """Return the same for all recordings before which zeros were set."""
     return probability([zero for run in sorted(problem.zeroed) for zero in zeros_in(fit, run)])

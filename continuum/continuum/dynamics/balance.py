@@ -1,24 +1,33 @@
-"""The equations of a whole model: Eq. 12 with its effects, and the effects' own states, one sum that must be zero."""
+"""The equations of a whole model: Eq. 12 with its effects and the effects' own states, and Eq. 18, the same solved.
+
+The sum of Eq. 12 must be zero. It is linear in the rates v = (theta'', z') that Eq. 18 solves it for:
+r = r(v = 0) + (dr/dv) v. For the thesis's own model dr/dv is M; where effects add states or inertia, its columns are
+the balance at unit rates.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
+from scipy.linalg import lu_factor, lu_solve
 
+from continuum.arrays import Array
 from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.input_kind import InputKind
-from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.model import ActiveEffect, InputKind, Model
+from continuum.dynamics.planar.balance import torque_balance
 from continuum.dynamics.planar.cables import SIDES
-from continuum.dynamics.planar.eq12_balance import torque_balance
-from continuum.dynamics.planar.instant import Instant
-from continuum.dynamics.planar.motion import Motion
+from continuum.dynamics.planar.instant import Instant, Motion
+from continuum.dynamics.planar.rigid_body import inertia_matrix
 from continuum.dynamics.tensions import LET_GO
+
+StateSpace = Callable[[Array, Array], Array]
+"""Rates of a state (n_x,) under inputs (n_inputs,): (theta', theta'', z'), (n_x,) [rad/s, rad/s2, ...]."""
 
 
 def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | None = None) -> Numbers:
-    """What is left of the equations, (n + n_states,) [N m, and each effect's own units].
+    """What is left of Eq. 12 and of the effects' equations, (n + n_states,) [N m, and each effect's own units].
 
     Args:
         model: the model, its values floats or symbols.
@@ -64,3 +73,19 @@ def _parts(model: Model, x: Numbers, v: Numbers) -> Iterator[tuple[ActiveEffect,
         end = at + active.effect.n_states(model.n_joints)
         yield active, x[model.n_joints + at : model.n_joints + end], v[at:end]
         at = end
+
+
+def numpy_state_space(model: Model) -> StateSpace:
+    """Eq. 18 of a model, evaluated term by term in NumPy as the equations are written."""
+    n, size = model.n_joints, model.n_joints + model.n_states
+    unit = np.eye(size)
+
+    def rates(x: Array, u: Array) -> Array:
+        rest = balance(model, x, np.zeros(size), u)
+        if model.effects:
+            matrix = np.stack([balance(model, x, column, u) - rest for column in unit], axis=1)
+        else:
+            matrix = inertia_matrix(np.cumsum(x[:n]), model.parameters)
+        return np.concatenate([x[n : 2 * n], -lu_solve(lu_factor(matrix), rest)])
+
+    return rates

@@ -15,9 +15,8 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter, Parameters
-from continuum.dynamics.planar.instant import Instant
-from continuum.dynamics.planar.motion import Motion
-from continuum.dynamics.reading import Reading
+from continuum.dynamics.planar.instant import Instant, Motion
+from continuum.dynamics.trajectory import Reading
 
 EffectParams = Mapping[str, Numbers]
 

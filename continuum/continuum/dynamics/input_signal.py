@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.input_kind import InputKind
+from continuum.dynamics.model import InputKind
 from continuum.dynamics.simulation_input import finite_array, output_times
 from continuum.errors import InvalidValueError
 

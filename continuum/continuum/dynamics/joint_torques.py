@@ -7,8 +7,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.input_signal import InputSignal
+from continuum.dynamics.model import InputKind
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from continuum.dynamics.model import Model
-from continuum.dynamics.reading import Reading
-from continuum.dynamics.trajectory import Trajectory
+from continuum.dynamics.trajectory import Reading, Trajectory
 
 
 def readings(model: Model, trajectory: Trajectory, begun: float | None = None) -> Reading:

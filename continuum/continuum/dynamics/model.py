@@ -4,14 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from enum import Enum
 from functools import cached_property
 
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
 from continuum.dynamics.planar.cables import SIDES
 from continuum.errors import InvalidValueError
+
+DRY_SLOPE, CABLE_SLOPE = 1000.0, 2e4
+"""Slopes k_v [s/rad] and k_l [s/m] at which smoothed friction can no longer be told from Coulomb's."""
+
+
+class InputKind(Enum):
+    """What drives an arm: its cables, or torques at its joints. By the names that model files use."""
+
+    CABLES = "cables"
+    JOINT_TORQUES = "joint_torques"
+
+    @property
+    def in_words(self) -> str:
+        """As messages name it."""
+        return {"cables": "tensions of cables", "joint_torques": "joint torques"}[self.value]
 
 
 @dataclass(frozen=True)
@@ -129,3 +144,11 @@ class Model:
                 for active in self.effects
             ),
         )
+
+
+def with_dry_friction(model: Model) -> Model:
+    """The model with k_v and k_l of its friction at least that large; a smoother sign creeps where an arm rests."""
+    steep = {"friction_slope": DRY_SLOPE, "cable_slope": CABLE_SLOPE}
+    raised = {name: sensitivity for name, sensitivity in steep.items() if sensitivity > float(model.values()[name][0])}
+    sources = dict(model.sources) | dict.fromkeys(raised, "so steep that it cannot be told from dry friction")
+    return replace(model.with_values(raised), sources=sources)

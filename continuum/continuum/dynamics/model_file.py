@@ -25,12 +25,11 @@ import yaml
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.input_kind import InputKind
-from continuum.dynamics.model import ActiveEffect, Model
-from continuum.dynamics.model_path import model_path
+from continuum.dynamics.model import ActiveEffect, InputKind, Model
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
 from continuum.errors import FileError, InvalidValueError
 from continuum.parameter_file import read_parameter_file
+from continuum.shipped_files import MODELS, find_file
 from continuum.whole_file import write_whole
 
 _ENTRY = "a mapping of value, unit and source"
@@ -45,7 +44,7 @@ def load_model(path: str | Path) -> Model:
         InvalidValueError: a name, value or unit that is not allowed, or a required parameter that is missing; the
             message begins with the file's name.
     """
-    block = read_parameter_file(model_path(path))
+    block = read_parameter_file(find_file(path, MODELS))
     if "arm" in block or "sections" in block:
         raise FileError(
             path, "is an arm file, of `info` and `solve`; a model file has n_joints, inputs, parameters and effects"

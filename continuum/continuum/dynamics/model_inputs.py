@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.joint_torques import no_torques
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import InputKind, Model
 from continuum.dynamics.tensions import slack
 from continuum.errors import InvalidValueError
 

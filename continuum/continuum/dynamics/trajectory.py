@@ -1,4 +1,4 @@
-"""What a simulation gives: states over time, or the reason why there are none."""
+"""Motions over time: what a simulation gives, or the reason why it gives none, and what sensors read of it."""
 
 from __future__ import annotations
 
@@ -46,3 +46,20 @@ class Trajectory:
     def theta_rate(self) -> Array:
         """Joint rates, (n_times, n_joints) [rad/s]."""
         return self.states[:, self.n_joints : 2 * self.n_joints]
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What sensors read of a motion: joint angles and rates at the sampled times.
+
+    Attributes:
+        times: (n_times,) [s].
+        theta: joint angles, (n_times, n_joints) [rad].
+        theta_rate: joint rates, (n_times, n_joints) [rad/s].
+        begun: when the recording began of which this may be a part [s].
+    """
+
+    times: Array
+    theta: Array
+    theta_rate: Array
+    begun: float

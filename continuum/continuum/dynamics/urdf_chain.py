@@ -18,8 +18,7 @@ import numpy as np
 import yourdfpy
 
 from continuum.arrays import Array
-from continuum.dynamics.input_kind import InputKind
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import InputKind, Model
 from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.urdf_description import Body, Description
 from continuum.errors import FileError

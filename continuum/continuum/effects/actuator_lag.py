@@ -13,8 +13,7 @@ from continuum.dynamics.effect import EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.cable_states import LEAST_LAG, CableStates
-from continuum.effects.parts.cables import led
+from continuum.effects._parts import LEAST_LAG, CableStates, led
 
 
 class ActuatorLag(CableStates):
@@ -42,8 +41,8 @@ class ActuatorLag(CableStates):
     needs_tension = True
     shifts_time = True
     source = "Franklin, Powell and Emami-Naeini, Feedback Control of Dynamic Systems, ch. 3 (first-order lag)"
-    in_words = "The motors pull later than they are told."
-    symptom = "Every answer to a change of pull comes late by the same time; what moves freely is as it should be."
+    in_words = "The motors follow their commands with a lag."
+    symptom = "The arm answers every change of tension late by the same time; free swings agree with the model."
     experiment = "Step the command with the arm held still and record the tension at the base of the cable."
 
     def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:

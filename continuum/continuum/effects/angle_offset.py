@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import ByHand, Parameter
-from continuum.dynamics.reading import Reading
+from continuum.dynamics.trajectory import Reading
 
 
 class AngleOffset(Effect):
@@ -33,11 +33,12 @@ class AngleOffset(Effect):
         )
     }
     source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3 and 4"
-    in_words = "A sensor shows a wrong angle from the start, by the same amount all the time."
-    symptom = "Measured and simulated angle run side by side, and the rates agree; the gap differs from run to run."
+    in_words = "A sensor has a wrong zero: its angle is off by a constant amount from the start."
+    symptom = "Measured and simulated angles run parallel and their rates agree; the offset differs from run to run."
     experiment = "Measure the resting angle with a protractor, or restart the sensors and release again."
     beware = (
-        "A spring that rests elsewhere in every run looks nearly the same: measure the resting angles by other means."
+        "A spring whose rest angle changes from run to run looks nearly the same: measure the resting "
+        "angles another way."
     )
 
     def measure(self, seen: Reading, params: EffectParams) -> Reading:

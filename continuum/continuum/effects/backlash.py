@@ -24,10 +24,9 @@ from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import ByHand, Parameter, Parameters
-from continuum.dynamics.planar.eq12_spring_torque import spring_torque
-from continuum.dynamics.planar.eq13_joint_friction import break_away_torque, joint_friction
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.rounded import rounded_size
+from continuum.dynamics.planar.springs_and_friction import break_away_torque, joint_friction, spring_torque
+from continuum.effects._parts import rounded_size
 
 _STOP = 3000.0  # N m/rad, more than K
 _STOP_DAMPING = 10.0  # N m s/rad
@@ -59,9 +58,9 @@ class Backlash(Effect):
         )
     }
     source = "Nordin and Gutman, Automatica 38, 2002, 1633-1649"
-    in_words = "A joint has play: for a small way it moves without its spring and friction."
-    symptom = "The joint rattles freely within its play when the load on it changes sides, and knocks at its ends."
-    experiment = "Move the resting joint by hand with a force gauge: within the play it meets nothing at all."
+    in_words = "A joint has play: over a small angle it moves without its spring and its friction."
+    symptom = "The joint rattles within its play when its load changes sides, and knocks at the ends."
+    experiment = "Move the resting joint by hand with a force gauge: within the play it shows no force."
     state_sd = 0.02
 
     def n_states(self, n_joints: int) -> int:

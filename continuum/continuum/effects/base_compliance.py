@@ -26,11 +26,9 @@ from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, suffix_sum
 from continuum.dynamics.parameters import Parameter, Parameters
-from continuum.dynamics.planar.eq12_balance import link_torque
-from continuum.dynamics.planar.eq12_gravity_torque import link_gravity_torque
-from continuum.dynamics.planar.instant import Instant
-from continuum.dynamics.planar.link_coupling import mass_moments
-from continuum.dynamics.planar.motion import Motion
+from continuum.dynamics.planar.balance import link_torque
+from continuum.dynamics.planar.instant import Instant, Motion
+from continuum.dynamics.planar.rigid_body import link_gravity_torque, mass_moments
 
 _SETTLED = 1e-13  # a step of Newton's method this small [rad] is rounding
 
@@ -47,8 +45,8 @@ class BaseCompliance(Effect):
         "damping": Parameter("zeta", "1", 0.01, 2.0, False, "damping ratio of that swing", 0.1, 0.1),
     }
     source = "Lew and Moon, IEEE/ASME Trans. Mechatronics 6, 2001 (manipulators on compliant bases)"
-    in_words = "The mount of the base plate gives way when the arm swings."
-    symptom = "A second, faster swing rides on the first; all joints take part, and rest angles change little."
+    in_words = "The mount of the base plate yields when the arm swings."
+    symptom = "A second, faster oscillation rides on the first at all joints; rest angles hardly change."
     experiment = "Put a sensor on the base plate, or brace the plate, and release again."
     state_sd = 0.01
     beginnings: ClassVar[Sequence[Mapping[str, float]]] = [

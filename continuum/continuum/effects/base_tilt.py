@@ -35,11 +35,11 @@ class BaseTilt(Effect):
         )
     }
     source = "thesis Eq. 12, G; Khalil and Dombre, Modeling, Identification and Control of Robots, 2002, ch. 9"
-    in_words = "The base plate is not level, so the arm hangs askew."
-    symptom = "All joints come to rest to one side, those near the base most, as the weight beyond them asks."
+    in_words = "The base plate is not level, so the arm hangs at an angle."
+    symptom = "All joints come to rest to one side, most of all those near the base, which carry the most weight."
     experiment = (
         "Put a spirit level on the base plate; or turn the arm half a turn about its own axis and release again: "
-        "a tilt changes its side in the arm's own angles."
+        "a tilt then changes sign in the arm's joint angles."
     )
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:

@@ -38,9 +38,11 @@ class Capstan(Effect):
     uses_cables = True
     needs_tension = True
     source = "thesis Eqs. 14 and 15; Kaneko, Yamashita and Tanie, ICAR 1991 (transmission of tendon drives)"
-    in_words = "The cables rub in the holes of the discs, so that less of the pull reaches the tip."
-    symptom = "Under pull the joints near the tip bend less than those near the base, the more the arm is bent."
-    experiment = "Pull slowly and let go slowly: the arm's bend at the same pull differs, most at the tip."
+    in_words = "The cables rub in the holes of the discs, so less tension reaches the tip."
+    symptom = (
+        "Under tension the joints near the tip bend less than those near the base, increasingly so as the arm bends."
+    )
+    experiment = "Pull slowly and let go slowly: at the same tension the bend differs, most of all at the tip."
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
         return replace(p, capstan_friction=p.capstan_friction + params["friction"])

@@ -26,8 +26,7 @@ from continuum.dynamics.effect import EffectParams
 from continuum.dynamics.expressions import Numbers, positive_part
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.cable_states import LEAST_LAG, CableStates
-from continuum.effects.parts.cables import led, lengthening_rate
+from continuum.effects._parts import LEAST_LAG, CableStates, led, lengthening_rate
 
 _TAUT = 0.05  # N: with less a cable is nearly loose
 
@@ -48,8 +47,11 @@ class ElasticCable(CableStates):
         {"lag": 0.08, "stiffness": 170.0},
     ]
     source = "Camarillo et al., IEEE Trans. Robotics 24, 2008, 1262-1273 (tendons); Hogan, ASME JDSMC 107, 1985"
-    in_words = "The cables stretch, and the motors even that out only after a while."
-    symptom = "While the arm moves fast the pull is above or below the command, as the cable is drawn out or let in."
+    in_words = "The cables stretch, and the motors take up the stretch only after a while."
+    symptom = (
+        "While the arm moves fast the tension is above the command where the cable is drawn out, below "
+        "it where it is let in."
+    )
     experiment = (
         "Hold the arm still and step the command, then hold the command and push the arm; compare the tensions."
     )

@@ -12,7 +12,7 @@ from typing import ClassVar
 
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import Parameter
-from continuum.dynamics.reading import Reading
+from continuum.dynamics.trajectory import Reading
 
 
 class GyroDrift(Effect):
@@ -24,7 +24,7 @@ class GyroDrift(Effect):
     }
     source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3.2"
     in_words = "A gyro drifts: the angle of a joint at rest keeps changing."
-    symptom = "The gap between measured and simulated angle grows in proportion to time, also where the arm rests."
+    symptom = "The gap between measured and simulated angles grows in proportion to time, even while the arm rests."
     experiment = "Record the arm at rest for half a minute before and after each release."
 
     def measure(self, seen: Reading, params: EffectParams) -> Reading:

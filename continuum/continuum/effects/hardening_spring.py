@@ -23,9 +23,11 @@ class HardeningSpring(Effect):
         "cubic": Parameter("K_3", "N m/rad3", -2.0, 100.0, False, "cubic stiffness of all joints", 0.0, 2.0)
     }
     source = "Kovacic and Brennan (eds.), The Duffing Equation, Wiley 2011, ch. 2"
-    in_words = "The springs grow stiffer the further they are bent."
-    symptom = "Large swings are faster than small ones, and joints bend less than in proportion to a large load."
-    experiment = "Hang growing weights on the tip and read the joints' angles at rest: the line bends upwards."
+    in_words = "The springs get stiffer the further they bend."
+    symptom = "Large swings are faster than small ones, and a large load bends the joints less than proportionally."
+    experiment = (
+        "Hang increasing weights on the tip and read the joint angles at rest: the load over the angle curves upwards."
+    )
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         return params["cubic"] * (now.motion.theta - now.p.rest_angle) ** 3

@@ -21,12 +21,9 @@ import numpy as np
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter
-from continuum.dynamics.planar.eq15_tension_propagation import tension_propagation
-from continuum.dynamics.planar.eq16_link_wrenches import link_wrenches
-from continuum.dynamics.planar.eq17_serial_jacobian import serial_jacobian_transposed_times
+from continuum.dynamics.planar.cables import link_wrenches, serial_jacobian_transposed_times, tension_propagation
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.cables import driven, lengthening, lengthening_rate
-from continuum.effects.parts.rounded import rounded_part
+from continuum.effects._parts import driven, lengthening, lengthening_rate, rounded_part
 
 _CORNER = 5e-4  # m
 _ONSET = 5e-3  # m/s
@@ -45,7 +42,7 @@ class HeldCable(Effect):
     uses_cables = True
     source = "Hunt and Crossley, ASME J. Applied Mechanics 42, 1975, 440-445"
     in_words = "A cable that should hang loose goes taut when the arm bends far."
-    symptom = "Beyond a certain bend to one side the arm is held back and thrown back, all joints at once."
+    symptom = "Beyond a certain bend to one side, all joints are held back and thrown back at once."
     experiment = "Take the cables off, or give them more slack, and release again."
     removal = "Take the cables off the arm."
 

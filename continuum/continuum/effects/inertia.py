@@ -42,11 +42,11 @@ class Inertia(Effect):
         {"inertia": 1.0},
     ]
     source = "thesis, discussion of Fig. 9; Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119"
-    in_words = "A link is heavier or lighter, or its mass lies further out, than in the drawings."
-    in_words_if_more = "A link is heavier, or its mass lies further out, than in the drawings."
-    in_words_if_less = "A link is lighter, or its mass lies less far out, than in the drawings."
-    symptom = "Swings are slower or faster and gravity pulls a joint further, in proportion to each other."
-    experiment = "Weigh each link without what hangs on it; add a known weight to one, release again and compare."
+    in_words = "A link is heavier or lighter than in the drawings, or its mass is distributed differently."
+    in_words_if_more = "A link is heavier than in the drawings, or its mass lies further out."
+    in_words_if_less = "A link is lighter than in the drawings, or its mass lies further in."
+    symptom = "Swings are slower and gravity pulls the joint further, in proportion; or both the other way."
+    experiment = "Weigh each link by itself; add a known weight to one, release again and compare."
     beware = "Links that are longer or shorter than in the model look nearly the same: measure their lengths as well."
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:

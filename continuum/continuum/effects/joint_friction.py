@@ -27,11 +27,11 @@ class JointFriction(Effect):
         ),
     }
     source = "thesis Eq. 13; Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, 1083-1138"
-    in_words = "A joint is tighter or looser than the others: it wants grease, or has lost its preload."
-    in_words_if_more = "A joint rubs more than the others: it wants grease, or is clamped too tight."
-    in_words_if_less = "A joint rubs less than the others: it has lost its preload."
-    in_words_if_lacking = "The joints rub, and the model has no friction."
-    symptom = "The joint's motion dies out sooner or later than its neighbours', and it sticks elsewhere."
+    in_words = "A joint is tighter or looser than the others: it needs grease, or has lost its preload."
+    in_words_if_more = "A joint has more friction than the others: it needs grease, or is clamped too tight."
+    in_words_if_less = "A joint has less friction than the others: it has lost its preload."
+    in_words_if_lacking = "The joints have friction, and the model has none."
+    symptom = "The joint's motion dies out sooner or later than its neighbours', and the joint sticks at another angle."
     experiment = "Move each joint alone by hand at a steady speed, both ways, with a force gauge."
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:

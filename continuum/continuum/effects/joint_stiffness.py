@@ -26,7 +26,7 @@ class JointStiffness(Effect):
     in_words = "The spring of a joint is stiffer or softer than those of the others."
     in_words_if_more = "The spring of a joint is stiffer than those of the others."
     in_words_if_less = "The spring of a joint is softer than those of the others."
-    symptom = "The joint bends less, or more, than its neighbours for the same load, in proportion to the load."
+    symptom = "Under the same load the joint bends less, or more, than its neighbours, in proportion to the load."
     experiment = "Hang known weights on the tip of the arm held level and read the angle of each joint at rest."
     beware = (
         "A spring that creeps is stiffer in fast motions than in slow ones: hold the joint bent and watch its torque."

@@ -21,9 +21,9 @@ import numpy as np
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, smooth_sign
 from continuum.dynamics.parameters import Parameter
-from continuum.dynamics.planar.eq13_joint_friction import dry_friction
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.joint_force import joint_force
+from continuum.dynamics.planar.springs_and_friction import dry_friction
+from continuum.effects._parts import joint_force
 
 _LEAST_FORCE = 0.1  # N
 
@@ -42,7 +42,7 @@ class LoadFriction(Effect):
         "Hamon, Gautier and Garrec, IEEE/RSJ IROS 2010 (dry friction depending on load and velocity); "
         "Bittencourt and Gunnarsson, ASME JDSMC 134, 2012, 051013 (Coulomb and Stribeck part grow with load)"
     )
-    in_words = "Joints rub more the more weight or cable pull they carry."
+    in_words = "Joint friction grows with the weight and the cable tension that a joint carries."
     symptom = "Joints near the base stick more than those near the tip, and all stick more when cables pull."
     experiment = "Release the arm with and without a weight on its tip, or pull both cables alike while it swings."
 

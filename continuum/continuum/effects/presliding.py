@@ -37,9 +37,9 @@ import numpy as np
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, positive_part, smooth_sign
 from continuum.dynamics.parameters import Parameter, Parameters
-from continuum.dynamics.planar.eq13_joint_friction import dry_friction
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.rounded import rounded_size
+from continuum.dynamics.planar.springs_and_friction import dry_friction
+from continuum.effects._parts import rounded_size
 
 _PLACES = np.array([[-2.0], [0.0], [2.0]]) / 3  # of the elements between -1 and 1, each amid its third
 _SQUARED = 5  # times, of P
@@ -60,8 +60,8 @@ class Presliding(Effect):
         "spread": Parameter("r", "1", 0.4, 1.0, False, "how unlike each other asperities slip", 0.7, 0.1),
     }
     source = "Al-Bender, Lampaert and Swevers, IEEE Trans. Automatic Control 50, 2005, 1883-1887"
-    in_words = "Joints that stick still give way a little, like rubber, before they slide."
-    symptom = "Where the model sticks the joint rocks and springs back a little; small swings have hysteresis."
+    in_words = "A joint that sticks yields a little, like rubber, before it slides."
+    symptom = "Where the model sticks, the real joint rocks and springs back a little; small swings show hysteresis."
     experiment = "Push a resting joint gently to and fro, below its break-away force: it springs back to where it was."
     state_sd = 0.7
     within_friction = True

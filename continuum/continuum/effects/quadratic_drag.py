@@ -17,11 +17,9 @@ import numpy as np
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter, Parameters
-from continuum.dynamics.planar.eq17_serial_jacobian import serial_jacobian_transposed_times
-from continuum.dynamics.planar.instant import Instant
-from continuum.dynamics.planar.motion import Motion
-from continuum.effects.parts.links import across, sum_before
-from continuum.effects.parts.rounded import rounded_size
+from continuum.dynamics.planar.cables import serial_jacobian_transposed_times
+from continuum.dynamics.planar.instant import Instant, Motion
+from continuum.effects._parts import across, rounded_size, sum_before
 
 _STILL = 1e-3  # m/s
 
@@ -34,9 +32,9 @@ class QuadraticDrag(Effect):
         "drag": Parameter("c", "N s2/m2", 0.0, 50.0, False, "drag of one link by its speed squared", 0.0, 0.3)
     }
     source = "Hoerner, Fluid-Dynamic Drag, 1965, ch. 3"
-    in_words = "Something brakes the arm like water: the faster it moves, the more, and by the square."
-    symptom = "Fast swings, above all of the tip, lose more than the model says, and slow ones nothing."
-    experiment = "Release from a large and from a small angle and compare what each swing keeps of the one before."
+    in_words = "Something brakes the arm as water would, with the square of its speed."
+    symptom = "Fast swings, above all of the tip, lose more energy than in the model; slow swings agree."
+    experiment = "Release from a large and from a small angle and compare how much of its amplitude each swing keeps."
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         v = speed_across(now.motion, now.p)

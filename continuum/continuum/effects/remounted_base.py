@@ -1,4 +1,4 @@
-"""The base was mounted anew for every run and hangs askew by another angle in each: beta + angle.
+"""The base was remounted for every run, each time at another tilt: beta + angle.
 
 A clamp without a pin repeats to a degree or two; 2 degrees turn an arm of 1.1 kg by 0.04 N m, its dry friction.
 """
@@ -21,6 +21,6 @@ class RemountedBase(BaseTilt):
     }
     alike_in_all_runs = BaseTilt.name
     source = "thesis Eq. 12, G; Slocum, Precision Machine Design, 1992, ch. 7 (repeatability of mounts)"
-    in_words = "The base plate hangs askew, and by another angle in every run."
-    symptom = "All joints come to rest to one side, as the weight beyond them asks; the side differs from run to run."
+    in_words = "The base plate is not level, and its tilt differs from run to run."
+    symptom = "All joints come to rest to one side, most of all near the base; the side differs from run to run."
     experiment = "Pin the base plate, or put a spirit level on it before every run."

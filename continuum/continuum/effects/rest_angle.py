@@ -35,10 +35,10 @@ class RestAngle(Effect):
         )
     }
     source = "thesis Eq. 12; Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 10 (set of springs)"
-    in_words = "The spring of a joint is relaxed at an angle, not straight."
-    symptom = "The joint comes to rest beside where it should, from both sides and at any load."
+    in_words = "The spring of a joint is relaxed at a bent angle, not straight."
+    symptom = "The joint comes to rest off its expected angle by a constant amount, from both sides and at any load."
     experiment = (
-        "Turn the whole arm half a turn about its own axis and release it again: a rest angle turns with the arm, "
+        "Turn the whole arm half a turn about its axis and release it again: a rest angle turns with the arm, "
         "a tilt of the base does not; a sensor's offset changes with every start of the sensor."
     )
 

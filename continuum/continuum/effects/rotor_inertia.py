@@ -38,9 +38,11 @@ class RotorInertia(Effect):
     }
     source = "Armstrong, Khatib and Burdick, IEEE ICRA 1986, 510-518 (drives' inertia of the PUMA 560)"
     in_words = "The rotor of a joint's drive adds inertia that the model lacks."
-    symptom = "A joint is slower to speed up and to brake, whatever the other joints do, and weighs no more."
+    symptom = "A joint speeds up and brakes more slowly, whatever the other joints do, but weighs no more."
     experiment = "Swing the outer link alone, its drive disengaged and engaged, and compare the periods."
-    beware = "At the first joint a rotor and more inertia of the link are the same: its data sheet tells."
+    beware = (
+        "At the first joint a rotor and a larger inertia of the link look the same: consult the drive's data sheet."
+    )
     uses_drives = True
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:

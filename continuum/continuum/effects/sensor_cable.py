@@ -39,13 +39,11 @@ class SensorCable(Effect):
         ),
     }
     source = "Papailiou, IEEE Trans. Power Delivery 12, 1997 (bending stiffness and friction of cables)"
-    in_words = "The charging cable of the sensors holds back the first joint."
-    symptom = "Joint 1 alone is stiffer, damped more and drawn to one side."
+    in_words = "The charging cable of the sensors pulls on the first joint."
+    symptom = "Joint 1 alone is stiffer, more damped and drawn to one side."
     experiment = "Take the charging cable off, or tie it elsewhere, and release again."
     removal = "Take the charging cable off."
-    beware = (
-        "Whatever else pushes or rubs at the first joint looks nearly the same, a pad that it leans on, for instance."
-    )
+    beware = "Anything else that pushes or rubs on the first joint looks nearly the same, such as a pad it leans on."
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
         theta, w = now.motion.theta[:1], now.motion.theta_rate[:1]

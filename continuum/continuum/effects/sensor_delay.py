@@ -18,7 +18,7 @@ from typing import ClassVar
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import ByHand, Parameter
-from continuum.dynamics.reading import Reading
+from continuum.dynamics.trajectory import Reading
 
 
 class SensorDelay(Effect):
@@ -44,14 +44,12 @@ class SensorDelay(Effect):
     needs_tension = True
     shifts_time = True
     source = "Nilsson and Handel, IEEE/ION PLANS 2010 (time synchronisation of sensor measurements)"
-    in_words = (
-        "The sensors report late, or the motors get their commands as much too late, which is the same to the data."
-    )
+    in_words = "The sensors report late, or the motors get their commands late by as much: data cannot separate these."
     beware = (
         "Commands that reach the motors a fixed time late look exactly the same: step the command with the arm held "
         "still and record the tension at the base of the cable."
     )
-    symptom = "All joints follow the model, shifted by the same time, and the more wrong the faster they move."
+    symptom = "All joints follow the model, shifted by the same time; the error grows with speed."
     experiment = (
         "Film the release with a lamp that the recording switches on, or tap the arm and compare with a contact."
     )

@@ -21,7 +21,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.parameters import ByHand, Parameter
-from continuum.dynamics.reading import Reading
+from continuum.dynamics.trajectory import Reading
 
 
 class SensorScale(Effect):
@@ -44,7 +44,7 @@ class SensorScale(Effect):
         )
     }
     source = "Tedaldi, Pretto and Menegatti, IEEE ICRA 2014 (calibration of inertial sensors)"
-    in_words = "A sensor shows too much or too little of its link's motion, or sits askew on its disc."
+    in_words = "A sensor reports too much or too little of its link's motion, or is misaligned on its disc."
     symptom = "The joints on both sides of a sensor err in opposite ways, in proportion to how far its link is turned."
     experiment = "Turn the link by a known angle, against a stop, and compare."
     beware = "Links that are longer or shorter than in the model look nearly the same: measure their lengths as well."

@@ -26,7 +26,7 @@ from continuum.dynamics.expressions import Numbers, positive_part, where_positiv
 from continuum.dynamics.parameters import Parameter, Parameters
 from continuum.dynamics.planar.cables import SIDES
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects.parts.cables import lengthening_rate
+from continuum.effects._parts import lengthening_rate
 
 _ENDS = 4.0  # ways from loose to taut are so much longer than the ends in which g stops
 
@@ -48,9 +48,9 @@ class SlackCable(Effect):
         {"slack": slack, "least": least} for slack in (0.005, 0.015) for least in (0.1, 0.3, 1.0, 3.0)
     ]
     source = "Agrawal, Peine and Yao, IEEE Trans. Robotics 26, 2010, 914-924 (slack of cables in conduits)"
-    in_words = "The cables hang loose when they are not pulled, and pull only after the motor has wound that up."
-    symptom = "When a cable begins to pull nothing happens for a moment; cables that stay taut do as the model says."
-    experiment = "Keep some newtons on both cables all the time and repeat the motion: slack then plays no part."
+    in_words = "The cables hang loose when not pulled, and pull only once the motor has wound up the slack."
+    symptom = "When a cable begins to pull, nothing happens for a moment; cables that stay taut agree with the model."
+    experiment = "Keep a few newtons on both cables all the time and repeat the motion, so that no slack forms."
 
     def n_states(self, n_joints: int) -> int:
         """g of each cable [m]."""

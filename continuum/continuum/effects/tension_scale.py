@@ -52,13 +52,13 @@ class TensionScale(Effect):
     source = (
         "Beckwith, Marangoni and Lienhard, Mechanical Measurements, 2007, ch. 13 (calibration of force transducers)"
     )
-    in_words = "What is recorded as a cable's pull is too much or too little by a constant factor."
+    in_words = "The recorded cable tension is too large or too small by a constant factor."
     symptom = (
-        "Pulled, the arm bends too far or not far enough, in proportion to the pull; let go, it swings as it should."
+        "Under tension the arm bends too far or not far enough, in proportion; released, it swings as in the model."
     )
     experiment = "Hang a known weight from each cable's end and compare what is recorded; weigh the links."
     beware = (
-        "Cable holes nearer to the axis, or farther from it, than in the model look the same, and links of another "
+        "Cable holes nearer to or farther from the axis than in the model look the same, and links of another "
         "length nearly so: measure both."
     )
 

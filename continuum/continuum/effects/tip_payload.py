@@ -35,8 +35,8 @@ class TipPayload(Effect):
         )
     }
     source = "Atkeson, An and Hollerbach, Int. J. Robotics Research 5(3), 1986, 101-119 (loads)"
-    in_words = "The tip carries a weight that the model does not know."
-    symptom = "All joints swing slower and return further towards the plumb line, those near the base most."
+    in_words = "The tip carries a weight that the model lacks."
+    symptom = "All joints swing more slowly and hang nearer to the vertical, most of all those near the base."
     experiment = "Take off what hangs on the tip, weigh it, and weigh the last link without it."
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:

@@ -5,8 +5,8 @@ State x = (theta, theta', b, d) of n joints: angles [rad], rates [rad/s], slow s
     M(theta) theta'' = tau(theta, theta', u; p) + d,    d' = -d / T_d + noise,
     b' = -b / T_b + noise,                              y = h(theta) + b + e
 
-Friction is not integrated: from the smoothed trajectory each joint is known to slip, to stick, or to reverse
+Friction is not integrated: the smoothed trajectory shows whether each joint slips, sticks, or reverses
 (`friction_modes`). The model is linearised along that trajectory (`transition`), its derivatives by all parameters
-(`columns`) pass through one augmented Kalman filter (`augmented_filter`), and what comes out is, for each run, a
-quadratic function of all parameters: the log-likelihood of every hypothesis.
+(`columns`) pass through one augmented Kalman filter (`augmented_filter`), and the result for each run is a quadratic
+function of all parameters: the log-likelihood of every hypothesis.
 """

@@ -23,7 +23,7 @@ from continuum.estimation.transition import Transition
 
 @dataclass(frozen=True)
 class Measurement:
-    """What the sensors make of a trajectory.
+    """Readings of a trajectory.
 
     Attributes:
         expected: readings of the trajectory, (n_times, n_readings).
@@ -39,10 +39,10 @@ class RunLikelihood:
     """Minus twice the log-likelihood of a run: energy - 2 theta' e + theta' L theta + log_det.
 
     Attributes:
-        L: information, (P, P).
-        e: its vector, (P,).
-        energy: of the data alone.
-        log_det: of the innovations' covariances.
+        L: information matrix, (P, P).
+        e: information vector, (P,).
+        energy: sum of squared whitened innovations of the data, z'z.
+        log_det: log determinant of the innovations' covariances.
     """
 
     L: Array
@@ -54,12 +54,12 @@ class RunLikelihood:
 def run_likelihood(
     run: Run, way: Trajectory, step: Transition, seen: Measurement, columns: tuple[Array, Array], noise: NoiseModel
 ) -> RunLikelihood:
-    """The run's likelihood as a function of all columns' coefficients.
+    """Return the run's likelihood as a function of all columns' coefficients.
 
     Args:
-        run, way, step, seen: rows, trajectory, and both linearised along it.
+        run, way, step, seen: rows, trajectory, and motion and readings linearised along it.
         columns: states per unit, (n_times - 1, 2 n, P), and readings per unit, (n_times, n_readings, P).
-        noise: of sensors and torque.
+        noise: noise of sensors and torque.
     """
     of_states, of_readings = columns
     P = of_states.shape[2]
@@ -71,12 +71,12 @@ def run_likelihood(
 def smoothed(
     run: Run, way: Trajectory, step: Transition, seen: Measurement, added: tuple[Array, Array], noise: NoiseModel
 ) -> tuple[Array, Array, Array]:
-    """Smoothed deviations, (n_times, 4 n), their variances, and whitened innovations, (n_times, n_readings).
+    """Return smoothed deviations, (n_times, 4 n), their variances, and whitened innovations, (n_times, n_readings).
 
     Args:
         run, way, step, seen: as for `run_likelihood`.
         added: sum of the columns at given coefficients: (n_times - 1, 2 n) and (n_times, n_readings).
-        noise: of sensors and torque.
+        noise: noise of sensors and torque.
     """
     torque, reading = (np.ascontiguousarray(part) for part in added)
     found: tuple[Array, Array, Array] = _smooth(*_given(run, way, step, seen, noise), torque, reading)
@@ -95,7 +95,7 @@ def _given(run: Run, way: Trajectory, step: Transition, seen: Measurement, noise
 
 @compiled
 def _update(P, H, white, live, L, G):  # type: ignore[no-untyped-def]
-    """Innovation's Cholesky factor L and gain times it, G = P H' L^-T, for readings H x + b on the angles."""
+    """Compute the innovation's Cholesky factor L and the gain times it, G = P H' L^-T; angle readings include b."""
     n, size = H.shape[1] // 2, H.shape[0]
     PH = np.ascontiguousarray(P[:, : 2 * n]) @ H.T
     for j in range(min(size, n)):
@@ -156,7 +156,7 @@ def _transition(F, D, keep_b, keep_d):  # type: ignore[no-untyped-def]
 
 @compiled
 def _defect(k, q, w, d, end, D):  # type: ignore[no-untyped-def]
-    """Where the model's interval ends, seen from the trajectory's next row, for d = 0, (2 n,)."""
+    """Return the end of the model's interval minus the trajectory's next row, for d = 0, (2 n,)."""
     n = q.shape[1]
     out = end[k].copy()
     for i in range(2 * n):
@@ -191,7 +191,7 @@ def _filter(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d,
             log_det += 2 * np.log(L[i, i])
         whitened[k * size : (k + 1) * size] = Z
         cov = cov - G @ G.T
-        Z[:, :P] = -Z[:, :P]  # a column adds to what is read, so its state answers by minus the gain
+        Z[:, :P] = -Z[:, :P]  # a column adds to the readings, so the gain acts on its state with a minus sign
         V = V + G @ Z
         if k == rows - 1:
             break
@@ -209,7 +209,7 @@ def _filter(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d,
 
 @entry_point
 def _smooth(y, live, q, w, d, end, F, D, noise, H, white, start, keep_b, keep_d, Bt, Ct):  # type: ignore[no-untyped-def]
-    """Filter, then the smoother of Bryson and Frazier, which inverts no covariance of states."""
+    """Filter, then smooth by Bryson and Frazier's method, which inverts no covariance of states."""
     rows, size = y.shape
     n, n4 = q.shape[1], 4 * q.shape[1]
     cov, m = np.diag(start * start), np.zeros(n4)

@@ -1,7 +1,7 @@
 """Columns: torque, or change of a reading, per unit of each coefficient that a hypothesis may use.
 
-All torques come from Eq. 12 with the library's effects along the smoothed motion: derivatives where an effect is linear
-in its size, and the effect's whole torque at a given size where it has states or is not.
+All torques come from Eq. 12 with the library's effects along the smoothed motion: derivatives if an effect is linear in
+its size, and the effect's whole torque at a given size if it has states or is nonlinear.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ from continuum.estimation.motion_equations import evaluate, packed, torques
 from continuum.estimation.run import Run, Trajectory
 from continuum.estimation.structure import Point, Structure
 
-_DIFFERENCE = 1e-5  # of a sensor's parameter: readings are linear in most of them
+_DIFFERENCE = 1e-5  # step of a sensor's parameter: readings are linear in most of them
 
 
 @dataclass(frozen=True)
 class Scene:
-    """What columns are evaluated along: one run, its trajectory, and the point of linearisation.
+    """Where columns are evaluated: one run, its trajectory, and the point of linearisation.
 
     Attributes:
-        structure: of the model.
-        point: of linearisation.
-        number: of the run.
+        structure: structure of the model.
+        point: point of linearisation.
+        number: number of the run.
         run, way, along: rows, trajectory at the rows, and motion between them.
-        sign: of the slip in each interval, (n_times - 1, n).
-        cache: of torques that several columns need.
+        sign: sign of the slip in each interval, (n_times - 1, n).
+        cache: torques that several columns need.
     """
 
     structure: Structure
@@ -45,11 +45,11 @@ class Scene:
     cache: dict[object, Array] = field(default_factory=dict)
 
     def values(self) -> Array:
-        """Values of the compiled model in this run, (n_p,)."""
+        """Return the values of the compiled model in this run, (n_p,)."""
         return self.point.values_in(self.structure, self.number)
 
     def by_parameters(self, changed: Mapping[str, Array] | None = None) -> Array:
-        """Torque at the joints per unit of every parameter, (rows, n_p, n), some values changed beforehand."""
+        """Return the joint torques per unit of every parameter, (rows, n_p, n), after changing some values."""
         key = ("by_parameters", *((name, value.tobytes()) for name, value in (changed or {}).items()))
         if key not in self.cache:
             values, s = self.values(), self.structure
@@ -61,13 +61,13 @@ class Scene:
         return self.cache[key]
 
     def nominal(self) -> Array:
-        """What Eq. 12 misses at the point's values, (rows, n) [N m]."""
+        """Return the torque missing in Eq. 12 at the point's values, (rows, n) [N m]."""
         if "nominal" not in self.cache:
             self.cache["nominal"] = self.torque(self.values())
         return self.cache["nominal"]
 
     def torque(self, values: Array, u: Array | None = None) -> Array:
-        """What Eq. 12 misses at other values, or under other inputs, (rows, n) [N m]."""
+        """Return the torque missing in Eq. 12 at other values, or under other inputs, (rows, n) [N m]."""
         rows = packed(self.along.motion, self.along.u if u is None else u, self.along.slip, values)
         return torques(self.structure.equations, rows, self.structure.n)
 
@@ -80,10 +80,10 @@ class Column(Protocol):
         """Number of columns."""
 
     def torque(self, scene: Scene) -> Array | None:
-        """(rows, n, width) [N m per unit], None where it only changes readings."""
+        """Return the torque, (rows, n, width) [N m per unit]; None if it changes only readings."""
 
     def reading(self, scene: Scene) -> Array | None:
-        """(n_times, n_readings, width), None where it only changes torque."""
+        """Return the change of readings, (n_times, n_readings, width); None if it changes only torque."""
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,8 @@ class Sensitivity:
     """Derivative of Eq. 12 along directions in its parameters.
 
     Attributes:
-        directions: (n_p, width).
-        changed: parameter values at which it is taken, where they are not those of the point.
+        directions: directions in the parameters, (n_p, width).
+        changed: parameter values at which it is taken, if other than those of the point.
     """
 
     directions: Array
@@ -113,10 +113,10 @@ class Sensitivity:
 
 @dataclass(frozen=True)
 class Change:
-    """Torque at other values of some parameters less that at the point's, one column.
+    """Torque at other values of some parameters minus that at the point's, one column.
 
     Attributes:
-        factors: by which values are multiplied, by parameter.
+        factors: factors of the values, by parameter.
     """
 
     factors: Mapping[str, float]
@@ -134,12 +134,12 @@ class Change:
 
 @dataclass(frozen=True)
 class StatefulTorque:
-    """Whole torque of an effect with states at given values; split by joints where it acts at each joint by itself.
+    """Whole torque of an effect with states at given values, split by joint if it acts at each joint separately.
 
     Attributes:
-        effect: by name.
+        effect: name of the effect.
         params: its values, (n,) or (1,) each.
-        joints: whose rows make a column each; all rows one column without.
+        joints: joints with a separate column each; if empty, one column for all joints.
     """
 
     effect: str
@@ -164,7 +164,7 @@ class StatefulTorque:
 
 
 def stateful_torque(scene: Scene, effect: str, params: Mapping[str, Array]) -> Array:
-    """What an effect with states adds along the scene's motion, (rows, n) [N m]."""
+    """Return the torque that an effect with states adds along the scene's motion, (rows, n) [N m]."""
     key = (effect, *((name, value.tobytes()) for name, value in params.items()))
     if key not in scene.cache:
         scene.cache[key] = scene.structure.stateful[effect].torque(scene.along, scene.values(), params, scene.nominal())
@@ -173,7 +173,7 @@ def stateful_torque(scene: Scene, effect: str, params: Mapping[str, Array]) -> A
 
 @dataclass(frozen=True)
 class Difference:
-    """Half the difference of two columns: a Gauss-Newton column of what a parameter changes."""
+    """Half the difference of two columns: the Gauss-Newton column of a parameter."""
 
     above: Column
     below: Column
@@ -192,7 +192,7 @@ class Difference:
 
 @dataclass(frozen=True)
 class LateInputs:
-    """Torque of inputs that come later by a time, less that of inputs in time, one column."""
+    """Torque of inputs delayed by a time [s] minus that of inputs in time, one column."""
 
     delay: float
     width: int = 1
@@ -205,7 +205,7 @@ class LateInputs:
 
 
 def late_torque(scene: Scene, delay: float) -> Array:
-    """The same, (rows, n) [N m]."""
+    """Return the torque of inputs delayed by ``delay`` [s] minus that of inputs in time, (rows, n) [N m]."""
     key = ("late", delay)
     if key not in scene.cache:
         late = scene.run.inputs_later(delay)
@@ -241,7 +241,7 @@ class SensorSensitivity:
 
 
 def assembled(columns: Sequence[Column], scene: Scene) -> tuple[Array, Array]:
-    """All columns side by side: torque in the substeps, (rows, n, P), and readings, (n_times, n_readings, P)."""
+    """Return all columns: torque in the substeps, (rows, n, P), and readings, (n_times, n_readings, P)."""
     P = sum(column.width for column in columns)
     torque = np.zeros((len(scene.along.length), scene.structure.n, P))
     reading = np.zeros((*scene.run.readings.shape, P))
@@ -258,7 +258,7 @@ def assembled(columns: Sequence[Column], scene: Scene) -> tuple[Array, Array]:
 
 @entry_point
 def to_states(W: Array, torque: Array, first: Array) -> Array:
-    """From torque in the substeps to the state at the interval's end, (n_times - 1, 2 n, P)."""
+    """Convert torque in the substeps to the state at the interval's end, (n_times - 1, 2 n, P)."""
     out = np.zeros((first.size - 1, W.shape[1], torque.shape[2]))
     for k in range(first.size - 1):
         for r in range(first[k], first[k + 1]):

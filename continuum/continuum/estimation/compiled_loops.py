@@ -1,4 +1,4 @@
-"""How the loops of the estimation are compiled, with a cache that follows the sources that they may come from."""
+"""Decorators that compile the loops of the estimation, with a cache that depends on their possible sources."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from continuum.dynamics import integration
 __all__ = ["compiled", "entry_point"]
 
 compiled: Callable[[Callable[..., Any]], Callable[..., Any]] = numba.njit
-"""Compiles a function that is called from compiled code alone."""
+"""Compiles a function that is called only from compiled code."""
 
 entry_point = compiled_code.entry_point(Path(__file__).parent, Path(integration.__path__[0]), error_model="python")
-"""Decorates the function that Python calls."""
+"""Compiles a function that is called from Python."""

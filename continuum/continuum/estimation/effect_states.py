@@ -1,6 +1,6 @@
-"""Effects with states of their own along a given motion: the torque that they add, by implicit Euler steps.
+"""Effects with states along a given motion: the torque that they add, by implicit Euler steps.
 
-The states obey the effect's own `state_balance`; the motion is given, so only they are solved for. A step that does not
+The states obey the effect's `state_balance`; the motion is given, so only they are solved for. A step that does not
 converge is halved.
 """
 
@@ -15,15 +15,15 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.compiled.machine_code import address_of
 from continuum.dynamics.effect import Effect
-from continuum.dynamics.integration.call_at import call_at
+from continuum.dynamics.integration.compiled_loops import call_at
 from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.values import with_vector
 from continuum.estimation.compiled_loops import compiled, entry_point
 from continuum.estimation.motion_equations import MotionEquations, packed, torques
 
 _ITERATIONS = 25  # of Newton's method in a step
-_STEP = 2.1e-3  # s, longest: implicit Euler damps swings of 100 rad/s by a fifth in it
-_PARTS = 256  # at most, into which a step is cut
+_STEP = 2.1e-3  # s, longest step: in it, implicit Euler damps swings of 100 rad/s by a fifth
+_PARTS = 256  # most parts into which a step is divided
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ class SubstepMotion:
     """A run's motion between its samples, one row for each substep.
 
     Attributes:
-        motion: angles, rates and accelerations amid each substep, (rows, 3, n) [rad, rad/s, rad/s2].
-        slip: rates that dry friction sees, (rows, n) [rad/s].
-        u: inputs amid each substep, (rows, n_inputs).
-        length: of each substep, (rows,) [s].
+        motion: angles, rates and accelerations in the middle of each substep, (rows, 3, n) [rad, rad/s, rad/s2].
+        slip: rates that dry friction depends on, (rows, n) [rad/s].
+        u: inputs in each substep, (rows, n_inputs).
+        length: length of each substep, (rows,) [s].
     """
 
     motion: Array
@@ -47,8 +47,8 @@ class EffectAlongMotion:
     """An effect with states, added to a model without states.
 
     Args:
-        model: what the effect is added to.
-        effect: with states.
+        model: model without states to which the effect is added.
+        effect: effect with states.
     """
 
     def __init__(self, model: Model, effect: Effect) -> None:
@@ -65,13 +65,13 @@ class EffectAlongMotion:
         _ = self._with.state_step, self._with.torque
 
     def torque(self, along: SubstepMotion, p: Array, params: Mapping[str, Array], without: Array) -> Array:
-        """What the effect adds to the joints' torques, (rows, n) [N m].
+        """Return what the effect adds to the joints' torques, (rows, n) [N m].
 
         Args:
             along: the motion.
             p: values of the model's parameters without the effect, (n_p,).
             params: the effect's values, (n,) or (1,) each.
-            without: what Eq. 12 misses without the effect, (rows, n) [N m].
+            without: torque missing in Eq. 12 without the effect, (rows, n) [N m].
         """
         n, parameters = self._base.n_joints, with_vector(self._base, p).changed_parameters
         quasi_static = self.effect.torque_along(along.motion, along.slip, along.length, params, parameters)
@@ -88,7 +88,7 @@ class EffectAlongMotion:
 
 @entry_point
 def _states(address: int, rows: Array, length: Array, z0: Array, n: int) -> tuple[Array, Array]:
-    """States and their rates at every row, (rows, n_states) each; row 0 is reached from ``z0``."""
+    """Return the states and their rates at every row, (rows, n_states) each; row 0 is reached from ``z0``."""
     size = z0.size
     at, at_rate = 2 * n, 3 * n + size
     z_out, rate_out = np.zeros((len(rows), size)), np.zeros((len(rows), size))
@@ -117,7 +117,7 @@ def _states(address: int, rows: Array, length: Array, z0: Array, n: int) -> tupl
 
 @compiled
 def _newton(address: int, given: Array, z: Array, at: int, at_rate: int, step: float) -> bool:
-    """One implicit Euler step of the states ``z``, changed in place where it converges."""
+    """Take one implicit Euler step of the states ``z``, in place if it converges; return whether it does."""
     size = z.size
     before, now, out = z.copy(), z.copy(), np.empty(2 * size)
     given[-1] = 1.0 / step

@@ -1,9 +1,9 @@
-"""What each joint's friction does in each interval, read off the smoothed trajectory: it slips, sticks, or reverses.
+"""Mode of each joint's friction in each interval, from the smoothed trajectory: it slips, sticks, or reverses.
 
-A slipping joint's dry friction has a known sign. One that sticks or reverses has whatever friction it takes: its
-acceleration is given, none or that of its rates, with small or large process noise; its friction is not asked. So no
-step of a sign is integrated, and stiction needs no torque to be explained. Modes stay as they are while hypotheses are
-compared: they are part of the likelihood.
+The dry friction of a slipping joint has a known sign. That of a joint that sticks or reverses is whatever the motion
+requires: its acceleration is given, zero or that of its rates, with small or large process noise. So no jump of a sign
+is integrated, and stiction needs no torque as an explanation. Modes stay fixed while hypotheses are compared: they are
+part of the likelihood.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from continuum.arrays import Array
 from continuum.estimation.run import Run, Trajectory
 
 SLIPPING = 0.3
-"""Rate [rad/s] above which the direction of motion is known: Stribeck's rate of greased joints, below which friction is
-least alike; more where smoothed rates err by much."""
-_SURE = 3.0  # standard deviations of a smoothed rate from which its direction is known
+"""Rate [rad/s] above which the direction of motion is known: Stribeck's rate of greased joints, below which friction
+varies most; higher if smoothed rates are uncertain."""
+_SURE = 3.0  # standard deviations of a smoothed rate above which its direction is known
 _STUCK, _REVERSING = 0.05, 3.0  # rad/s by which a rate may change within a sample of 1/120 s, one standard deviation
 _SAMPLE = 1 / 120  # s
 _WHITE = 2e-4  # N m sqrt(s): white torque of a slipping joint, 2 mN m over a sample
-_SLOW = 0.4  # rad/s: below, friction is uncertain by part of the Stribeck torque
-_MOVED = 0.5  # part of SLIPPING by which the readings have to move too: smoothing rings where a joint stops
+_SLOW = 0.4  # rad/s: below, friction is uncertain by a part of the Stribeck torque
+_MOVED = 0.5  # fraction of SLIPPING that the readings must reach too: smoothing rings where a joint stops
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ class FrictionModes:
     """Modes of every interval, (n_times - 1, n) each.
 
     Attributes:
-        sign: of the slip, 0 where it is not known.
-        rate_noise: standard deviation of the change of a given rate over the interval; 0 where it slips [rad/s].
+        sign: sign of the slip, 0 if unknown.
+        rate_noise: standard deviation of the change of a given rate over the interval; 0 if the joint slips [rad/s].
         torque_noise: intensity of white torque of a slipping joint [N m sqrt(s)].
-        acceleration: that a joint has whose friction is not known, by the rates of the trajectory [rad/s2].
+        acceleration: acceleration of a joint with unknown friction, from the rates of the trajectory [rad/s2].
     """
 
     sign: Array
@@ -44,12 +44,12 @@ class FrictionModes:
 
 
 def friction_modes(run: Run, way: Trajectory, stribeck_torque: Array, rate_sd: Array | None = None) -> FrictionModes:
-    """Modes along a trajectory.
+    """Return the modes along a trajectory.
 
     Args:
-        run: its readings.
-        way: the smoothed trajectory.
-        stribeck_torque: by which friction at rest exceeds that of fast motion, (n,) [N m].
+        run: run with the readings.
+        way: smoothed trajectory.
+        stribeck_torque: excess of friction at rest over that of fast motion, (n,) [N m].
         rate_sd: standard deviation of the smoothed rates, (n_times, n) [rad/s].
     """
     w, h = way.w, run.intervals[:, None]
@@ -70,7 +70,7 @@ def friction_modes(run: Run, way: Trajectory, stribeck_torque: Array, rate_sd: A
 
 
 def _without_creep(moving: Array) -> Array:
-    """A joint that is slow for one row within a motion of one sign keeps that sign."""
+    """Return signs of motion in which a joint that is slow for a single row keeps its sign."""
     last, following = moving.copy(), moving.copy()
     last[1:] = np.where(moving[1:] != 0, moving[1:], moving[:-1])
     following[:-1] = np.where(moving[:-1] != 0, moving[:-1], moving[1:])
@@ -78,7 +78,7 @@ def _without_creep(moving: Array) -> Array:
 
 
 def _measured_rate(run: Run) -> Array:
-    """Rate of each interval by the readings alone, (n_times - 1, n) [rad/s]; 0 where a row was not measured."""
+    """Return the rate in each interval from readings alone, (n_times - 1, n) [rad/s]; 0 where a row is missing."""
     n = run.n
     if run.has_rates:
         rates, live = run.readings[:, n:], run.live[:, n:]
@@ -90,7 +90,7 @@ def _measured_rate(run: Run) -> Array:
 
 
 def _slowest_nearby(speed: Array) -> Array:
-    """Least speed at the interval's ends and one row beyond them, (n_times - 1, n)."""
+    """Return the least speed at the interval's ends and one row beyond them, (n_times - 1, n)."""
     least = np.minimum(speed[:-1], speed[1:])
     least[1:] = np.minimum(least[1:], speed[:-2])
     least[:-1] = np.minimum(least[:-1], speed[2:])
@@ -98,7 +98,7 @@ def _slowest_nearby(speed: Array) -> Array:
 
 
 def slip_rates(run: Run, way: Trajectory, modes: FrictionModes) -> Array:
-    """Rates that dry friction sees amid the substeps, (rows, n) [rad/s]: of the known sign where a joint slips."""
+    """Return the rates for dry friction in the substeps, (rows, n) [rad/s]; a slipping joint's has the known sign."""
     _, w = run.between(way)
     sign = np.repeat(modes.sign, np.diff(run.first), axis=0)
     return np.where(sign != 0, sign * np.maximum(sign * w, SLIPPING / 4), w)

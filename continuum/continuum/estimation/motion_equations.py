@@ -1,7 +1,7 @@
 """Eq. 12 and its derivatives along a given motion, compiled from the same effects that the simulator integrates.
 
-Dry friction sees a rate of its own, the slip rate: it has the value of the joint's rate and no derivative by it, since
-along a given motion friction's sign is known. So nothing stiff is differentiated.
+Dry friction depends on a separate rate, the slip rate: it has the value of the joint's rate but no derivative by it,
+since friction's sign is known along a given motion. So nothing stiff is differentiated.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from continuum.dynamics.balance import balance
 from continuum.dynamics.compiled.machine_code import address_of, found_or_compiled
 from continuum.dynamics.compiled.structure_key import structure_key
 from continuum.dynamics.compiled.symbolic_balance import SymbolicBalance, TracedMotion, column, symbols
-from continuum.dynamics.integration.call_at import call_at
+from continuum.dynamics.integration.compiled_loops import call_at
 from continuum.dynamics.model import Model
 from continuum.dynamics.values import parameter_vector
 from continuum.estimation.compiled_loops import entry_point
@@ -33,7 +33,7 @@ class _SlidingMotion(TracedMotion):
 
     @property
     def slip_rate(self) -> Any:
-        """The joints' rates by a name of their own, whatever an effect added to them."""
+        """The joints' rates as separate symbols, with what effects add to them."""
         given, named = column(self.joint_rates), column(self.slip)
         return np.array([casadi.substitute(casadi.SX(rate), given, named) for rate in self.theta_rate], dtype=object)
 
@@ -82,10 +82,10 @@ class MotionEquations:
     """Compiled functions of one packed vector (x, v, u, slip, p), for a model's structure; p are arguments.
 
     x: angles, rates, effects' states, (2 n + n_states,); v: accelerations and rates of the states, (n + n_states,);
-    u: inputs, (n_inputs,); slip: rates that friction sees, (n,); p: parameter values, (n_p,).
+    u: inputs, (n_inputs,); slip: rates for dry friction, (n,); p: parameter values, (n_p,).
 
     Args:
-        model: its effects and its number of joints are compiled in.
+        model: model whose effects and number of joints are compiled in.
 
     Attributes:
         n_states, n_inputs, n_p: numbers of effects' states, of inputs, and of parameter values.
@@ -103,7 +103,7 @@ class MotionEquations:
 
     @cached_property
     def linear(self) -> Any:
-        """r, dr/dv, dr/dx; of a model whose effects have no states."""
+        """r, dr/dv, dr/dx, for a model whose effects have no states."""
         return self._machine_code(_TracedEquations.linear)
 
     @cached_property
@@ -118,10 +118,10 @@ class MotionEquations:
 
     @cached_property
     def state_step(self) -> Any:
-        """r_s and Newton's step of the states z alone, of an implicit Euler step: z' = (z - z_before) / step.
+        """r_s and Newton's step of the states z alone in an implicit Euler step: z' = (z - z_before) / step.
 
-        Of the packed vector and 1 / step [1/s]. The linear system is solved while the code is made, so that its
-        sparsity, most often one small block for each joint, costs nothing at run time.
+        Its argument is the packed vector and 1 / step [1/s]. The linear system is solved while the code is made, so
+        that its sparsity, usually one small block for each joint, costs nothing at run time.
         """
         return self._machine_code(_TracedEquations.state_step)
 
@@ -136,12 +136,12 @@ class MotionEquations:
 def packed(
     motion: Array, u: Array, slip: Array, p: Array, z: Array | None = None, z_rate: Array | None = None
 ) -> Array:
-    """Rows for the compiled functions, (rows, size).
+    """Return rows for the compiled functions, (rows, size).
 
     Args:
         motion: angles, rates, accelerations, (rows, 3, n) [rad, rad/s, rad/s2].
         u: inputs, (rows, n_inputs).
-        slip: rates that friction sees, (rows, n) [rad/s].
+        slip: rates for dry friction, (rows, n) [rad/s].
         p: parameter values, (n_p,).
         z, z_rate: states of effects and their rates, (rows, n_states).
     """
@@ -153,7 +153,7 @@ def packed(
 
 
 def evaluate(function: Any, given: Array, size: int) -> Array:
-    """A compiled function of every row of ``given``, (rows, size)."""
+    """Evaluate a compiled function of every row of ``given``, (rows, size)."""
     out = np.empty((len(given), size))
     _evaluate(address_of(function), given, out)
     return out
@@ -166,10 +166,10 @@ def _evaluate(address: int, given: Array, out: Array) -> None:
 
 
 def torques(equations: MotionEquations, rows: Array, n: int) -> Array:
-    """What Eq. 12 misses, -r at the joints, (rows, n) [N m]."""
+    """Return the torque missing in Eq. 12, -r at the joints, (rows, n) [N m]."""
     return -evaluate(equations.torque, rows, n + equations.n_states)[:, :n]
 
 
 def values_of(model: Model) -> Array:
-    """The model's parameter values in the order of the packed vector, (n_p,)."""
+    """Return the model's parameter values in the order of the packed vector, (n_p,)."""
     return parameter_vector(model)

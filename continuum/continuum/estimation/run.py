@@ -1,4 +1,4 @@
-"""One recording as the filter sees it: rows of readings, inputs between them, and the trajectory known so far."""
+"""One recording as the filter uses it: rows of readings, inputs between them, and the trajectory known so far."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from continuum.arrays import Array
 from continuum.estimation.effect_states import SubstepMotion
 
-_SUBSTEP = 4.2e-3  # s, longest: in it the links' accelerations change little, whatever the sampling
+_SUBSTEP = 4.2e-3  # s, longest substep: accelerations of the links change little in it, whatever the sampling
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Trajectory:
     d: Array
 
     def moved(self, by: Array) -> Trajectory:
-        """The trajectory after a filter's smoothed deviations of q and w and its values of b and d, (n_times, 4 n)."""
+        """Return the trajectory plus smoothed deviations of q and w, with new values of b and d, (n_times, 4 n)."""
         n = self.q.shape[1]
         return Trajectory(self.q + by[:, :n], self.w + by[:, n : 2 * n], by[:, 2 * n : 3 * n], by[:, 3 * n :])
 
@@ -40,13 +40,13 @@ class Run:
     """A recording's rows.
 
     Attributes:
-        name: of the recording.
-        times: of the rows, (n_times,) [s].
-        readings: angles, then rates where they are used, (n_times, n or 2 n) [rad, rad/s].
-        live: which of them were measured, of the same shape.
+        name: name of the recording.
+        times: times of the rows, (n_times,) [s].
+        readings: angles, then rates if used, (n_times, n or 2 n) [rad, rad/s].
+        live: which of them were measured, in the same shape.
         n: number of joints.
         signal: times (breaks,) [s] and values (breaks, n_inputs) [N or N m] of the inputs.
-        held: whether a value holds until the next one; else inputs are linear between them.
+        held: whether a value holds until the next one; otherwise inputs are linear between values.
     """
 
     name: str
@@ -69,7 +69,7 @@ class Run:
 
     @cached_property
     def first(self) -> NDArray[np.int64]:
-        """First substep of each interval, and their number, (n_times,)."""
+        """First substep of each interval, and the number of substeps, (n_times,)."""
         return substeps(self.times)
 
     @cached_property
@@ -79,7 +79,7 @@ class Run:
         return np.repeat(self.intervals / counts, counts)
 
     def first_guess(self) -> Trajectory:
-        """Angles and rates by local parabolas over five rows; rates as measured where they are."""
+        """Estimate angles and rates by local parabolas over five rows; take rates as measured if they are."""
         n, half = len(self.times), 2
         q, w = np.empty((n, self.n)), np.empty((n, self.n))
         for k in range(n):
@@ -92,7 +92,10 @@ class Run:
         return Trajectory(q, w, np.zeros_like(q), np.zeros_like(q))
 
     def between(self, way: Trajectory) -> tuple[Array, Array]:
-        """Angles and rates amid the substeps by cubic Hermite interpolation, (rows, n) each [rad, rad/s]."""
+        """Interpolate angles by cubic Hermite polynomials and rates linearly, (rows, n) each [rad, rad/s].
+
+        The rows are the middles of the substeps.
+        """
         counts = np.diff(self.first)
         k = np.repeat(np.arange(len(counts)), counts)
         share = (np.arange(self.first[-1]) - self.first[k] + 0.5) / counts[k]
@@ -104,11 +107,11 @@ class Run:
 
     @cached_property
     def inputs(self) -> Array:
-        """Inputs amid each substep, (rows, n_inputs) [N or N m]."""
+        """Inputs in each substep, (rows, n_inputs) [N or N m]."""
         return self.inputs_later(0.0)
 
     def inputs_later(self, delay: float) -> Array:
-        """The same with all inputs later by ``delay`` [s], (rows, n_inputs): means over each substep."""
+        """Return the mean inputs in each substep with a ``delay`` [s], (rows, n_inputs) [N or N m]."""
         times, values = self.signal
         middle = substep_times(self.times) - delay
         if len(times) == 1:
@@ -116,7 +119,7 @@ class Run:
         return np.stack([self._mean(times, column, middle) for column in values.T], axis=1)
 
     def _mean(self, times: Array, values: Array, middle: Array) -> Array:
-        """Mean of one input over each substep, exact for held and linear inputs, (rows,)."""
+        """Return the mean of one input over each substep, exact for held and linear inputs, (rows,)."""
         steps = np.diff(times) * (values[:-1] if self.held else (values[:-1] + values[1:]) / 2)
         total = np.concatenate([[0.0], np.cumsum(steps)])
         low, high = (self._integral(times, values, total, middle + sign * self.length / 2) for sign in (-1, 1))
@@ -136,18 +139,18 @@ class Run:
         return np.asarray(np.where(t < times[0], before, np.where(t > times[-1], after, inside)))
 
     def with_held(self, held: bool) -> Run:
-        """The run with its inputs held, or linear between their values."""
+        """Return the run with its inputs held, or linear between their values."""
         return replace(self, held=held)
 
 
 def substeps(times: Array) -> NDArray[np.int64]:
-    """First substep of each interval, and their number, (n_times,)."""
+    """Return the first substep of each interval, and the number of substeps, (n_times,)."""
     counts = np.maximum(np.ceil(np.diff(times) / _SUBSTEP - 1e-6), 1).astype(np.int64)
     return np.concatenate([[0], np.cumsum(counts)])
 
 
 def substep_times(times: Array) -> Array:
-    """Middle of each substep, (rows,) [s]."""
+    """Return the middle of each substep, (rows,) [s]."""
     counts = np.diff(substeps(times))
     k = np.repeat(np.arange(len(counts)), counts)
     within = np.arange(len(k)) - substeps(times)[k]
@@ -155,6 +158,6 @@ def substep_times(times: Array) -> Array:
 
 
 def substep_motion(run: Run, way: Trajectory, slip: Array, acceleration: Array) -> SubstepMotion:
-    """What effects and derivatives are evaluated along."""
+    """Return the motion along which effects and derivatives are evaluated."""
     q, w = run.between(way)
     return SubstepMotion(np.stack([q, w, acceleration], axis=1), slip, run.inputs, run.length)

@@ -1,4 +1,4 @@
-"""How the sensors err, by white noise and an error that stays alike for a while; and how torque may be missing."""
+"""Noise model: white noise and slow errors of the sensors, and missing torque."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from continuum.estimation.run import Run
 from continuum.recordings.recording import Recording
 
 SLOW = np.deg2rad(0.2)
-"""Slow error of an angle from inertial sensors, standard deviation [rad]."""
+"""Standard deviation of the slow error of an angle from inertial sensors [rad]."""
 
-_QUIET = 0.06  # rad/s: what moves less rests, and its third differences are noise
-_ENOUGH = 50  # rows at rest that tell the noise
-_ENOUGH_PAIRS = 200  # rows that tell how neighbours' noise is correlated
-_LEAST_CORRELATION = -0.2  # nearer to zero it is taken for none; two joints that share a sensor have -0.5
-_GAUSS = 1.4826  # standard deviation by median absolute deviation
-_FLOOR = (3e-4, 1e-3)  # rad, rad/s: no joint's angle or rate is measured better, by encoders, sensors or off a picture
+_QUIET = 0.06  # rad/s: a joint below this rate rests, and its third differences are noise
+_ENOUGH = 50  # rows at rest to estimate the noise
+_ENOUGH_PAIRS = 200  # rows to estimate the correlation of neighbours' noise
+_LEAST_CORRELATION = -0.2  # closer to zero it counts as none; two joints that share a sensor have -0.5
+_GAUSS = 1.4826  # standard deviation over median absolute deviation
+_FLOOR = (3e-4, 1e-3)  # rad, rad/s: no encoder, sensor or picture measures a joint's angle or rate better
 
 
 @dataclass(frozen=True)
@@ -45,12 +45,12 @@ class NoiseModel:
     start_rate: float = 5.0
 
     def at(self, sigma: Array) -> NoiseModel:
-        """The same with another missing torque, (n,) [N m]."""
+        """Return the same with another missing torque, (n,) [N m]."""
         return replace(self, sigma=sigma)
 
 
 def recording_noise(recording: Recording) -> Array:
-    """Covariance of a row of one recording, its angles and, where they were measured, its rates.
+    """Estimate the covariance of a row of one recording: of its angles and, if measured, its rates.
 
     Returns:
         (n, n) or (2 n, 2 n) [rad^2, (rad/s)^2].
@@ -63,10 +63,10 @@ def recording_noise(recording: Recording) -> Array:
 
 
 def white_noise(runs: Sequence[Run]) -> Array:
-    """Covariance of a row by third differences where joints rest, (n_readings, n_readings).
+    """Estimate the covariance of a row from third differences of joints at rest, (n_readings, n_readings).
 
-    Where none rests long enough, the quietest quarter of all differences counts. Joints that are differences of the
-    same links' sensors have correlated noise; that is estimated from neighbours.
+    If a joint does not rest long enough, the quietest quarter of all differences counts. Joint angles that are
+    differences of the same links' sensors have correlated noise; the correlation is estimated from neighbours.
     """
     n, size = runs[0].n, runs[0].readings.shape[1]
     covariance = np.zeros((size, size))
@@ -90,10 +90,10 @@ def white_noise(runs: Sequence[Run]) -> Array:
 
 
 def white_noise_error(runs: Sequence[Run]) -> float:
-    """Relative standard deviation of the angles' standard deviation as `white_noise` estimates it.
+    """Return the relative standard deviation of the angles' standard deviation that `white_noise` estimates.
 
-    A median of N absolute normal values has 1.17 / sqrt(N). Third differences a row apart correlate by -0.75, two apart
-    by 0.3: 1.5 times as many tell as much. A median over n joints has 1.25 / sqrt(n) of a joint's.
+    That of a median of N absolute normal values is 1.17 / sqrt(N). Third differences one row apart correlate by -0.75,
+    two apart by 0.3: it takes 1.5 times as many. That of a median over n joints is 1.25 / sqrt(n) of a joint's.
     """
     _, live, rests = _third_differences(runs, [_smooth_rates(run) for run in runs], slice(0, runs[0].n))
     rows = np.where(rests.sum(axis=0) > _ENOUGH, rests.sum(axis=0), live.sum(axis=0))
@@ -104,7 +104,7 @@ def white_noise_error(runs: Sequence[Run]) -> float:
 def _third_differences(
     runs: Sequence[Run], rates: Sequence[Array], part: slice
 ) -> tuple[Array, NDArray[np.bool_], NDArray[np.bool_]]:
-    """Of some readings, scaled to one reading's noise; whether all four rows are there, and whether all rest."""
+    """Return third differences, scaled to one reading's noise, and whether all four rows exist and whether all rest."""
     thirds = np.concatenate([np.diff(run.readings[:, part], 3, axis=0) / np.sqrt(20) for run in runs])
     live = np.concatenate([_all_four(run.live[:, part] > 0) for run in runs])
     rests = live & np.concatenate([_all_four(np.abs(rate) < _QUIET) for rate in rates])
@@ -112,12 +112,12 @@ def _third_differences(
 
 
 def _smooth_rates(run: Run) -> Array:
-    """Means over nine rows of the first guess's rates, (n_times, n) [rad/s]."""
+    """Return means over nine rows of the first guess's rates, (n_times, n) [rad/s]."""
     w = run.first_guess().w
     window = np.ones(min(9, len(w))) / min(9, len(w))
     return np.stack([np.convolve(column, window, "same") for column in w.T], axis=1)
 
 
 def _all_four(rows: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Whether something holds in four rows that follow each other, (n_times - 3, n)."""
+    """Whether something holds in four consecutive rows, (n_times - 3, n)."""
     return np.asarray(rows[:-3] & rows[1:-2] & rows[2:-1] & rows[3:])

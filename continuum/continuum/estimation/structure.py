@@ -1,7 +1,7 @@
-"""What an estimation knows of physics: one compiled model with all effects that have no states, and those that have.
+"""The physics of an estimation: one compiled model with all effects without states, and the effects with states.
 
 Effects without states are all in the compiled model, absent at first, so that one function gives every derivative.
-Effects with states are run along the motion one by one. Those that act on sensors act on readings.
+Effects with states are run along the motion one by one. Effects on sensors change readings.
 """
 
 from __future__ import annotations
@@ -15,9 +15,8 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named, effect_names
-from continuum.dynamics.input_kind import InputKind
-from continuum.dynamics.model import ActiveEffect, Model
-from continuum.dynamics.reading import Reading
+from continuum.dynamics.model import ActiveEffect, InputKind, Model
+from continuum.dynamics.trajectory import Reading
 from continuum.dynamics.values import parameter_slots, parameter_vector
 from continuum.estimation.augmented_filter import Measurement
 from continuum.estimation.effect_states import EffectAlongMotion
@@ -34,7 +33,7 @@ def overrides(effect: Effect, *hooks: str) -> bool:
 
 
 def delay_of(effect: Effect) -> str | None:
-    """Which of an effect's parameters is the delay of all sensors."""
+    """Return the parameter of an effect that is the delay of all sensors; None if it has none."""
     if not overrides(effect, "late"):
         return None
     for chosen in effect.parameters:
@@ -44,7 +43,7 @@ def delay_of(effect: Effect) -> str | None:
 
 
 def absent_values(effect: Effect, n: int) -> dict[str, Array]:
-    """The effect's parameters where it is absent, (n,) or (1,) each."""
+    """Return the parameters of an absent effect, (n,) or (1,) each."""
     return {
         name: np.asarray(spec.array(spec.default, n, name), dtype=float) for name, spec in effect.parameters.items()
     }
@@ -54,10 +53,10 @@ class Structure:
     """The compiled model of one kind of arm and all effects that may be added to it.
 
     Args:
-        model: of the arm; effects that it has already stay as they are.
-        effects: names of those that may be added; all that are installed without.
-        with_tension: whether a cable ever pulls; else effects that need it are left out.
-        partly: effects that may be added though the model has them, at other joints for instance.
+        model: model of the arm; effects that it already has stay as they are.
+        effects: names of the effects that may be added; all installed effects if None.
+        with_tension: whether a cable ever pulls; otherwise effects that need it are left out.
+        partly: effects that may be added although the model has them, for instance at other joints.
 
     Attributes:
         offered, left_out: effects that may be added, and those that only a tension would show.
@@ -112,7 +111,7 @@ class Structure:
         return parameter_vector(self.model)
 
     def measurement(self, run: Run, way: Trajectory, params: Mapping[str, Mapping[str, Array]]) -> Measurement:
-        """Readings of a trajectory, and their derivative by it.
+        """Return the readings of a trajectory, and their derivative by it.
 
         Args:
             run, way: rows and trajectory.
@@ -122,7 +121,7 @@ class Structure:
         return Measurement(expected, np.ascontiguousarray(H if run.has_rates else H[: self.n]))
 
     def reading_jacobian(self, run: Run, params: Mapping[str, Mapping[str, Array]]) -> Array:
-        """Derivatives of angles and rates as they are read by those that are, the same in every row, (2 n, 2 n)."""
+        """Return the derivatives of angles and rates as read by the true ones, the same in every row, (2 n, 2 n)."""
         n, unit = self.n, np.eye(self.n)
         still = np.zeros((n + 1, n))
         at = run.times[: n + 1]
@@ -135,7 +134,7 @@ class Structure:
     def readings(
         self, run: Run, q: Array, w: Array, params: Mapping[str, Mapping[str, Array]], rows: slice = _ALL
     ) -> Array:
-        """What the sensors read of a motion in some rows of a run, (n_times, n_readings)."""
+        """Return the sensors' readings of a motion in some rows of a run, (n_times, n_readings)."""
         both = self._read(run.times[rows], q, w, params, run.times[0])
         return both if run.has_rates else both[:, : self.n]
 
@@ -152,9 +151,9 @@ class Point:
     """Values about which a model is linearised.
 
     Attributes:
-        values: of the compiled model, (n_p,).
-        stateful: of the effects with states that are in the model, by effect and parameter.
-        by_run: of what each recording has for itself, and of the sensors, by effect and parameter.
+        values: values of the compiled model, (n_p,).
+        stateful: values of the effects with states that are in the model, by effect and parameter.
+        by_run: per-run values, and those of the sensors, by effect and parameter.
     """
 
     values: Array
@@ -162,7 +161,7 @@ class Point:
     by_run: tuple[Mapping[str, Mapping[str, Array]], ...]
 
     def values_in(self, structure: Structure, run: int) -> Array:
-        """Values of the compiled model in one recording, (n_p,)."""
+        """Return the values of the compiled model in one recording, (n_p,)."""
         values = self.values.copy()
         for effect, params in self.by_run[run].items():
             for name, value in params.items():

@@ -1,8 +1,8 @@
-"""From one row to the next: Eq. 12 integrated and linearised over each interval, with friction's modes given.
+"""From one row to the next: Eq. 12 integrated and linearised over each interval, with given friction modes.
 
-Exponential Rosenbrock-Euler substeps (Hochbruck and Ostermann, Acta Numerica 19, 2010) are exact for what is linear,
-however stiff. A joint whose friction is not known has the acceleration that its smoothed rates give. Missing torque
-acts through the inertia of the reference model: how large it is must not depend on the parameters that are estimated.
+Exponential Rosenbrock-Euler substeps (Hochbruck and Ostermann, Acta Numerica 19, 2010) are exact for linear equations,
+however stiff. A joint with unknown friction has the acceleration that its smoothed rates give. Missing torque acts
+through the inertia of the reference model: its size must not depend on the parameters that are estimated.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.compiled.machine_code import address_of
-from continuum.dynamics.integration.call_at import call_at
+from continuum.dynamics.integration.compiled_loops import call_at
 from continuum.estimation.compiled_loops import compiled, entry_point
 from continuum.estimation.friction_modes import FrictionModes, slip_rates
 from continuum.estimation.motion_equations import MotionEquations
@@ -25,13 +25,13 @@ class Transition:
     """x_(k+1) = end_k + F_k (x_k - way_k) + D_k (d_k - d of way_k) + sum of W_r tau_r over substeps r + noise.
 
     Attributes:
-        end: where the interval ends by the model, (n_times - 1, 2 n) [rad, rad/s].
+        end: end of the interval by the model, (n_times - 1, 2 n) [rad, rad/s].
         F: derivative by the state, (n_times - 1, 2 n, 2 n).
-        D: by missing torque, (n_times - 1, 2 n, n).
-        W: by torque in each substep, (rows, 2 n, n).
+        D: derivative by missing torque, (n_times - 1, 2 n, n).
+        W: derivative by torque in each substep, (rows, 2 n, n).
         noise: covariance of the process noise, (n_times - 1, 2 n, 2 n).
-        slip: rates that friction sees, (rows, n) [rad/s].
-        acceleration: of the model without missing torque, amid each substep, (rows, n) [rad/s2].
+        slip: rates for dry friction, (rows, n) [rad/s].
+        acceleration: acceleration without missing torque in the middle of each substep, (rows, n) [rad/s2].
     """
 
     end: Array
@@ -55,11 +55,11 @@ def transition(
     """Linearise a run along a trajectory.
 
     Args:
-        equations: of the model without states.
-        run, way, modes: rows, trajectory, friction's modes.
+        equations: equations of the model without states.
+        run, way, modes: rows, trajectory, friction modes.
         values: parameter values, (n_p,).
         reference: values of the reference model, (n_p,).
-        held: torque of effects that is taken as given, (rows, n) [N m].
+        held: given torque of effects, (rows, n) [N m].
     """
     n, m, rows = run.n, len(run.intervals), int(run.first[-1])
     slip = slip_rates(run, way, modes)
@@ -100,7 +100,7 @@ def _linearise(  # type: ignore[no-untyped-def]
         prescribed = acc.copy()
         total, by_torque, by_rate = np.eye(n2), np.zeros((n2, n)), np.zeros((n2, n))
         for r in range(first[k], first[k + 1]):
-            # acceleration amid the substep, for the columns; a joint at rest has none
+            # acceleration in the middle of the substep, for the columns; a joint at rest has none
             for i in range(n):
                 known[i] = prescribed[i]
                 acceleration[r, i] = known[i]
@@ -120,7 +120,7 @@ def _linearise(  # type: ignore[no-untyped-def]
             _solve(M, rhs)
             for i in range(n):
                 acceleration[r, i] += rhs[i, 0]
-            # the substep itself, from where the one before ended
+            # the substep itself, from the end of the one before
             for i in range(n):
                 given[i], given[n + i], given[2 * n + i] = state[i], state[n + i], acc[i]
                 at_reference[i], at_reference[n + i], at_reference[2 * n + i] = state[i], state[n + i], 0.0
@@ -193,7 +193,7 @@ def _linearise(  # type: ignore[no-untyped-def]
 
 @compiled
 def _constrain(M, sign):  # type: ignore[no-untyped-def]
-    """Rows and columns of joints whose acceleration is given become those of the identity."""
+    """Replace rows and columns of joints with given acceleration by those of the identity."""
     for i in range(sign.size):
         if sign[i] == 0.0:
             for j in range(sign.size):
@@ -204,7 +204,7 @@ def _constrain(M, sign):  # type: ignore[no-untyped-def]
 
 @compiled
 def _solve(M, R):  # type: ignore[no-untyped-def]
-    """M X = R in place, M symmetric and positive definite, by its Cholesky factor, which takes M's place."""
+    """Solve M X = R in place, M symmetric and positive definite; its Cholesky factor replaces M."""
     n = M.shape[0]
     for j in range(n):
         s = M[j, j]
@@ -232,7 +232,7 @@ def _solve(M, R):  # type: ignore[no-untyped-def]
 
 @compiled
 def _exponential(A, h, E, S):  # type: ignore[no-untyped-def]
-    """E = exp(h A), S = integral of exp(t A) from 0 to h: Taylor series of a scaled matrix, then doubling."""
+    """Compute E = exp(h A), S = integral of exp(t A) from 0 to h: Taylor series of a scaled matrix, then doubling."""
     n = A.shape[0] // 2
     norm = 0.0
     for i in range(n, 2 * n):

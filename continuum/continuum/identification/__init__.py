@@ -1,7 +1,7 @@
-"""Identification of an arm's springs and friction, and how well an identified model predicts (thesis 3.3 and 4.2).
+"""Identification of an arm's springs and friction, and prediction by the identified model (thesis 3.3 and 4.2).
 
 ====================  ============================================================================
-free.py               which parameters may move, as coordinates about a model's values
+free.py               which parameters may change, as coordinates about a model's values
 swarm.py              the thesis's particle swarm (Table 2), which lowers Eq. 19
 thesis_swarm.py       its five parameters by that swarm
 nrmse.py              Eq. 19
@@ -11,5 +11,7 @@ identified.py         the identified model (Table 3)
 local_derivatives.py  derivatives of measured signals
 ====================  ============================================================================
 
-The fit by maximum likelihood needs the grey-box model and stands above: `continuum.discovery.parameter_fit`.
+The fit by maximum likelihood needs the grey-box model and is in `continuum.discovery.parameter_fit`.
+
+Public: `identified.Identified`, `estimate.Estimate`, `scores.scores`, `nrmse.nrmse`, `thesis_swarm.swarm_parameters`.
 """

@@ -16,13 +16,13 @@ class Estimate:
 
     Attributes:
         name: parameter of Eq. 12, or effect and parameter with a dot between.
-        joint: from 0; None where it belongs to none, or to all alike.
-        recording: which has it for itself; empty where all have the same.
-        value, low, high: in its unit; the ends are NaN where no interval is known.
-        unit: SI.
+        joint: joint from 0; None if it belongs to none, or to all alike.
+        recording: recording of a per-run value; empty if all recordings share the value.
+        value, low, high: value and interval in its unit; the ends are NaN if no interval is known.
+        unit: SI unit.
         meaning: one sentence.
-        start: what the model file has; NaN where it has none.
-        lower, upper: bounds within which it was sought.
+        start: value in the model file; NaN if it has none.
+        lower, upper: bounds of the fit.
     """
 
     name: str
@@ -39,7 +39,7 @@ class Estimate:
 
     @property
     def is_at_bound(self) -> bool:
-        """Whether a bound stopped it, so that it may be wrong."""
+        """Whether it is at a bound, so that it may be wrong."""
         near = 1e-6 * max(abs(self.value), 1e-12)
         return abs(self.value - self.lower) <= near or abs(self.value - self.upper) <= near
 

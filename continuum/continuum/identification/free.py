@@ -1,4 +1,4 @@
-"""Which parameters a fit may move: of all joints or of one, common to all recordings or each one's own."""
+"""Which parameters a fit may change: of all joints or of one, common to all recordings or of a single one."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ THESIS_PARAMETERS = ("stiffness", "viscous_friction", "coulomb_friction", "strib
 
 _BASELINE_SD = 1.0  # prior standard deviation of a parameter of Eq. 12, in units of its nominal value
 _EFFECT_SD = 3.0  # of an effect's parameter, in units of its typical size
-_BATCH_ENDS = 2.5  # standard deviations, beyond which no part of a batch is
+_BATCH_ENDS = 2.5  # standard deviations, beyond which a part is not of the batch
 
 
 @dataclass(frozen=True)
@@ -26,10 +26,10 @@ class Free:
     """One unknown.
 
     Attributes:
-        name: of the parameter, as in `Model.values`.
-        joint: whose value alone moves, from 0; None moves those of all joints by the same amount.
-        recording: whose value alone moves, from 0; None moves that of all recordings.
-        tolerance: prior standard deviation relative to the model's value, where parts are known to be alike; else wide.
+        name: name of the parameter, as in `Model.values`.
+        joint: the only joint whose value changes, from 0; None changes those of all joints by the same amount.
+        recording: the only recording in which the value changes, from 0; None changes it in all.
+        tolerance: prior standard deviation relative to the model's value, if parts are known to be alike; None is wide.
     """
 
     name: str
@@ -46,13 +46,13 @@ class FreeSpace:
     """Unknowns as coordinates around a model's values: values = origin + directions (scale * coordinates).
 
     Args:
-        model: its values are the origin.
-        unknowns: what may move.
+        model: model whose values are the origin.
+        unknowns: what may change.
 
     Attributes:
         origin: all values of the model, (n_p,).
-        directions: change of them by one unit of each coordinate, (n_p, n_free).
-        scale: one unit of each coordinate in the parameter's own unit, (n_free,).
+        directions: their change per unit of each coordinate, (n_p, n_free).
+        scale: one unit of each coordinate in the parameter's unit, (n_free,).
         lower, upper: bounds of the coordinates, (n_free,).
         prior_sd: prior standard deviation of the coordinates around 0, (n_free,).
 
@@ -87,39 +87,39 @@ class FreeSpace:
             if unknown.tolerance is not None:
                 self.scale[i], self.prior_sd[i] = unknown.tolerance * size, 1.0
             self.directions[at, i] = self.scale[i]
-            if self.scale[i] == 0:  # parts that are not there are all alike
+            if self.scale[i] == 0:  # absent parts are all alike
                 continue
             self.lower[i] = (meaning.lower - values.min()) / self.scale[i]
             self.upper[i] = (meaning.upper - values.max()) / self.scale[i]
-            if unknown.tolerance is not None:  # parts that differ by more are not of one batch: a cause of its own
+            if unknown.tolerance is not None:  # parts that differ by more are not of one batch
                 self.lower[i], self.upper[i] = max(self.lower[i], -_BATCH_ENDS), min(self.upper[i], _BATCH_ENDS)
 
     def directions_of(self, recording: int) -> Array:
-        """Directions as one recording sees them, (n_p, n_free): what belongs to another moves nothing."""
+        """Return the directions in one recording, (n_p, n_free): unknowns of another recording change nothing."""
         found = np.zeros_like(self.directions)
         mine = self.affected_by(recording)
         found[:, mine] = self.directions[:, mine]
         return found
 
     def affected_by(self, recording: int) -> NDArray[np.intp]:
-        """Numbers of the unknowns that do not belong to another recording."""
+        """Return the numbers of the unknowns that do not belong to another recording."""
         return np.flatnonzero([unknown.recording in (None, recording) for unknown in self.unknowns])
 
     def common_values(self, coordinates: Array) -> Array:
-        """All values of the model, (n_p,), at coordinates (n_free,); what belongs to single recordings is left out."""
+        """Return all values of the model, (n_p,), at coordinates (n_free,), without unknowns of single recordings."""
         return self.values_of(-1, coordinates)
 
     def values_of(self, recording: int, coordinates: Array) -> Array:
-        """All values of the model in one recording, (n_p,), at coordinates (n_free,).
+        """Return all values of the model in one recording, (n_p,), at coordinates (n_free,).
 
-        Where what all joints share and what one has for itself add up to more than a parameter may be, it is that.
+        Sums of changes at all joints and at one are clipped to the bounds of the parameter.
         """
         return np.asarray(np.clip(self.origin + self.directions_of(recording) @ coordinates, *self._allowed))
 
     def clipped(self, coordinates: Array) -> Array:
-        """Coordinates within the bounds."""
+        """Return coordinates clipped to the bounds."""
         return np.asarray(np.clip(coordinates, self.lower, self.upper))
 
     def amounts(self, coordinates: Array) -> Array:
-        """What was added to each unknown's parameter, in its own unit, (n_free,)."""
+        """Return what was added to each unknown's parameter, in the parameter's unit, (n_free,)."""
         return self.scale * coordinates

@@ -1,4 +1,4 @@
-"""What an identification gives: the model with its values, and their intervals (thesis Table 3)."""
+"""The result of an identification: the model with its values, and their intervals (thesis Table 3)."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ class Identified:
     """An identified model.
 
     Attributes:
-        method: by which it was found.
-        model: with the identified values.
-        values: of the parameters that were sought; the mean over the joints where the joint is None.
-        error: open-loop error of the fitted segments by the sensors' noise; NaN where the method does not know it.
-        limit: up to which that error may be chance; NaN likewise.
+        method: method of identification.
+        model: model with the identified values.
+        values: values of the identified parameters; means over the joints where the joint is None.
+        error: open-loop error of the fitted segments divided by the sensors' noise; NaN if the method has none.
+        limit: value up to which that error may be chance; NaN likewise.
         undetermined: names of parameters about which the recordings say little.
     """
 
@@ -35,14 +35,14 @@ class Identified:
 
 
 def with_identified(model: Model, values: Sequence[Estimate], source: str) -> Model:
-    """The model with identified values.
+    """Return the model with identified values.
 
     A value of all joints is their mean: joints keep the proportions that they have in the model.
 
     Args:
-        model: with nominal values.
-        values: of its parameters.
-        source: where they are from, for the model file.
+        model: model with nominal values.
+        values: values of its parameters.
+        source: origin of the values, for the model file.
     """
     changed: dict[str, Array] = {}
     for one in values:
@@ -59,5 +59,5 @@ def with_identified(model: Model, values: Sequence[Estimate], source: str) -> Mo
 
 
 def _plain(values: Mapping[str, Array]) -> dict[str, Array | float]:
-    """One number where all joints have the same."""
+    """Return one number for a parameter that is the same at all joints."""
     return {name: float(value[0]) if np.ptp(value) == 0 else value for name, value in values.items()}

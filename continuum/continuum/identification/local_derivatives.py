@@ -1,4 +1,4 @@
-"""Slopes of measured signals by polynomials, each fitted to the samples around (Savitzky and Golay 1964)."""
+"""Derivatives of measured signals by local polynomial fits (Savitzky and Golay 1964)."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ _HALF = 3  # samples to each side
 
 
 def local_derivative(times: Array, signals: Array, row: int, degree: int) -> Array:
-    """Slope at one sample, times as they are, however uneven.
+    """Return the derivative at one sample; times may be uneven.
 
     Args:
         times: (n_times,) [s].
         signals: (n_times, n).
-        row: of the sample; near an end the samples are those nearest to it.
-        degree: of the polynomial, less where there are too few samples.
+        row: row of the sample; near an end, the fit takes the samples nearest to it.
+        degree: degree of the polynomial, reduced if there are too few samples.
 
     Returns:
-        (n,), in the signals' unit by second.
+        (n,), in the signals' unit per second.
     """
     first = max(0, min(row - _HALF, times.size - 2 * _HALF - 1))
     rows = slice(first, first + 2 * _HALF + 1)

@@ -1,7 +1,7 @@
 """How well a model predicts runs: Eq. 19 of angles and rates, run by run (thesis Table 4 and Fig. 9).
 
-Every run is simulated open loop from beginning to end. Its initial angles and rates, which no model knows, are those
-from which the simulation comes nearest to the run.
+Every run is simulated open loop from start to end. Its initial angles and rates, which no model contains, are fitted to
+the run.
 """
 
 from __future__ import annotations
@@ -14,9 +14,8 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from continuum.arrays import Array
-from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.measuring import as_read, lateness
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import Model, with_dry_friction
 from continuum.dynamics.simulation_input import initial_state
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
@@ -25,14 +24,14 @@ from continuum.identification.local_derivatives import local_derivative
 from continuum.identification.nrmse import measured_rates, nrmse
 from continuum.recordings.recording import Recording
 
-_MOST = 20  # simulations; what is nearly linear needs four, and friction leaves kinks to search in for ever
-_SLOPE_SD = 1.0  # rad/s, of an initial rate about the slope of the first angles
-_FAILED = 1e3  # rad, that a simulation which fails is off everywhere
+_MOST = 20  # simulations; nearly linear runs need four, but kinks from friction could keep the fit busy forever
+_SLOPE_SD = 1.0  # rad/s, of an initial rate about the derivative of the first angles
+_FAILED = 1e3  # rad, residual assigned to a simulation that fails
 
 
 @dataclass(frozen=True)
 class Score:
-    """Of one run.
+    """Score of one run.
 
     Attributes:
         recording: the run.
@@ -52,7 +51,7 @@ class Score:
 
 
 def scores(model: Model, recordings: Sequence[Recording]) -> tuple[Score, ...]:
-    """Of every run."""
+    """Return the score of every run."""
     simulator = Simulator(with_dry_friction(model))
     return tuple(_score(simulator, run) for run in recordings)
 
@@ -62,7 +61,7 @@ def _score(simulator: Simulator, recording: Recording) -> Score:
     if found.status is not SimulationStatus.COMPLETE:
         return Score(recording, np.full_like(recording.theta, np.nan), np.nan, np.nan)
     seen = as_read(simulator.model, found)
-    # rates that were not measured are slopes of angles: of both, so that smoothing is no error
+    # if rates were not measured, take derivatives of both angles, so that smoothing is no error
     rates = seen.theta_rate
     if recording.theta_rate is None:
         rates = measured_rates(Recording(recording.name, recording.times, seen.theta))
@@ -71,10 +70,10 @@ def _score(simulator: Simulator, recording: Recording) -> Score:
 
 
 def nearest_simulation(simulator: Simulator, recording: Recording) -> Trajectory:
-    """The simulation of a run from the likeliest initial angles and rates, given what was measured.
+    """Simulate a run from the likeliest initial angles and rates, given what was measured.
 
-    By Levenberg-Marquardt from the first measured row, with the sensitivities of the trajectory. Angles, and rates
-    where they were measured, count by their noise; initial rates have a prior about the slope of the first angles.
+    The fit is by Levenberg-Marquardt from the first measured row, with the sensitivities of the trajectory. Angles, and
+    rates if measured, are weighted by their noise; initial rates have a prior about the derivative of the first angles.
     """
     model, n = simulator.model, recording.n_joints
     inputs = recording.inputs_for(model).later(lateness(model))

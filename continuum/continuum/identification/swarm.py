@@ -1,6 +1,6 @@
-"""The thesis's own way: a particle swarm (Gomes 2016, Table 2) that lowers Eq. 19 of the joint rates.
+"""The method of the thesis: a particle swarm (Gomes 2016, Table 2) that minimises Eq. 19 of the joint rates.
 
-Kept as the reference that a fit by slopes is compared with. Every run starts at rest from its first measured angles.
+It is kept as the reference for fits by derivatives. Every run starts at rest from its first measured angles.
 """
 
 from __future__ import annotations
@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.reading import Reading
 from continuum.dynamics.simulator import Simulator
-from continuum.dynamics.trajectory import SimulationStatus
+from continuum.dynamics.trajectory import Reading, SimulationStatus
 from continuum.identification.free import FreeSpace
 from continuum.identification.nrmse import rate_nrmse
 from continuum.recordings.recording import Recording
@@ -24,11 +23,11 @@ class SwarmSettings:
     """Table 2 of the thesis.
 
     Attributes:
-        particles, iterations: how many.
-        objective_tolerance: least gain of the best particle that counts as one.
-        variation_tolerance: coefficient of variation of the particles below which the swarm has met.
-        cognitive, social: pull towards a particle's own best and the swarm's best place.
-        momentum: part of the speed that is kept.
+        particles, iterations: numbers of particles and of iterations.
+        objective_tolerance: least gain of the best particle that counts as progress.
+        variation_tolerance: coefficient of variation of the particles below which the swarm has converged.
+        cognitive, social: pull towards the particle's best place and the swarm's best place.
+        momentum: fraction of the speed that is kept.
         constriction: factor against divergence.
     """
 
@@ -44,12 +43,12 @@ class SwarmSettings:
 
 @dataclass(frozen=True)
 class SwarmResult:
-    """The best place.
+    """The best place found.
 
     Attributes:
-        coordinates: of the unknowns, (k,).
+        coordinates: coordinates of the unknowns, (k,).
         objective: Eq. 19 there, mean over the runs.
-        simulations: how many runs were simulated.
+        simulations: number of simulated runs.
     """
 
     coordinates: Array
@@ -67,7 +66,7 @@ def swarm_identification(
 ) -> SwarmResult:
     """Identify the unknowns of ``space`` within a factor of three of their origin, and within their bounds.
 
-    ``progress`` is called with the part of the iterations that is over.
+    ``progress`` is called with the fraction of iterations that is done.
     """
     settings = settings or SwarmSettings()
     simulations = 0
@@ -91,9 +90,9 @@ def particle_swarm(
     settings: SwarmSettings,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[Array, float]:
-    """Lowest place (k,) found within bounds, and the objective there.
+    """Return the lowest place (k,) found within bounds, and the objective there.
 
-    Speeds are v = chi (w v + l1 r1 (own best - x) + l2 r2 (swarm's best - x)) with r1, r2 drawn anew each time.
+    Speeds are v = chi (w v + l1 r1 (particle's best - x) + l2 r2 (swarm's best - x)) with new random r1, r2 each time.
     """
     place = random.uniform(lower, upper, (settings.particles, lower.size))
     speed = np.zeros_like(place)

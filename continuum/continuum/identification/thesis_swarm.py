@@ -1,4 +1,4 @@
-"""The thesis's identification as it stands: its five parameters by its particle swarm (Table 2), lowering Eq. 19."""
+"""The identification of the thesis: its five parameters by its particle swarm (Table 2), which minimises Eq. 19."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ from functools import partial
 
 import numpy as np
 
-from continuum.dynamics.dry_friction import with_dry_friction
 from continuum.dynamics.integration.tolerances import Tolerances
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import Model, with_dry_friction
 from continuum.dynamics.parameters import PARAMETERS
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.values import parameter_slots
@@ -20,7 +19,7 @@ from continuum.identification.swarm import SwarmSettings, swarm_identification
 from continuum.recordings.recording import Recording
 
 _TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
-_SINGLY = ("stiffness", "viscous_friction", "coulomb_friction")  # what may be each joint's
+_SINGLY = ("stiffness", "viscous_friction", "coulomb_friction")  # what may differ by joint
 
 
 def swarm_parameters(
@@ -31,15 +30,15 @@ def swarm_parameters(
     progress: Callable[[str, float], None] | None = None,
     settings: SwarmSettings | None = None,
 ) -> Identified:
-    """Identify the five parameters within a factor of three of the model's; a swarm knows no intervals.
+    """Identify the five parameters within a factor of three of the model's; a swarm gives no intervals.
 
     Args:
-        recordings: runs to be fitted, each starting at rest from its first measured angles.
-        model: with nominal values.
-        seed: of the random numbers.
-        per_joint: whether springs, viscous and Coulomb friction are each joint's.
-        progress: called with what is done, and the part of all that is over.
-        settings: of the swarm; Table 2's without.
+        recordings: runs to fit, each starting at rest from its first measured angles.
+        model: model with nominal values.
+        seed: seed of the random numbers.
+        per_joint: whether every joint has a separate spring, viscous and Coulomb friction.
+        progress: called with the current step and the fraction of all work that is done.
+        settings: settings of the swarm; those of Table 2 if None.
 
     Raises:
         InvalidValueError: a recording that does not fit the model.

@@ -1,4 +1,4 @@
-"""Joint angles as the samples come: integrated rates, corrected by the accelerometers whenever a link rests."""
+"""Joint angles sample by sample: integrated rates, corrected by the accelerometers whenever a link rests."""
 
 from __future__ import annotations
 
@@ -13,25 +13,24 @@ from continuum.inertial.calibration import Calibration
 from continuum.inertial.complementary_filter import ComplementaryFilter, Correction
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_sample import ImuSample, Truths
-from continuum.inertial.inclination import inclination
+from continuum.inertial.inclination import inclination, of_neighbours, with_neighbour, within_half_a_turn
 from continuum.inertial.integrated_rate import Liveliness, turn_since
-from continuum.inertial.joint_angles import of_neighbours, with_neighbour, within_half_a_turn
 
 _SAME_TIME = 1e-6  # s
-_FEW = 3  # missing readings that break no rest
+_FEW = 3  # most missing readings that do not interrupt a rest
 
 
 @dataclass(frozen=True)
 class AngleEstimate:
-    """The joints at one instant; what is not good is NaN.
+    """The joints at one instant; values that are not good are NaN.
 
     Attributes:
-        time: of the sample [s].
+        time: time of the sample [s].
         angles: (n,) [rad].
-        rates: (n,) [rad/s]; by sensors that give means, those over the last period.
+        rates: (n,) [rad/s]; from sensors that give means, those over the last period.
         good: joints whose angle is known, (n,).
-        why_not: why a joint is not good, empty where it is, (n,).
-        errors: of the angles as reckoned, half a turn or more where nothing is known, (n,) [rad].
+        why_not: why a joint is not good, empty if it is, (n,).
+        errors: estimated errors of the angles, half a turn or more if nothing is known, (n,) [rad].
         resting: links that are at rest, (n,).
     """
 
@@ -45,16 +44,16 @@ class AngleEstimate:
 
 
 class AngleEstimator:
-    """One for each arm; samples are given in the order of their times.
+    """Estimator of one arm's joint angles; samples are given in the order of their times.
 
     Nothing is known at first: each link's angle is that of its first half second at rest.
 
     Args:
-        calibration: of the sensors.
+        calibration: calibration of the sensors.
         settings: what counts as rest, lost and good.
 
     Attributes:
-        ignored: samples that were no later than the one before, and changed nothing.
+        ignored: number of samples that were no later than the one before, and changed nothing.
     """
 
     def __init__(self, calibration: Calibration, settings: EstimatorSettings | None = None) -> None:
@@ -67,15 +66,15 @@ class AngleEstimator:
         self._state = Correction(np.zeros(n), np.zeros(n), np.full(n, np.pi))
         self._lost = np.ones(n, dtype=bool)
         self._unbroken = np.zeros(n)  # readings since the last one that was missed or clipped
-        self._run = np.zeros(n)  # since more than a few were missed, or one clipped
-        self._count = np.zeros(n)  # of readings at rest since the angle was lost
+        self._run = np.zeros(n)  # readings since more than a few were missed, or one clipped
+        self._count = np.zeros(n)  # readings at rest since the angle was lost
         self._received = np.full(n, -np.inf)
         self._rate_before, self._lively = np.zeros(n), Liveliness(np.zeros(n), np.zeros(n))
         self._last: AngleEstimate | None = None
         self.ignored = 0
 
     def update(self, sample: ImuSample) -> AngleEstimate:
-        """The joints at the sample's time.
+        """Return the joints at the sample's time.
 
         Raises:
             InvalidValueError: another number of sensors than the calibration has.
@@ -104,7 +103,7 @@ class AngleEstimator:
         unsure = self._lively.error_of_gap(missing, rate - self._rate_before, s.period)
         angle = state.angle + turn_since(rate, self._rate_before, elapsed, s.period, s.rates_are_means)
         error = np.hypot(state.error, unsure) + s.bias_left * elapsed
-        lost = clipped | (elapsed > s.longest_gap)  # how fast a clipped sensor turned nobody knows
+        lost = clipped | (elapsed > s.longest_gap)  # the rate of a clipped sensor is unknown
         self._state = Correction(angle, state.drift, np.minimum(np.where(lost, np.pi, error), np.pi))
         self._received = np.where(received, time, self._received)
         self._rate_before = rate
@@ -113,7 +112,7 @@ class AngleEstimator:
         self._run = np.where(counts & (missing <= _FEW), self._run + 1, np.where(received, 0, self._run))
 
     def _resting(self, rate: Array, sample: ImuSample, received: Truths) -> Truths:
-        """Links whose sensors were heard without a gap and quiet over the whole window."""
+        """Return the links whose sensors were received without a gap and quiet over the whole window."""
         s = self.settings
         size = np.linalg.norm(sample.forces, axis=1) - self.calibration.gravity
         self._rates.append(rate)

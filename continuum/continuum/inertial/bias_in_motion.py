@@ -1,25 +1,25 @@
-"""Bias of gyroscopes on links that turn back and forth, from gravity: at the same angle it is seen at the same side.
+"""Bias of gyroscopes on links that turn back and forth, from gravity: its direction is the same at the same angle.
 
-A link turns about an axis n that stands still, by alpha = int n . w - b dt, where b is the bias about n. Across n, with
-the accelerometer's two components as one complex number z,
+A link turns about a fixed axis n, by alpha = int n . w - b dt, where b is the bias about n. Across n, with the
+accelerometer's two components as one complex number z,
 
     z = c + d t + g exp(-i alpha) + r (i dw/dt - w^2) + noise:
 
-gravity across the axis turns back by alpha (g), the accelerometer has a bias that drifts (c, d), and the sensor sits
-beside the axis (r). With a wrong b, g turns away as time goes on, which the residuals show. All but b is linear: the
+gravity across the axis turns back by alpha (g), the accelerometer has a bias that drifts (c, d), and the sensor is at
+a distance from the axis (r). With a wrong b, g turns away over time, which the residuals show. All but b is linear: the
 residuals' sum of squares S(b) is found with the rest eliminated (variable projection: Golub, Pereyra, SIAM J. Numer.
 Anal. 10, 1973). Both components have the same noise, which is white and of unknown size, so that
 
     log p(b) = -(m / 2) log S(b) + log p_0(b),   m = 2 n_times - 8.
 
-How well the gyroscope was calibrated is not known. The prior p_0 is Gaussian about the bias known before, with a
-standard deviation s of any size between s_0 of a calibrated gyroscope and s_1 of one that is not:
+The quality of the gyroscope's calibration is unknown. The prior p_0 is Gaussian about the previously known bias, with a
+standard deviation s of any size between s_0 of a calibrated gyroscope and s_1 of an uncalibrated one:
 
     p_0(b) = int_(s_0)^(s_1) N(b; 0, s^2) ds / s  ~  (erfc(|b| / (sqrt(2) s_1)) - erfc(|b| / (sqrt(2) s_0))) / |b|.
 
-It leaves a bias that gravity shows clearly as it is, and draws one that it hardly shows towards zero. Mean and standard
-deviation of p are the estimate and its error. No threshold decides whether gravity is of use: about an axis that is
-exactly vertical, or for a link that hardly turns, S is flat and the prior stays.
+It hardly changes a bias that gravity shows clearly, and draws one that gravity hardly shows towards zero. Mean and
+standard deviation of p are the estimate and its error. No threshold decides whether gravity is of use: about an exactly
+vertical axis, or for a link that hardly turns, S is flat and the prior remains.
 """
 
 from __future__ import annotations
@@ -38,34 +38,34 @@ from continuum.inertial.integrated_rate import integrated
 
 _LINEAR = 4  # complex unknowns: c, d, g, r
 _CALIBRATED = EstimatorSettings.bias_left  # rad/s
-_REACH = 5.0  # largest standard deviations of the prior that are searched
+_REACH = 5.0  # range of the search, in largest standard deviations of the prior
 _STEP = 0.25  # rad over the whole recording, in which S(b) is smooth
-_NEAR_ZERO = 60  # points to either side, ever closer, that resolve the prior
-_FINER = 4, 33  # old steps to either side of the best bias, and points, of every finer grid
-_ROUNDING = 1e-12  # of the squares' sum
+_NEAR_ZERO = 60  # points on either side, closer and closer to 0, that resolve the prior
+_FINER = 4, 33  # old steps on either side of the best bias, and points, of every finer grid
+_ROUNDING = 1e-12  # of the sum of squares
 _NONE = 1e-3 * _CALIBRATED  # rad/s, below which the prior is flat
 
 
 @dataclass(frozen=True)
 class BiasInMotion:
-    """Biases (n, 3) [rad/s], and the standard deviation of their components about the axes (n,) [rad/s]."""
+    """Biases (n, 3) [rad/s], and standard deviations of their components about the axes (n,) [rad/s]."""
 
     bias: Array
     error: Array
 
 
 def bias_in_motion(recording: ImuRecording, axis: Array, prior: Array, uncertainty: float) -> BiasInMotion:
-    """Prior biases, with the component about each axis replaced by its posterior mean.
+    """Return the prior biases, with the component about each axis replaced by its posterior mean.
 
     Args:
-        recording: of links that turn about their axes, past the same angles at different times.
-        axis: unit vectors in the sensors' own axes, (n, 3).
-        prior: biases, from rest or of the vendor, (n, 3) [rad/s].
-        uncertainty: largest standard deviation from ``prior`` that the biases may have in the recording [rad/s].
+        recording: recording of links that turn about their axes, past the same angles at different times.
+        axis: unit vectors in each sensor's axes, (n, 3).
+        prior: biases from rest or from the vendor, (n, 3) [rad/s].
+        uncertainty: largest standard deviation of the biases from ``prior`` in the recording [rad/s].
 
     Raises:
         InvalidValueError: ``uncertainty`` is not above 0.01 degrees/s, which is that of a calibrated sensor.
-        MeasurementError: a sensor with fewer readings than there are unknowns.
+        MeasurementError: a sensor has too few readings for the unknowns.
     """
     if not _CALIBRATED < uncertainty < np.inf:
         raise InvalidValueError("uncertainty of the bias", uncertainty, f"more than {_CALIBRATED:.2g} rad/s")
@@ -73,7 +73,7 @@ def bias_in_motion(recording: ImuRecording, axis: Array, prior: Array, uncertain
     for sensor in range(recording.n_sensors):
         good = recording.good[:, sensor]
         if np.count_nonzero(good) <= _LINEAR:
-            raise MeasurementError(f"sensor {sensor + 1} was heard only {np.count_nonzero(good)} times")
+            raise MeasurementError(f"sensor {sensor + 1} has only {np.count_nonzero(good)} good readings")
         n = axis[sensor]
         rate = (recording.rates[good, sensor] - prior[sensor]) @ n
         log_likelihood = _log_likelihood(recording.times[good], rate, recording.forces[good, sensor], n)
@@ -83,7 +83,7 @@ def bias_in_motion(recording: ImuRecording, axis: Array, prior: Array, uncertain
 
 
 def _log_likelihood(times: Array, rate: Array, forces: Array, axis: Array) -> Callable[[float], float]:
-    """Of what is left of the bias about the axis [rad/s], up to a constant."""
+    """Return the log-likelihood of the remaining bias about the axis [rad/s], up to a constant."""
     across = np.linalg.svd(axis[None])[2][1]
     z = forces @ across + 1j * (forces @ np.cross(axis, across))
     t, alpha = times - times.mean(), integrated(times, rate[:, None])[:, 0]
@@ -104,7 +104,7 @@ def _log_likelihood(times: Array, rate: Array, forces: Array, axis: Array) -> Ca
 
 
 def _posterior(log_likelihood: Callable[[float], float], uncertainty: float, duration: float) -> tuple[float, float]:
-    """Mean and standard deviation, by sums on a grid that is made finer until it resolves the latter [rad/s]."""
+    """Return mean and standard deviation [rad/s], by sums on a grid that is refined until it resolves the latter."""
     reach = _REACH * uncertainty
     even = np.linspace(-reach, reach, 2 * int(np.ceil(reach * duration / _STEP)) + 1)
     near = np.geomspace(_CALIBRATED / 4, reach, _NEAR_ZERO)
@@ -124,6 +124,6 @@ def _posterior(log_likelihood: Callable[[float], float], uncertainty: float, dur
 
 
 def _log_prior(bias: Array, uncertainty: float) -> Array:
-    """Of biases (k,), up to a constant."""
+    """Return the log-prior of biases (k,), up to a constant."""
     size = np.maximum(np.abs(bias), _NONE) / np.sqrt(2)
     return np.asarray(np.log(erfc(size / uncertainty) - erfc(size / _CALIBRATED)) - np.log(size))

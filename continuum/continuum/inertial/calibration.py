@@ -1,4 +1,4 @@
-"""What is known of the sensors of one arm: bias, axis and zero of each, and what it was found from; as a YAML file.
+"""Calibration of the sensors of one arm: bias, axis and zero of each, and their sources; as a YAML file.
 
 ::
 
@@ -34,17 +34,17 @@ _KEYS = ("bias", "axis", "zero", "source")
 
 @dataclass(frozen=True)
 class Calibration:
-    """Of all sensors of an arm, from the base.
+    """Calibration of all sensors of an arm, from the base.
 
     Attributes:
         bias: rates at rest, (n, 3) [rad/s].
-        axis: unit vectors along the axes, positive turns bend towards cable 1, (n, 3).
+        axis: unit vectors along the axes; positive turns bend towards cable 1, (n, 3).
         zero: specific forces at zero joint angles, (n, 3) [m/s2].
-        sources: what each sensor's values were found from, (n,).
+        sources: sources of each sensor's values, (n,).
 
     Raises:
-        InvalidValueError: values of another shape or beyond what a sensor can have, or an axis too near to gravity
-            for the accelerometer to see the link turn.
+        InvalidValueError: values of another shape or beyond what a sensor can have, or an axis too close to gravity
+            for the accelerometer to show the link's turn.
     """
 
     bias: Array
@@ -62,12 +62,12 @@ class Calibration:
 
     @property
     def n_sensors(self) -> int:
-        """How many sensors there are."""
+        """Number of sensors."""
         return len(self.sources)
 
     @property
     def gravity(self) -> Array:
-        """What each accelerometer reads at rest, (n,) [m/s2]."""
+        """Reading of each accelerometer at rest, (n,) [m/s2]."""
         return np.asarray(np.linalg.norm(self.zero, axis=1))
 
 
@@ -84,19 +84,19 @@ def _check_one(sensor: str, bias: Array, axis: Array, zero: Array) -> None:
 
 
 def load_calibration(path: str | Path) -> Calibration:
-    """The calibration that a file holds.
+    """Read a calibration from a file.
 
     Raises:
-        FileError: it cannot be read, or is of another form.
+        FileError: it cannot be read, or has another form.
         InvalidValueError: values that no sensor has.
     """
     block = read_parameter_file(path)
     sensors = block.get("sensors")
     if set(block) != {"sensors"} or not isinstance(sensors, Sequence) or isinstance(sensors, str) or not sensors:
-        raise FileError(path, "is no calibration of sensors: it has to hold `sensors`, a list from the base on")
+        raise FileError(path, "is not a calibration of sensors: it must hold `sensors`, a list from the base on")
     for number, sensor in enumerate(sensors, start=1):
         if not isinstance(sensor, Mapping) or set(sensor) != set(_KEYS):
-            raise FileError(path, f"sensor {number} has to have {', '.join(_KEYS)}, and nothing else")
+            raise FileError(path, f"sensor {number} must have {', '.join(_KEYS)}, and nothing else")
     try:
         n = len(sensors)
         bias, axis, zero = (finite_of_shape(key, [sensor[key] for sensor in sensors], (n, 3)) for key in _KEYS[:3])

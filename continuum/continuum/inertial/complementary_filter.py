@@ -1,12 +1,12 @@
 """Angle and bias corrected by the accelerometer at rest: the slow half of a complementary filter.
 
-The fast half is the integrated rate. While a sensor rests, with e the inclination less the angle,
+The fast half is the integrated rate. While a sensor rests, with e the inclination minus the angle,
 
     alpha <- alpha + k e,   b <- b - e dt / (tau tau_b),   k = dt / tau,
 
-which is the integral's drift high-passed and the inclination low-passed at 1 / tau, with an integral part that learns
-what is left of the bias. A link that has just come to rest with a lost angle takes the mean of its inclinations first
-(k = 1, 1/2, 1/3 ..), so that it is known at once.
+which high-passes the drift of the integral and low-passes the inclination at 1 / tau, with an integral part that learns
+the remaining bias. A link that has just come to rest with a lost angle first takes the mean of its inclinations
+(k = 1, 1/2, 1/3 ..), so that its angle is known at once.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _LARGEST_DRIFT = np.radians(1.0)  # rad/s that the integral part may learn
 
 @dataclass(frozen=True)
 class Correction:
-    """New values, (n,) each: angle [rad], bias left about the axis [rad/s], reckoned error of the angle [rad]."""
+    """New values, (n,) each: angle [rad], remaining bias about the axis [rad/s], estimated error of the angle [rad]."""
 
     angle: Array
     drift: Array
@@ -38,13 +38,13 @@ class ComplementaryFilter:
     inclination_error: float
 
     def corrected(self, before: Correction, off: Array, elapsed: float, count: Array) -> Correction:
-        """One step at sensors that rest; the others stay as they are.
+        """Take one step at sensors that rest; the others stay as they are.
 
         Args:
-            before: values before it.
-            off: inclination less angle, (n,) [rad].
-            elapsed: since the step before [s].
-            count: of corrections since the angle was lost, this one included; 0 at those that do not rest, (n,).
+            before: values before the step.
+            off: inclination minus angle, (n,) [rad].
+            elapsed: time since the step before [s].
+            count: number of corrections since the angle was lost, with this one; 0 at those that do not rest, (n,).
         """
         share, resting = min(elapsed / self.time_constant, 1.0), count > 0
         gain = np.where(resting, np.maximum(share, 1 / np.maximum(count, 1)), 0.0)

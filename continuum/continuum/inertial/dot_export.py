@@ -1,15 +1,15 @@
 """Recordings that the vendor's app exports from Xsens DOT (now Movella DOT) sensors, one CSV file for each sensor.
 
-Facts are those of the vendor's BLE Services Specification (XD0506P rev. C, table 17 and section 3.5.1), User Manual
-(XD0502P, section 4.2) and of files that the app wrote; docs/inertial.md says what is assumed beyond them. A file is
+Facts are from the vendor's BLE Services Specification (XD0506P rev. C, table 17 and section 3.5.1), User Manual
+(XD0502P, section 4.2) and files written by the app; docs/inertial.md states further assumptions. A file is
 
     sep=,
     DeviceTag:,...            and other lines of `name:,value`, by the app's version
     (empty)
     PacketCounter,SampleTimeFine,Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z,...
 
-with the columns that were chosen at the export, in any order. Other programs write the lines before the columns into
-one, leave them out, and put semicolons or tabs between columns.
+with the columns that were chosen at the export, in any order. Other programs join the lines before the columns into
+one, leave them out, or separate columns by semicolons or tabs.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ CLIP_COUNTS = ("ClipCountAcc", "ClipCountGyr")
 FORCE = ("Acc_X", "Acc_Y", "Acc_Z")  # m/s2, with gravity
 RATE = ("Gyr_X", "Gyr_Y", "Gyr_Z")  # degrees/s
 WRAP = 2**32
-"""Microseconds after which `SampleTimeFine` begins again: 71.6 minutes."""
+"""Microseconds after which `SampleTimeFine` restarts from 0: 71.6 minutes."""
 
 _CLIPPED = 0x003F  # bits of Status: accelerometer x, y, z, gyroscope x, y, z beyond their range
 _NEEDED = (TIME, *FORCE, *RATE)
 _SYNCED = "synced"
-_GRAVITY, _ENOUGH = (5.0, 20.0), 20  # m/s2, between which most specific forces are; readings that tell it
-_SUDDEN = 60_000_000  # microseconds: a step of time that no pause in a recording makes
+_GRAVITY, _ENOUGH = (5.0, 20.0), 20  # m/s2, range of the median specific force; readings needed to judge it
+_SUDDEN = 60_000_000  # microseconds: a time step longer than any pause in a recording
 
 
 @dataclass(frozen=True)
@@ -48,12 +48,12 @@ class DotExport:
     """One sensor's recording.
 
     Attributes:
-        path: of the file.
-        tag: the sensor's name as set in the app, empty where the file names none.
-        ticks: of its clock, unwrapped from the first row on, (k,) [microseconds].
+        path: path of the file.
+        tag: the sensor's name as set in the app, empty if the file has none.
+        ticks: ticks of its clock, unwrapped from the first row on, (k,) [microseconds].
         rates: angular rates in the sensor's axes, (k, 3) [rad/s].
         forces: specific forces, (k, 3) [m/s2].
-        clipped: beyond the range of accelerometer or gyroscope, (k,).
+        clipped: readings beyond the range of accelerometer or gyroscope, (k,).
         notes: what was left out, and why.
     """
 
@@ -67,7 +67,7 @@ class DotExport:
 
     @property
     def name(self) -> str:
-        """What to call it in messages."""
+        """Name for messages."""
         return f"{self.path.name} ({self.tag})" if self.tag else self.path.name
 
 
@@ -75,7 +75,7 @@ def read_dot_export(path: str | Path) -> DotExport:
     """Read one file.
 
     Raises:
-        FileError: it cannot be read, lacks a column, holds what is no number, or time runs backward in it.
+        FileError: it cannot be read, lacks a column, has a cell that is not a number, or time runs backward in it.
     """
     path = Path(path)
     table = read_table(path, TIME, f"{', '.join(_NEEDED)}, as in CSV exports of an Xsens DOT")
@@ -83,7 +83,7 @@ def read_dot_export(path: str | Path) -> DotExport:
 
 
 def _head(rows: list[list[str]]) -> dict[str, str]:
-    """What stands before the columns: `name:` and a value in cells of their own, or `name: value` in each cell."""
+    """Read what precedes the columns: `name:` and a value in separate cells, or `name: value` in each cell."""
     found = dict[str, str]()
     for row in rows:
         cells = [row[0] + row[1]] if len(row) > 1 and row[0].endswith(":") else row
@@ -92,13 +92,13 @@ def _head(rows: list[list[str]]) -> dict[str, str]:
 
 
 def _rate(head: dict[str, str]) -> float | None:
-    """Readings a second by the header, as 60 or 60Hz."""
+    """Return the readings a second from the header, as 60 or 60Hz; None if there are none."""
     found = re.match(r"\d+(\.\d+)?", head.get("OutputRate", ""))
     return float(found.group()) if found and float(found.group()) > 0 else None
 
 
 def _columns(table: Table) -> dict[str, Array]:
-    """The columns that are used, by name."""
+    """Read the columns that are used, by name."""
     path, header = table.path, table.header
     missing = [name for name in _NEEDED if name not in header]
     if missing:
@@ -122,7 +122,7 @@ def _number(path: Path, row: int, column: str, cell: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise FileError(path, f"row {row}, column {column}: {cell!r} is no number{hint_of_cell(cell)}")
+        raise FileError(path, f"row {row}, column {column}: {cell!r} is not a number{hint_of_cell(cell)}")
     return value
 
 
@@ -142,13 +142,13 @@ def _export(path: Path, head: dict[str, str], columns: dict[str, Array], numbers
         clipped |= columns.get(name, np.zeros(ticks.size)) > 0
     usual = float(np.median(np.linalg.norm(readings[:, :3], axis=1)))
     if ticks.size >= _ENOUGH and not _GRAVITY[0] < usual < _GRAVITY[1]:
-        raise FileError(path, f"Acc_X..Z are {usual:.3g} long; m/s2 with gravity, some 9.81, are needed: another unit?")
+        raise FileError(path, f"Acc_X..Z have a norm of {usual:.3g}; m/s2 with gravity, about 9.81, are needed")
     empty, again = ~readings.any(axis=1), np.diff(ticks, prepend=-1) == 0
     notes = [unit] if unit else []
     synced = head.get("SyncStatus", _SYNCED)
     if synced.lower() != _SYNCED:
         notes.append(
-            f"SyncStatus in its header is {synced!r}, not 'Synced': with other sensors, times may not belong together"
+            f"SyncStatus in its header is {synced!r}, not 'Synced': its times may not match those of other sensors"
         )
     notes += [
         f"{_rows(int(rows.sum()))} {why}, left out (first: row {numbers[rows][0]})"
@@ -172,7 +172,7 @@ def _rows(count: int) -> str:
 
 
 def _unwrapped(path: Path, wrapped: NDArray[np.int64], numbers: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Ticks that go on beyond 2^32."""
+    """Return ticks that continue beyond 2^32."""
     steps = np.diff(wrapped)
     steps = np.where(steps < -WRAP // 2, steps + WRAP, steps)
     wrong = (steps < 0) | (steps > _SUDDEN)

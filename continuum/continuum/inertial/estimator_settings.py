@@ -1,4 +1,4 @@
-"""What the angle estimator takes for rest, for lost, and for good enough."""
+"""What counts as rest, as lost and as good for the angle estimator."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ _DEGREE = math.pi / 180
 
 @dataclass(frozen=True)
 class EstimatorSettings:
-    """All are positive.
+    """Settings of the angle estimator; all numbers are positive.
 
     Attributes:
-        period: between samples [s].
-        rates_are_means: a rate is the mean over the period before its time, as of sensors that sum up inside (the
-            Xsens DOT); otherwise it is the rate at that time.
-        time_constant: with which the inclination corrects the integrated rate at rest [s].
-        bias_time: with which what is left of the bias is learned at rest [s].
-        rest_window: how long a sensor has to be quiet to count as at rest [s].
-        rest_rate: rate that is not exceeded at rest [rad/s]; slow pulling still is quiet.
-        rest_spread: largest less smallest rate in the window at rest [rad/s].
-        rest_force: how much the specific force may differ in size from that at the zero [m/s2].
-        longest_gap: between a sensor's readings, after which its angle is lost until it rests again [s]; within less
-            than half a swing's time an arm that was let go is seen to move.
-        bias_left: of the gyroscopes after calibration [rad/s].
-        inclination_error: of a link's angle by the accelerometer at rest [rad].
-        largest_error: of a joint's angle that still counts as good, as the estimator reckons it [rad].
+        period: time between samples [s].
+        rates_are_means: a rate is the mean over the period before its time, as from sensors that integrate internally
+            (the Xsens DOT); otherwise it is the rate at that time.
+        time_constant: time constant with which the inclination corrects the integrated rate at rest [s].
+        bias_time: time constant with which the remaining bias is learned at rest [s].
+        rest_window: time for which a sensor has to be quiet to count as at rest [s].
+        rest_rate: largest rate at rest [rad/s]; slow pulling still counts as quiet.
+        rest_sd: range of rates in the window at rest, largest minus smallest [rad/s].
+        rest_force: largest difference in size between the specific force at rest and that at the zero [m/s2].
+        longest_gap: gap in a sensor's readings after which its angle is lost until it rests again [s]; shorter than
+            half a swing, so that the motion of a released arm is not missed.
+        bias_left: remaining bias of the gyroscopes after calibration [rad/s].
+        inclination_error: error of a link's angle from the accelerometer at rest [rad].
+        largest_error: largest estimated error of a joint's angle that still counts as good [rad].
     """
 
     period: float = 1 / 60

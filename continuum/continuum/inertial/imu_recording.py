@@ -20,7 +20,7 @@ class ImuRecording:
         times: (n_times,) [s].
         rates: angular rates in each sensor's axes, (n_times, n, 3) [rad/s].
         forces: specific forces likewise, (n_times, n, 3) [m/s2].
-        clipped, valid: as in `ImuSample`, (n_times, n).
+        clipped, valid: flags as in `ImuSample`, (n_times, n).
     """
 
     times: Array
@@ -31,10 +31,10 @@ class ImuRecording:
 
     @classmethod
     def of(cls, samples: Sequence[ImuSample]) -> ImuRecording:
-        """The samples that were taken one after the other.
+        """Return a recording of successive samples.
 
         Raises:
-            InvalidValueError: none, or of different numbers of sensors.
+            InvalidValueError: no samples, or samples with different numbers of sensors.
         """
         if len({sample.n_sensors for sample in samples}) != 1:
             raise InvalidValueError("samples", len(samples), "at least one, all of the same number of sensors")
@@ -48,20 +48,20 @@ class ImuRecording:
 
     @property
     def n_sensors(self) -> int:
-        """How many sensors there are."""
+        """Number of sensors."""
         return int(self.valid.shape[1])
 
     @property
     def good(self) -> Truths:
-        """Readings that were heard and not clipped, (n_times, n)."""
+        """Readings that were received and not clipped, (n_times, n)."""
         return np.asarray(self.valid & ~self.clipped)
 
     def part(self, begin: float, end: float) -> ImuRecording:
-        """What lies between two times, both included [s]."""
+        """Return the part between two times, both included [s]."""
         rows = (self.times >= begin) & (self.times <= end)
         return ImuRecording(self.times[rows], self.rates[rows], self.forces[rows], self.clipped[rows], self.valid[rows])
 
     def samples(self) -> Iterator[ImuSample]:
-        """One after the other."""
+        """Yield the samples one after another."""
         for row in zip(self.times, self.rates, self.forces, self.clipped, self.valid, strict=True):
             yield ImuSample(float(row[0]), *row[1:])

@@ -12,19 +12,19 @@ from continuum.errors import InvalidValueError
 
 Truths = NDArray[np.bool_]
 
-_RATE, _FORCE = 1e3, 1e4  # rad/s, m/s2: no sensor goes so far
+_RATE, _FORCE = 1e3, 1e4  # rad/s, m/s2: beyond the range of any sensor
 
 
 @dataclass(frozen=True)
 class ImuSample:
-    """What the sensors read, in each one's own axes; the first sits on the link nearest to the base.
+    """Readings of the sensors, each in its own axes; the first sensor is on the link next to the base.
 
     Attributes:
-        time: of the reading, by a clock without jitter [s].
+        time: time of the reading, by a clock without jitter [s].
         rates: angular rates, (n, 3) [rad/s].
-        forces: specific forces, that is acceleration less gravity, (n, 3) [m/s2]; a sensor at rest reads 9.81 upwards.
-        clipped: a sensor that was at the end of its range, (n,).
-        valid: a sensor that was heard, (n,); what the others have in ``rates`` and ``forces`` is not looked at.
+        forces: specific forces, i.e. acceleration minus gravity, (n, 3) [m/s2]; a sensor at rest reads 9.81 upwards.
+        clipped: whether a sensor was at the end of its range, (n,).
+        valid: whether a sensor was received, (n,); ``rates`` and ``forces`` of the others are ignored.
     """
 
     time: float
@@ -45,10 +45,10 @@ class ImuSample:
 
     @property
     def n_sensors(self) -> int:
-        """How many sensors there are."""
+        """Number of sensors."""
         return int(self.valid.size)
 
     def usable(self) -> Truths:
-        """Sensors that were heard and gave numbers that a sensor can give, (n,)."""
+        """Return the sensors that were received with possible values, (n,)."""
         possible = np.all(np.abs(self.rates) < _RATE, axis=1) & np.all(np.abs(self.forces) < _FORCE, axis=1)
         return np.asarray(self.valid & possible)

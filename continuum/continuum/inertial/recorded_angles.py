@@ -1,4 +1,4 @@
-"""Joint angles of a whole recording: the estimator from both ends, each believed by how little it may err."""
+"""Joint angles of a whole recording: the estimator from both ends, each weighted by its estimated error."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from continuum.inertial.calibration import Calibration
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.imu_sample import Truths
-from continuum.inertial.joint_angles import of_neighbours
+from continuum.inertial.inclination import of_neighbours
 
 
 @dataclass(frozen=True)
 class RecordedAngles:
-    """Of all joints; what is not good is NaN.
+    """Angles and rates of all joints; values that are not good are NaN.
 
     Attributes:
         times: (n_times,) [s].
@@ -36,17 +36,17 @@ class RecordedAngles:
 def recorded_angles(recording: ImuRecording, calibration: Calibration, settings: EstimatorSettings) -> RecordedAngles:
     """Run through the recording forwards and backwards.
 
-    Backwards nothing changes but the sign of what gyroscopes read. So rest after a motion counts as much as before it.
+    Backwards, only the gyroscopes' readings change sign. So rest after a motion counts as much as rest before it.
 
     Raises:
         InvalidValueError: rates at instants, or a calibration of another number of sensors.
     """
     if not settings.rates_are_means:
-        raise InvalidValueError("rates_are_means", False, "True: of recordings, rates are means over the period")
+        raise InvalidValueError("rates_are_means", False, "True: in recordings, rates are means over the period")
     ahead, ahead_error = _passed(recording, calibration, settings)
     turned = replace(calibration, bias=-calibration.bias)
     back, back_error = _passed(_backwards(recording, settings.period), turned, settings)
-    # Backwards an estimate belongs to the beginning of a period, which is the time of the row before.
+    # Backwards, an estimate belongs to the beginning of a period, which is the time of the row before.
     back = np.concatenate([back[::-1][1:], ahead[-1:]])
     back_error = np.concatenate([back_error[::-1][1:], ahead_error[-1:]])
     good = np.isfinite(ahead) | np.isfinite(back)
@@ -63,14 +63,14 @@ def recorded_angles(recording: ImuRecording, calibration: Calibration, settings:
 
 
 def _passed(recording: ImuRecording, calibration: Calibration, settings: EstimatorSettings) -> tuple[Array, Array]:
-    """Angles, NaN where they are not good, and their errors, (n_times, n) each [rad]."""
+    """Return angles, NaN where they are not good, and their errors, (n_times, n) each [rad]."""
     estimator = AngleEstimator(calibration, settings)
     estimates = [estimator.update(sample) for sample in recording.samples()]
     return np.array([e.angles for e in estimates]), np.array([e.errors for e in estimates])
 
 
 def _backwards(recording: ImuRecording, period: float) -> ImuRecording:
-    """The same motion from its end; its times begin where they ended, and its rates have the other sign."""
+    """Return the same motion from its end, with times that begin where they ended and rates of the other sign."""
     turned = slice(None, None, -1)
     return ImuRecording(
         period - recording.times[turned],

@@ -1,7 +1,7 @@
-"""Angles of links over a recording by their rates alone, for axes near the vertical and for links that never rest.
+"""Angles of links over a recording from their rates alone, for axes near the vertical and for links that never rest.
 
-Where gravity does not show a link's angle at rest, only its rate does. Its error grows with time by the error of the
-bias, and with the angle by that of the gyroscope's scale. The bias is that of the longest rest, if there is one,
+If gravity does not show a link's angle at rest, only its rate does. The error of the angle grows with time by the error
+of the bias, and with the angle by that of the gyroscope's scale. The bias is that of the longest rest, if there is one,
 corrected by what gravity shows of it in motion (`bias_in_motion`).
 """
 
@@ -13,17 +13,17 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.errors import MeasurementError
+from continuum.inertial.at_rest import bias_at_rest
 from continuum.inertial.bias_in_motion import bias_in_motion
-from continuum.inertial.gyro_bias import bias_at_rest
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.integrated_rate import integrated
-from continuum.inertial.rests import rests
 from continuum.inertial.rotation_axis import axes_of_motion
+from continuum.inertial.stillness import rests
 
-# Standard deviations of a bias, as VQF assumes them by default (Laidig, Seel, Information Fusion 91, 2023).
+# Standard deviations of a bias, the defaults of VQF (Laidig, Seel, Information Fusion 91, 2023).
 _NEVER_RESTED = np.radians(0.5)  # rad/s
 _AT_REST = np.radians(0.03)  # rad/s
-_GROWS = np.radians(0.1) / np.sqrt(100.0)  # rad/s for the root of every second since
+_GROWS = np.radians(0.1) / np.sqrt(100.0)  # rad/s per square root of seconds since
 
 
 @dataclass(frozen=True)
@@ -32,11 +32,11 @@ class RecordedTurn:
 
     Attributes:
         times: (n_times,) [s].
-        angle: since the first time, (n_times, n) [rad].
+        angle: angle since the first time, (n_times, n) [rad].
         rate: (n_times, n) [rad/s].
-        axis: unit vectors in the sensors' own axes, (n, 3).
-        bias: of the gyroscopes, (n, 3) [rad/s].
-        bias_error: standard deviation about the axis, by which the angle may drift, (n,) [rad/s].
+        axis: unit vectors in each sensor's axes, (n, 3).
+        bias: bias of the gyroscopes, (n, 3) [rad/s].
+        bias_error: standard deviation of the bias about the axis, by which the angle may drift, (n,) [rad/s].
     """
 
     times: Array
@@ -48,11 +48,11 @@ class RecordedTurn:
 
 
 def recorded_turn(recording: ImuRecording, first_turn: int = 1) -> RecordedTurn:
-    """Angles of all links, each about its own axis. Rates that were not heard are taken as linear in time.
+    """Return the angles of all links, each about its axis. Missing rates are interpolated linearly in time.
 
     Args:
-        recording: of links that turn about axes that stand still, by 5 degrees or more.
-        first_turn: the sign of the last link's first turn, as for `axes_of_motion`.
+        recording: recording of links that turn about fixed axes, by 5 degrees or more.
+        first_turn: sign of the last link's first turn, as for `axes_of_motion`.
 
     Raises:
         InvalidValueError: ``first_turn`` is neither 1 nor -1.
@@ -60,7 +60,7 @@ def recorded_turn(recording: ImuRecording, first_turn: int = 1) -> RecordedTurn:
     """
     clipped = [str(sensor + 1) for sensor in np.flatnonzero(recording.clipped.any(axis=0))]
     if clipped:
-        raise MeasurementError(f"sensor {', '.join(clipped)} clipped: how far it turned is not known")
+        raise MeasurementError(f"sensor {', '.join(clipped)} clipped: its turn is unknown")
     prior, uncertainty = _prior(recording)
     axis = axes_of_motion(recording, prior, first_turn)
     found = bias_in_motion(recording, axis, prior, uncertainty)
@@ -71,7 +71,7 @@ def recorded_turn(recording: ImuRecording, first_turn: int = 1) -> RecordedTurn:
 
 
 def _prior(recording: ImuRecording) -> tuple[Array, float]:
-    """Biases (n, 3), and how far they may be off during the recording, a standard deviation [rad/s]."""
+    """Return biases (n, 3), and their standard deviation during the recording [rad/s]."""
     found = rests(recording)
     if not found:
         return np.zeros((recording.n_sensors, 3)), float(_NEVER_RESTED)

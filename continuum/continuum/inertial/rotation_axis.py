@@ -1,7 +1,7 @@
 """The axis about which each sensor turns, from a motion of the arm in its plane.
 
-Sensors on wooden plates never sit exactly, so the axis is not assumed but found: rates of a link that bends in a plane
-lie on one line through the sensor's axes, the principal direction of their second moments.
+Sensors on wooden plates are never exactly aligned, so the axis is not assumed but found: rates of a link that bends in
+a plane lie on one line in the sensor's axes, the principal direction of their second moments.
 """
 
 from __future__ import annotations
@@ -14,22 +14,22 @@ from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.integrated_rate import integrated
 
 LEAST_TURN = np.radians(5.0)
-"""Of every link, for its axis to be found [rad]."""
+"""Least turn of every link, for its axis to be found [rad]."""
 
-_OFF_AXIS = 0.15  # of the rates' size: more is no bending in a plane
+_OFF_AXIS = 0.15  # of the rates' size: more is not bending in a plane
 _ALIKE = 0.5  # correlation of a link's angle with that of the last
 
 
 def axes_of_motion(recording: ImuRecording, bias: Array, first_turn: int) -> Array:
-    """Unit vectors along the axes of the links, in each sensor's own axes, (n, 3).
+    """Return unit vectors along the axes of the links, in each sensor's axes, (n, 3).
 
-    Positive turns bend the arm towards cable 1. Rates cannot tell to which side that is, so the person who moves the
-    arm must: the side to which the last link first turns by half its way. The others turn mostly to the same side.
+    Positive turns bend the arm towards cable 1. Rates do not show which side that is, so the person who moves the arm
+    must state it: the side to which the last link first turns by half its way. The others turn mostly to the same side.
 
     Args:
-        recording: of the arm bending in its plane by at least `LEAST_TURN` in the first joint, and some rest.
-        bias: of the rates, (n, 3) [rad/s].
-        first_turn: 1 where the arm first turns towards cable 1, -1 where away from it.
+        recording: recording of the arm bending in its plane by at least `LEAST_TURN` in the first joint, and some rest.
+        bias: bias of the rates, (n, 3) [rad/s].
+        first_turn: 1 if the arm first turns towards cable 1, -1 if away from it.
 
     Raises:
         InvalidValueError: ``first_turn`` is neither.
@@ -69,7 +69,7 @@ def _fault(sensor: int, turn: float, off_axis: float, alike: float) -> str:
 
 
 def _correlation(angles: Array, reference: Array) -> Array:
-    """Of every column with the reference, (n,)."""
+    """Return the correlation of every column with the reference, (n,)."""
     columns, one = angles - angles.mean(axis=0), reference - reference.mean()
     size = np.sqrt(np.sum(columns**2, axis=0) * np.sum(one**2))
     return np.asarray(one @ columns / np.maximum(size, np.finfo(float).tiny))

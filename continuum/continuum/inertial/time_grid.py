@@ -1,8 +1,8 @@
-"""Streams of sensors that were started at different instants, brought to one grid of times.
+"""Streams of sensors that were started at different instants, resampled to one grid of times.
 
-A sensor that sums up inside gives means over its period, so that the sum of its readings is the exact turn (and gain of
-speed) at its own instants. That sum is smooth: it is interpolated by a cubic spline, and differences of it over the
-grid's periods are means again. A stream whose instants are the grid's comes through unchanged.
+A sensor that integrates internally gives means over its period, so that the sum of its readings is the exact turn (and
+gain of speed) at the instants of its readings. That sum is smooth: it is interpolated by a cubic spline, and its
+differences over the grid's periods are means again. A stream whose instants are the grid's stays unchanged.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from continuum.errors import MeasurementError
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.imu_sample import Truths
 
-_BREAK = 1.5  # periods between readings: something is missing
+_BREAK = 1.5  # periods between readings, beyond which some are missing
 _SAME_PERIOD = 0.01
 _FEWEST = 4  # readings of a piece, for its spline
-_LONGEST_GRID = 20  # times the number of readings; more of them cannot be missing
+_LONGEST_GRID = 20  # times the number of readings; more than that cannot be missing
 _SLACK = 0.02  # periods by which the grid may reach beyond a stream
 
 
@@ -31,11 +31,11 @@ class Stream:
     """One sensor's readings, in its own axes.
 
     Attributes:
-        name: what it is called in messages.
-        times: increasing, by a clock common to all streams, (k,) [s].
-        rates: means over the period before, (k, 3) [rad/s].
-        forces: specific forces likewise, (k, 3) [m/s2].
-        clipped: (k,).
+        name: name for messages.
+        times: increasing times by a clock common to all streams, (k,) [s].
+        rates: mean rates over the period before, (k, 3) [rad/s].
+        forces: mean specific forces likewise, (k, 3) [m/s2].
+        clipped: whether a reading was clipped, (k,).
     """
 
     name: str
@@ -46,23 +46,23 @@ class Stream:
 
     @property
     def period(self) -> float:
-        """Between readings, as exact as the whole stream tells it [s]."""
+        """Time between readings, estimated from the whole stream [s]."""
         return float((self.times[-1] - self.times[0]) / self._periods)
 
     @property
     def missing(self) -> float:
-        """Share of its readings that are missing between the first and the last, 0 to 1."""
+        """Fraction of readings that are missing between the first and the last, 0 to 1."""
         return 1 - self.times.size / (1 + self._periods)
 
     @property
     def _periods(self) -> int:
-        """From the first reading to the last; counted step by step, as ticks of a clock may be a coarse unit."""
+        """Number of periods from the first reading to the last, counted step by step: a clock's ticks may be coarse."""
         steps = np.diff(self.times)
         return int(np.sum(np.rint(steps / np.median(steps))))
 
 
 def on_one_grid(streams: Sequence[Stream]) -> ImuRecording:
-    """All streams while all of them ran; what one has missed is not valid.
+    """Return all streams over their common time; readings that one has missed are not valid.
 
     Raises:
         MeasurementError: different rates, too few readings, or no time in common.
@@ -90,7 +90,7 @@ def on_one_grid(streams: Sequence[Stream]) -> ImuRecording:
 
 
 def _on_grid(stream: Stream, times: Array, period: float) -> tuple[Array, Array, Truths, Truths]:
-    """Rates (n_times, 3), forces (n_times, 3), clipped and valid (n_times,)."""
+    """Return rates (n_times, 3), forces (n_times, 3), clipped and valid (n_times,)."""
     readings = np.concatenate([stream.rates, stream.forces], axis=1)
     found, valid = np.zeros((times.size, 6)), np.zeros(times.size, dtype=bool)
     slack = _SLACK * period
@@ -105,11 +105,11 @@ def _on_grid(stream: Stream, times: Array, period: float) -> tuple[Array, Array,
         valid |= inside
     after = np.clip(np.searchsorted(stream.times, times - slack), 0, stream.times.size - 1)
     before = np.maximum(after - 1, 0)
-    apart = stream.times[after] - times > slack  # a grid's period that two readings share
+    apart = stream.times[after] - times > slack  # two readings share this period of the grid
     clipped = stream.clipped[after] | (apart & stream.clipped[before])
     return found[:, :3], found[:, 3:], clipped & valid, valid
 
 
 def _pieces(times: Array, period: float) -> list[NDArray[np.intp]]:
-    """Rows between breaks."""
+    """Return the rows between breaks."""
     return np.split(np.arange(times.size), np.flatnonzero(np.diff(times) > _BREAK * period) + 1)

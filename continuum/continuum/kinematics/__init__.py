@@ -1,20 +1,24 @@
 """Kinematics of sections and arms under the thesis's hypothesis of constant curvature (chapters 2.2, 3.1, appendix B).
 
-Where each equation of the thesis stands:
+Where each equation of the thesis stands; each module's own table names the functions:
 
-====================  ==================================================================
-Eqs. 1, 2, 3          configuration/eq01_allen_and_jones.py
-Eqs. 6, 7             configuration/eq06_arc.py
-Eqs. 23, 24           configuration/eq23_allen_rates.py, configuration/eq24_arc_rates.py
-Eq. 4, 5              section/eq04_pose.py, section/eq05_configuration_from_point.py
-Eqs. 20, 21, 22       section/eq21_jacobian.py, section/eq22_rates_from_point.py
-Eqs. 8, 9, 25, 26     cables/eq08_lengths.py, cables/eq09_..., cables/eq26_rates.py
-Eqs. 10, 11           chain/eq10_pose.py, chain/eq11_jacobian.py
-Eq. 11, J_xq          cable_twist.py (rates of the cables to the twist of the tip)
-chapter 2.2.3         routing.py (tangle, untangle), fabrikc.py (inverse kinematics)
-====================  ==================================================================
+=============================  =========================================================
+Eqs. 1, 2, 3, 6, 7, 23, 24     configuration.py
+Eqs. 4, 5, 20, 21, 22          section.py
+Eqs. 8, 9, 25, 26              cables.py
+Eqs. 10, 11                    chain.py
+Eq. 11, J_xq                   cable_twist.py (rates of the cables to the twist of the tip)
+chapter 2.2.3                  routing.py (tangle, untangle), fabrikc.py (inverse kinematics)
+=============================  =========================================================
 
 cable_estimate.py estimates configurations from measured lengths; joint_chain.py and discs.py take single joints.
 
 The maps take arrays with any leading axes, so a whole trajectory is one call.
+
+Public: `inverse_kinematics.InverseKinematics`, `inverse_kinematics.solve`, `ik_target.Target`, `ik_target.Targets`,
+`ik_result.IkStatus`, `fabrikc.solve_fabrikc`, `configuration.allen_from_jones`, `configuration.jones_from_allen`,
+`cables.cable_lengths`, `chain.arm_pose`, `chain.arm_jacobian`, `routing.tangle`, `routing.untangle`,
+`routing.tangle_rates`, `differential.DifferentialKinematics`, `differential.DIRECTION`,
+`cable_twist.tip_cable_jacobian`, `cable_estimate.estimate_configuration`, `joint_chain.tip_pose`,
+`joint_chain.tip_twist`.
 """

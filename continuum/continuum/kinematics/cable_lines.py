@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.arm import Arm, Section
 from continuum.arrays import Array
-from continuum.kinematics.cables.hole_points import holes_of_discs
+from continuum.kinematics.cables import holes_of_discs
 from continuum.kinematics.configuration import bend, curvature
 from continuum.kinematics.discs import arm_disc_poses
 from continuum.kinematics.routing import cables_through

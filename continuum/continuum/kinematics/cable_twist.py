@@ -17,7 +17,7 @@ from continuum.kinematics.routing import tangle_jacobian
 
 
 def arm_configuration_cable_jacobian(w: Array, arm: Arm) -> Array:
-    """J_zeta,q: slopes of all configurations, (..., 2 n_sections, n_cables) [rad/m], at ``w`` (..., n_sections, 2).
+    """J_zeta,q: configurations by cable lengths, (..., 2 n_sections, n_cables) [rad/m], at ``w`` (..., n_sections, 2).
 
     Rows: u, v of section 1, of section 2, ...; columns: total lengths, as `tangle` orders them.
     """

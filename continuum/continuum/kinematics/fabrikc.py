@@ -23,9 +23,7 @@ from continuum.kinematics.ik_result import IkResult, IkStatus
 from continuum.kinematics.ik_settings import checked_arm, checked_count, checked_tolerance
 from continuum.kinematics.ik_target import POSITION, Target, configuration_of
 from continuum.kinematics.rigid import IDENTITY, product, turned_about_z
-from continuum.kinematics.section.chord import chord_length
-from continuum.kinematics.section.eq04_pose import rotation_entries
-from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
+from continuum.kinematics.section import chord_length, configuration_entries, rotation_entries
 
 LARGEST_BEND = 0.97 * math.pi  # towards 180 degrees the legs grow without bound
 

@@ -12,8 +12,7 @@ import numpy as np
 
 from continuum.arm import Arm
 from continuum.arrays import Array
-from continuum.kinematics.cables.eq08_lengths import chords
-from continuum.kinematics.cables.eq26_rates import chord_jacobian
+from continuum.kinematics.cables import chord_jacobian, chords
 from continuum.kinematics.chain import arm_jacobian, arm_pose
 from continuum.kinematics.routing import cables_through
 

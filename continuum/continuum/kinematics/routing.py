@@ -16,11 +16,11 @@ from continuum.arrays import Array
 from continuum.kinematics.cables import (
     cable_jacobian,
     cable_lengths,
+    chord_jacobian,
+    chords,
     configuration_cable_jacobian,
     configuration_from_cables,
 )
-from continuum.kinematics.cables.eq08_lengths import chords
-from continuum.kinematics.cables.eq26_rates import chord_jacobian
 
 
 @dataclass(frozen=True)

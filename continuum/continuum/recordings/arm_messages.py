@@ -1,4 +1,4 @@
-"""Messages of one arm, in the order of their stamps, where these are of one run of one clock."""
+"""Messages of one arm in the order of their stamps, if these are from one run of one clock."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from continuum.joint_names import cable_names, theta_joints
 from continuum.printable import printable
 from continuum.recordings.bag import stamp_ns
 
-_SHOWN = 5  # names of others
-_DENSE = 1.5  # times as many messages as one run has in such a time: two runs, or a clock that was set back, have twice
-_DAY = 86400 * 10**9  # ns: where stamps are later, as since 1970, one of 0 is none
-_TO_AND_FRO, _JUMP, _OFTEN = 4.0, np.deg2rad(1.0), 0.05  # times the way that is left, rad, share of messages
-_MOST = 1e3  # rad; what is beyond is damaged
+_SHOWN = 5  # names of other publishers' joints to list
+_DENSE = 1.5  # times the messages that one run has in the same time: two runs, or a clock set back, have twice
+_DAY = 86400 * 10**9  # ns: if other stamps are later, as counted from 1970, a stamp of 0 is missing
+_TO_AND_FRO, _JUMP, _OFTEN = 4.0, np.deg2rad(1.0), 0.05  # multiple of the remaining change, rad, share of messages
+_MOST = 1e3  # rad; larger values are damaged
 _MARKS = (theta_joints("", 1)[0].removesuffix("1"), cable_names("", 1)[0].removesuffix("1"))
 
 
 def of_an_arm(path: Path, topic: str, messages: Iterable[Any]) -> tuple[list[Any], tuple[str, ...]]:
-    """Messages of who publishes bending joints or cables in the order of their stamps, and a note on each left out.
+    """Return messages with bending joints or cables in the order of their stamps, and notes on those left out.
 
-    Where nobody does, all are there; so are all where others have some of the arm's names.
+    If there are none, or if other publishers use some of the arm's names, all messages are kept.
 
     Raises:
-        FileError: no message has a stamp, stamps are of two runs or of a clock that was set back, or two publish one
-            arm.
+        FileError: no message has a stamp, stamps are from two runs or from a clock that was set back, or two nodes
+            publish one arm.
     """
     stamped, unstamped = _with_stamp(path, topic, list(messages))
     mine = [one for one in stamped if any(mark in name for name in one.name for mark in _MARKS)]
@@ -41,14 +41,14 @@ def of_an_arm(path: Path, topic: str, messages: Iterable[Any]) -> tuple[list[Any
     if not others:
         return ordered, unstamped
     names = printable(", ".join(sorted(strangers)[:_SHOWN])) or "without names"
-    return ordered, (*unstamped, f"{_counted(len(others))} of others on {topic} ({names}), left out")
+    return ordered, (*unstamped, f"{_counted(len(others))} of other publishers on {topic} ({names}), left out")
 
 
 def _with_stamp(path: Path, topic: str, messages: list[Any]) -> tuple[list[Any], tuple[str, ...]]:
-    """Messages whose stamp is one, and a note on the others; a simulated clock may begin at 0."""
+    """Return the messages with a valid stamp, and a note on the others; a simulated clock may begin at 0."""
     found = [one for one in messages if stamp_ns(one) != 0]
     if not found and len(messages) > 1:
-        raise FileError(path, f"has no message on {topic} with a stamp; when they were measured is not known")
+        raise FileError(path, f"has no message on {topic} with a stamp; the time of measurement is not known")
     if len(found) == len(messages) or min(map(stamp_ns, found), default=0) < _DAY:
         return messages, ()
     return found, (f"{_counted(len(messages) - len(found))} without a stamp on {topic}, left out",)
@@ -59,7 +59,7 @@ def _counted(count: int) -> str:
 
 
 def _refuse_two_arms(path: Path, topic: str, joints: Sequence[Any]) -> None:
-    """Refuse joints that jump to and fro from message to message: two publish them, an arm and a simulation say."""
+    """Refuse joints that jump back and forth between messages: two nodes publish them, say an arm and a simulation."""
     if len({tuple(one.name) for one in joints}) != 1 or len({len(one.position) for one in joints}) != 1:
         return
     angles = np.array([one.position for one in joints], dtype=float)
@@ -73,16 +73,16 @@ def _refuse_two_arms(path: Path, topic: str, joints: Sequence[Any]) -> None:
         at = int(np.argmax(jumps)) + 2
         raise FileError(
             path,
-            f"message {at} on {topic}: joint angles jump there and back, as in {np.count_nonzero(jumps)} of "
+            f"message {at} on {topic}: joint angles jump back and forth, as in {np.count_nonzero(jumps)} of "
             f"{len(angles)} messages: do two nodes publish them?",
         )
 
 
 def _in_order(path: Path, topic: str, arrived: list[Any]) -> list[Any]:
-    """Messages by their stamps; a network may deliver a few in another order.
+    """Return messages in the order of their stamps; a network may deliver a few in another order.
 
     Raises:
-        FileError: stamps run backward over a time that is there already: two runs, or a clock that was set back.
+        FileError: stamps run backward over a time that has messages already: two runs, or a clock that was set back.
     """
     stamps = np.array([stamp_ns(one) for one in arrived], dtype=np.int64)
     steps, ordered = np.diff(stamps), np.sort(stamps)

@@ -24,14 +24,14 @@ TOPICS = {
     "/joint_states": "sensor_msgs/msg/JointState",
     "/cable_states": "continuum_msgs/msg/CableStates",
 }
-"""Topics on which one message comes for every pose, and their types; they are read."""
+"""Topics with one message for every pose, and their types; these messages are read."""
 
 SECTION_TOPICS = {"/section_cable_states": "continuum_msgs/msg/CableStates"}
-"""Topics on which every section speaks once for every pose; their messages are counted."""
+"""Topics with one message of every section for every pose; these messages are counted."""
 
 OPTIONAL_TOPICS = {"/traj_twist": "geometry_msgs/msg/TwistStamped"}
 OPTIONAL_SECTION_TOPICS = {"/section_config_states": "continuum_msgs/msg/ConfigStates"}
-"""The same, counted where they were recorded."""
+"""The same, counted if recorded."""
 
 
 @dataclass(frozen=True)
@@ -39,15 +39,15 @@ class Stream:
     """One topic, by stamp.
 
     Attributes:
-        stamps: each once (n,) [ns], rising, in whatever order and however often its messages came.
-        values: what belongs to them (n, ...), of the first message of each stamp.
+        stamps: unique stamps in rising order, (n,) [ns], regardless of the order and number of messages.
+        values: values of the first message of each stamp, (n, ...).
     """
 
     stamps: Stamps
     values: Array
 
     def at(self, stamps: Stamps) -> Array:
-        """Values of the given stamps (m,) [ns]; NaN where a stamp is not in the stream."""
+        """Return the values at the given stamps (m,) [ns]; NaN where a stamp is not in the stream."""
         rows = np.full((len(stamps), *self.values.shape[1:]), np.nan)
         _, wanted, found = np.intersect1d(stamps, self.stamps, return_indices=True)
         rows[wanted] = self.values[found]
@@ -56,16 +56,16 @@ class Stream:
 
 @dataclass(frozen=True)
 class ArmRecording:
-    """What a kinematic run recorded.
+    """The recorded streams of a kinematic run.
 
     Attributes:
-        targets: positions that the tip was to take (n, 3) [m].
+        targets: target positions of the tip (n, 3) [m].
         status: answers of the inverse kinematics (n, 2): status number and distance [m].
         configurations: Allen coordinates from the joint states (n, n_sections, 2) [rad].
         lengths: total cable lengths (n, n_cables) [m], in the order of ``arm.cable_names``.
-        rates: rates of those (n, n_cables) [m/s]; NaN where a message has none.
-        arrivals: stamps (m,) [ns] of all messages in the order of their arrival, by topic; a topic on which all
-            sections speak is one entry for every section.
+        rates: rates of these lengths (n, n_cables) [m/s]; NaN where a message has none.
+        arrivals: stamps (m,) [ns] of all messages in the order of their arrival, by topic; a topic that all sections
+            share has one entry for every section.
     """
 
     arm: Arm
@@ -81,7 +81,7 @@ def read_arm_recording(bag: Bag, arm: Arm) -> ArmRecording:
     """Read the streams of ``arm`` from a recording.
 
     Raises:
-        FileError: a topic is missing, or a message has other joints or cables than the arm, or no finite value for one.
+        FileError: a topic is missing, or a message has other joints or cables than the arm or lacks a finite value.
     """
     messages = {topic: list(bag.messages(topic, message_type)) for topic, message_type in TOPICS.items()}
     n_cables = len(arm.cable_names)
@@ -113,7 +113,7 @@ def read_arm_recording(bag: Bag, arm: Arm) -> ArmRecording:
 
 
 def _other_arrivals(bag: Bag, arm: Arm) -> dict[str, Stamps]:
-    """Stamps of the streams whose values are not needed."""
+    """Return the stamps of the streams whose values are not needed."""
     there = bag.topics
     arrivals = {
         topic: _stamps(list(bag.messages(topic, message_type)))
@@ -134,7 +134,7 @@ def _stamps(messages: list[Any]) -> Stamps:
 
 
 def _configuration(bag: Bag, message: Any, arm: Arm) -> Array:
-    """Allen coordinates (n_sections, 2) of one joint state message; theta is the sum over a section's joints."""
+    """Return the Allen coordinates (n_sections, 2) of a joint state message; theta sums over a section's joints."""
     names = [name for section in arm.sections for name in (section.phi_joint, *section.theta_joints)]
     angles = dict(zip(names, named_values(bag, message, message.position, names), strict=True))
     return np.array(

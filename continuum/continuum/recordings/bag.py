@@ -1,6 +1,6 @@
 """A rosbag2 recording read by `rosbags`, without ROS: message definitions come from the recording itself.
 
-Only those that are asked for are read: other topics may have types that nobody knows.
+Only requested topics are read: others may have unknown types.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from continuum.errors import FileError
 
 _DAMAGE = (
     *(ReaderError, TypesysError, SerdeError, OSError),
-    # what rosbags lets through where bytes of a recording were changed or cut
+    # errors that rosbags lets through if bytes of a recording were changed or cut off
     *(apsw.Error, struct.error, ValueError, TypeError, AttributeError, LookupError, ArithmeticError, MemoryError),
     *(AssertionError, EOFError, RecursionError),
 )
@@ -37,10 +37,10 @@ class Bag:
     """An open recording. Use as a context manager.
 
     Args:
-        path: folder of the recording (with ``metadata.yaml``), this file in it, or its storage file.
+        path: folder of the recording, the ``metadata.yaml`` in it, or its storage file.
 
     Raises:
-        FileError: no recording there, or a damaged one, here or in the methods.
+        FileError: no recording there, or a damaged one; also raised by the methods.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -64,7 +64,7 @@ class Bag:
             return {_absolute(topic): info.msgcount for topic, info in self._reader.topics.items()}
 
     def messages(self, topic: str, message_type: str) -> Iterator[Any]:
-        """The messages of one topic, e.g. of type ``sensor_msgs/msg/JointState``, in the order of their arrival.
+        """Yield the messages of one topic, e.g. of type ``sensor_msgs/msg/JointState``, in the order of their arrival.
 
         Raises:
             FileError: the recording has no such topic, messages of another type on it, or publishers whose definitions
@@ -86,16 +86,16 @@ class Bag:
         return [one for one in self._reader.connections if _absolute(one.topic) == topic]
 
     def _common_definition(self, topic: str, connections: list[Connection]) -> Typesdict:
-        """The definition of a topic's type, also by its hash: `rosbags` gives all publishers in a folder one text."""
+        """Return the definition of a topic's type; hashes are compared too, as `rosbags` gives all the same text."""
         hashes = {one.digest for one in connections} - {""}
         definition, *others = [_definition(one) for one in connections]
         if len(hashes) > 1 or any(other != definition for other in others):
-            raise FileError(self.path, f"has publishers on {topic} with unlike definitions of {connections[0].msgtype}")
+            raise FileError(self.path, f"has publishers on {topic} that define {connections[0].msgtype} differently")
         return definition
 
     @contextmanager
     def _readable(self) -> Iterator[None]:
-        """Turn what goes wrong within into one line about the recording."""
+        """Turn errors within into one line about the recording."""
         try:
             yield
         except _DAMAGE as error:
@@ -103,15 +103,15 @@ class Bag:
             raise self._unreadable(reason) from error
 
     def _unreadable(self, reason: str) -> FileError:
-        """What is wrong with the recording, and what may be had of it all the same."""
+        """Return an error that says what is wrong with the recording, and what may still be recovered."""
         problem = f"is not a readable rosbag2 recording ({reason})"
         if any(self.path.glob("*.mcap")) or (self.path.is_file() and self.path.suffix == ".mcap"):
-            problem += f"; what of it is whole can be had with {recovery_command(self.path)}"
+            problem += f"; its intact part can be recovered with {recovery_command(self.path)}"
         return FileError(self.path, problem)
 
 
 def is_bag(path: str | Path) -> bool:
-    """Whether a path is that of a recording, its folder or a file in it, by its name."""
+    """Whether a path is a recording, its folder or a file in it, judged by its name."""
     return Path(path).is_dir() or Path(path).name == _METADATA or _is_storage(Path(path))
 
 
@@ -120,7 +120,7 @@ def _is_storage(path: Path) -> bool:
 
 
 def _whole(path: Path) -> Path:
-    """The folder where a file in it was given that cannot be read without: metadata, or its one compressed file."""
+    """Return the folder of a file that cannot be read alone: metadata, or the only compressed storage file."""
     if path.name == _METADATA:
         return path.parent
     metadata = path.parent / _METADATA
@@ -131,12 +131,12 @@ def _whole(path: Path) -> Path:
 
 
 def recovery_command(path: Path) -> str:
-    """For a shell: copies what is whole of a damaged recording in MCAP, a folder or its storage file, to a new one."""
+    """Return a shell command that copies the intact part of a damaged MCAP recording, folder or file, to a new one."""
     return f"python3 -m continuum_manipulator.bag_recovery {shlex.quote(str(path))} RECOVERED"
 
 
 def _definition(connection: Connection) -> Typesdict:
-    """A topic's message type and those that it is made of, by Jazzy where the recording does not define them."""
+    """Return a topic's message type and its parts, from Jazzy if the recording does not define them."""
     text, kind = connection.msgdef.data, connection.msgdef.format
     if kind is MessageDefinitionFormat.NONE:
         return get_typestore(Stores.ROS2_JAZZY).fielddefs
@@ -149,11 +149,11 @@ def _definition(connection: Connection) -> Typesdict:
 
 
 def _absolute(topic: str) -> str:
-    """A topic's name from the root; older recorders wrote relative ones."""
+    """Return a topic's absolute name; older recorders wrote relative ones."""
     return topic if topic.startswith("/") else f"/{topic}"
 
 
 def stamp_ns(message: Any) -> int:
-    """Stamp of a message with a header [ns]."""
+    """Return the stamp of a message with a header [ns]."""
     stamp = message.header.stamp
     return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)

@@ -1,4 +1,4 @@
-"""The thesis's Fig. 8: total cable lengths; cable rates from the Jacobian over finite differences of the lengths."""
+"""Fig. 8 of the thesis: total cable lengths; cable rates from the Jacobian over finite differences of the lengths."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def write_cable_figure(recording: ArmRecording, path: str | Path) -> None:
     length_axes, rate_axes = figure.subplots(1, 2)
     stamps = recording.lengths.stamps
     times = (stamps - stamps[0]) * 1e-9
-    inner, slopes = central_differences(stamps, recording.lengths.values)
+    inner, derivatives = central_differences(stamps, recording.lengths.values)
     shown = np.linspace(0, len(inner) - 1, min(_DOTS, len(inner))).astype(int)
     column = 0
     for i, section in enumerate(recording.arm.sections):
@@ -39,7 +39,12 @@ def write_cable_figure(recording: ArmRecording, path: str | Path) -> None:
             length_axes.plot(times, 1e3 * recording.lengths.values[:, column], linewidth=1.2, **line)
             rate_axes.plot(times, 1e3 * recording.rates.values[:, column], linewidth=1.0, **line)
             rate_axes.plot(
-                times[inner[shown]], 1e3 * slopes[shown, column], ".", markersize=3.5, color=line["color"], alpha=0.8
+                times[inner[shown]],
+                1e3 * derivatives[shown, column],
+                ".",
+                markersize=3.5,
+                color=line["color"],
+                alpha=0.8,
             )
             column += 1
     length_axes.set(title="Total cable lengths", xlabel="time [s]", ylabel="length [mm]")

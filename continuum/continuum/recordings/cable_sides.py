@@ -1,10 +1,10 @@
-"""Whether the arm bends towards the cable that pulls more, as cable 1 does towards positive angles.
+"""Whether the arm bends towards the cable that pulls more; cable 1 bends it towards positive angles.
 
   r = correlation of u_1 - u_2 with the mean of all joint angles, both as means over half a second, taken twice
 
-Little of fast motions, which may swing against what drives them, is left in such means: of 3 Hz a twentieth. Where r is
-below -1/2 the columns of the cables are swapped, or the angles' signs: a fit would seek long and end with parameters at
-their limits.
+Such means leave little of fast motions, which may swing against what drives them: of 3 Hz, a twentieth. If r is below
+-1/2, the columns of the cables or the signs of the angles are swapped: a fit would take long and end with parameters at
+their bounds.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from continuum.recordings.recording import Recording
 
 _OPPOSED = -0.5
 _LENGTH = 0.5  # s; the arm swings in less
-_PULLED, _BENT = 2.0, np.deg2rad(1.0)  # N and rad, by which the means change at least: more than sensors are off
+_PULLED, _BENT = 2.0, np.deg2rad(1.0)  # N and rad, least changes of the means: more than sensor errors
 
 
 def side_correlation(run: Recording) -> float | None:
-    """r of a run, -1 to 1; None where it is too short or hardly pulled."""
+    """Return r of a run, -1 to 1; None if it is too short or hardly pulled."""
     rows = max(1, round(_LENGTH / float(np.median(np.diff(run.times)))))
     if run.tensions is None or not run.is_driven or run.times.size < 3 * rows:
         return None
@@ -37,7 +37,7 @@ def refuse_swapped_cables(run: Recording) -> None:
     """Refuse a run in which the arm bends away from the cable that pulls more.
 
     Raises:
-        InvalidValueError: it does so.
+        InvalidValueError: the arm bends away from it.
     """
     r = side_correlation(run)
     if r is not None and r < _OPPOSED:

@@ -11,7 +11,7 @@ from continuum.whole_file import write_table
 def write_cable_table(recording: ArmRecording, path: str | Path) -> None:
     """Write ``t_s``, then ``<cable>_m`` and ``<cable>_m_s`` of every cable, one row for every stamp.
 
-    Times count from the first stamp; a rate that is not known is ``nan``.
+    Times count from the first stamp; an unknown rate is ``nan``.
 
     Raises:
         FileError: the file cannot be written.

@@ -1,4 +1,4 @@
-"""What is probably the matter with a table that is laid out in another way than with commas and decimal points."""
+"""Hints on tables with a layout other than commas and decimal points."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _SHOWN = 60  # letters of a row or of its names
 
 
 def problem_of_header(row: int, header: Sequence[str], key: str, wanted: str) -> str:
-    """What the first row of a table without a column ``key`` is, in words, and the ``wanted`` columns."""
+    """Describe the first row of a table without a column ``key``, and the ``wanted`` columns."""
     shown = ", ".join(header)
     shown = shown if len(shown) <= _SHOWN else f"{shown[:_SHOWN]} .."
     if all(map(is_number, header)):
@@ -23,7 +23,7 @@ def problem_of_header(row: int, header: Sequence[str], key: str, wanted: str) ->
 
 
 def hint_of_row(values: Sequence[str], n_columns: int, separator: str) -> str:
-    """To be added where a row has not as many cells as there are columns, which it shows where it is one cell."""
+    """Return a hint on a row whose number of cells is not that of the columns; a single cell is shown."""
     if len(values) == 1:
         return f": {values[0][:_SHOWN]!r}"
     halves = separator == "," and n_columns < len(values) <= 2 * n_columns and all(map(_WHOLE.fullmatch, values))
@@ -31,17 +31,17 @@ def hint_of_row(values: Sequence[str], n_columns: int, separator: str) -> str:
 
 
 def hint_of_cell(cell: str) -> str:
-    """To be added where a cell is no number; empty where nothing is to be guessed."""
+    """Return a hint on a cell that is not a number; empty if there is no guess."""
     if "," not in cell or not is_number(cell.replace(",", ".")):
         return ""
     return "; decimals must be separated by '.', or all by ',' where ';' or tabs separate columns"
 
 
 def number_of(cell: str) -> float:
-    """Value of a cell, NaN where it says that there is none, as spreadsheets, databases and statistics do.
+    """Return the value of a cell; NaN if it marks a missing value as spreadsheets, databases and statistics do.
 
     Raises:
-        ValueError: it is no number. Python's underscores between digits are none.
+        ValueError: it is not a number; digits with underscores, as in Python, are not.
     """
     if cell.lower() in _NO_VALUE:
         return math.nan
@@ -51,7 +51,7 @@ def number_of(cell: str) -> float:
 
 
 def is_number(cell: str) -> bool:
-    """Whether a cell is one that can be read as a number."""
+    """Whether a cell can be read as a number."""
     try:
         number_of(cell)
     except ValueError:

@@ -1,4 +1,4 @@
-"""What drives an arm, over time, from a CSV table: tensions of cables, or torques at joints."""
+"""Inputs of an arm over time from a CSV table: tensions of cables, or torques at joints."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ from continuum.recordings.csv_layout import hint_of_cell, number_of
 from continuum.recordings.motion_columns import TENSION, TIME, TORQUE, Quantity, tension_column, torque_column
 from continuum.recordings.table_file import read_table
 
-_CLOCK = 600.0  # s: what begins later counts from a date, or from when a computer was started
-_NO_SECONDS = 1e11  # what begins later is in milliseconds or less
+_CLOCK = 600.0  # s: a later first time counts from a date, or from the start of a computer
+_NO_SECONDS = 1e11  # a later first time is in milliseconds or smaller units
 
 
 def read_tension_table(path: str | Path) -> Tensions:
-    """Tensions of a table with columns t_s, u1_N and u2_N, in any order and with any others.
+    """Read tensions from a table with columns t_s, u1_N and u2_N, in any order and with any others.
 
-    Times of a clock, since 1970 say, count from the first row.
+    Times of a clock, for instance since 1970, count from the first row.
 
     Raises:
-        FileError: the file cannot be read, a column is missing, or a row (the heading is row 1) holds what is no
-            number, not finite, a tension below 0 or a time that is not after the one before.
+        FileError: the file cannot be read, a column is missing, or a row (the heading is row 1) holds a value that is
+            not a finite number, a tension below 0 or a time that is not after the one before.
     """
     columns = [tension_column(cable + 1) for cable in range(len(SIDES))]
     return Tensions(*_read(path, columns, TENSION, "a planar section", least=0.0))
 
 
 def read_torque_table(path: str | Path, n_joints: int) -> JointTorques:
-    """Torques of a table with columns t_s, tau1_Nm, .. of each joint; else as :func:`read_tension_table`."""
+    """Read torques from a table with columns t_s, tau1_Nm, .. of each joint; else as :func:`read_tension_table`."""
     columns = [torque_column(joint + 1) for joint in range(n_joints)]
     return JointTorques(*_read(path, columns, TORQUE, "the model", least=-math.inf))
 
@@ -43,7 +43,7 @@ def read_torque_table(path: str | Path, n_joints: int) -> JointTorques:
 def _read(
     path: str | Path, columns: Sequence[str], quantity: Quantity, driven: str, least: float
 ) -> tuple[Array, Array]:
-    """Times, (rows,) [s], and values, (rows, columns), none below ``least``."""
+    """Read times, (rows,) [s], and values, (rows, columns), none below ``least``."""
     needed = [TIME, *columns]
     found = read_table(path, TIME, ", ".join(needed))
     if not found.rows:
@@ -67,7 +67,7 @@ def _read(
 
 
 def _numbers(path: str | Path, number: int, row: list[str], places: Iterable[tuple[str, int, float]]) -> list[float]:
-    """Numbers of a row's columns, by name, place and least value."""
+    """Return the numbers of a row's columns, given by name, place and least value."""
     found = []
     for column, place, least in places:
         text = row[place]

@@ -1,4 +1,4 @@
-"""Joint states of an arm whose sections are published by a node each: one message of all joints for each stamp."""
+"""Joint states of an arm with one node for each section, joined: one message with all joints for each stamp."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from continuum.errors import FileError
 from continuum.joint_names import bending_joints
 from continuum.recordings.bag import stamp_ns
 
-_MOST_ALONE = 0.5  # part of a section's messages that may have a stamp which others lack: beyond, stamps are unrelated
+_MOST_ALONE = 0.5  # fraction of a section's messages with a stamp that others lack; beyond, stamps are unrelated
 
 
 def joined_sections(path: Path, topic: str, messages: Sequence[Any]) -> tuple[list[Any], tuple[str, ...]]:
-    """Positions of all sections by their common stamps, in the order in which these were complete, and notes.
+    """Join the positions of all sections by common stamps, in the order of completion; return them with notes.
 
-    Messages of who publishes other joints stay as they are; so do all where fewer than two nodes publish sections, or
-    where two publish the same one.
+    Messages with other joints stay as they are; so do all messages if fewer than two nodes publish sections, or if two
+    publish the same one.
 
     Args:
-        path: of the recording.
-        topic: of the messages.
-        messages: with names, in the order of their arrival.
+        path: path of the recording.
+        topic: topic of the messages.
+        messages: messages with names, in the order of their arrival.
 
     Raises:
-        FileError: sections have hardly a stamp in common.
+        FileError: sections have hardly any stamps in common.
     """
     parts = {tuple(one.name): bending_joints(one.name).keys() for one in messages}
     parts = {names: sections for names, sections in parts.items() if sections}
@@ -58,7 +58,7 @@ def joined_sections(path: Path, topic: str, messages: Sequence[Any]) -> tuple[li
         raise FileError(
             path,
             f"has {max(counts.values())} messages of one section on {topic}, {complete} of which have a stamp that "
-            f"all {len(parts)} have: do the sections' nodes follow one command?",
+            f"all {len(parts)} sections share: do the sections' nodes follow one command?",
         )
     left = (
         f"{alone} message{'' if alone == 1 else 's'} of single sections on {topic}, left out: others lack their stamp"

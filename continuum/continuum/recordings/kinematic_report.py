@@ -1,4 +1,4 @@
-"""What a kinematic run shows: how well the tip followed, whether cable rates are slopes of lengths, what was lost."""
+"""Figures of a kinematic run: tracking errors of the tip, cable rates against those of lengths, lost messages."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ class KinematicReport:
     Attributes:
         n_targets: poses recorded.
         n_solved: poses that the inverse kinematics reached within its tolerance.
-        rate: targets per second of the stamps' own time [Hz].
-        duration: from the first stamp to the last [s].
-        lost: messages that a stream misses, by stream.
-        repeated: messages of a stream whose stamp had come before, by stream.
+        rate: targets per second of time by stamps [Hz].
+        duration: time from the first stamp to the last [s].
+        lost: number of missing messages, by stream.
+        repeated: number of messages with a repeated stamp, by stream.
         tip_error_median, tip_error_max: distance from tip to target over the reached poses [m]; NaN if there is none.
         largest_rate: largest rate of any cable [m/s]; NaN if none was recorded.
-        rate_disagreement: largest difference of a cable's rate to the central difference of its length [m/s]; NaN as
-            before.
+        rate_disagreement: largest difference between a cable's rate and the central difference of its length [m/s];
+            NaN if unknown.
     """
 
     n_targets: int
@@ -58,7 +58,7 @@ def report_on(recording: ArmRecording, n_expected: int | None = None) -> Kinemat
 
     Args:
         recording: the streams.
-        n_expected: how many poses the trajectory's publisher sent, if that is known.
+        n_expected: number of poses that the trajectory's publisher sent, if known.
 
     Raises:
         InvalidValueError: fewer than three poses or cable states.
@@ -71,7 +71,7 @@ def report_on(recording: ArmRecording, n_expected: int | None = None) -> Kinemat
     errors = np.linalg.norm(tips - recording.targets.values, axis=-1)[solved]
     errors = errors[np.isfinite(errors)]  # without the poses whose joint states are lost
     duration = float(stamps[-1] - stamps[0]) * 1e-9
-    inner, slopes = central_differences(recording.lengths.stamps, recording.lengths.values)
+    inner, derivatives = central_differences(recording.lengths.stamps, recording.lengths.values)
     return KinematicReport(
         n_targets=len(stamps),
         n_solved=int(np.count_nonzero(solved)),
@@ -82,7 +82,7 @@ def report_on(recording: ArmRecording, n_expected: int | None = None) -> Kinemat
         tip_error_median=float(np.median(errors)) if len(errors) else math.nan,
         tip_error_max=_largest(errors),
         largest_rate=_largest(recording.rates.values),
-        rate_disagreement=_largest(recording.rates.values[inner] - slopes),
+        rate_disagreement=_largest(recording.rates.values[inner] - derivatives),
     )
 
 
@@ -92,25 +92,25 @@ def _at_least(name: str, count: int, least: int) -> None:
 
 
 def _largest(values: Array) -> float:
-    """Largest magnitude; NaN if there is none but NaN."""
+    """Return the largest magnitude; NaN if all values are NaN."""
     known = np.abs(values[~np.isnan(values)])
     return float(np.max(known)) if len(known) else math.nan
 
 
 def central_differences(stamps: Stamps, lengths: Array) -> tuple[Stamps, Array]:
-    """Rows with a neighbour on both sides, and the slopes of ``lengths`` (n, m) there [m/s].
+    """Return the rows with a neighbour on both sides, and the derivatives of ``lengths`` (n, m) there [m/s].
 
-    The slope is that of the parabola through the three values: where the stamps [ns] are even the central difference
-    (f(t+h) - f(t-h)) / 2h, and of second order also beside a lost message.
+    The derivative is that of the parabola through the three values: the central difference (f(t+h) - f(t-h)) / 2h if
+    the stamps [ns] are even, and of second order next to a lost message too.
     """
     steps = np.diff(stamps)[:, None] * 1e-9
-    slopes = np.diff(lengths, axis=0) / steps
+    derivatives = np.diff(lengths, axis=0) / steps
     before, after = steps[:-1], steps[1:]
-    return np.arange(1, len(stamps) - 1), (after * slopes[:-1] + before * slopes[1:]) / (before + after)
+    return np.arange(1, len(stamps) - 1), (after * derivatives[:-1] + before * derivatives[1:]) / (before + after)
 
 
 def _lost(recording: ArmRecording, n_expected: int) -> dict[str, int]:
-    """Stamps that each stream misses, of those that any stream has, or of ``n_expected`` if those are more."""
+    """Return the number of stamps that each stream misses, of those in any stream or ``n_expected`` if that is more."""
     stamps = {name: np.unique(arrivals) for name, arrivals in recording.arrivals.items()}
     n_known = len(np.unique(np.concatenate(list(stamps.values()))))
     return {name: max(n_known, n_expected) - len(own) for name, own in stamps.items()}

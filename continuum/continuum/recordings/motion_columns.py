@@ -17,22 +17,22 @@ _NUMBERED = re.compile(r"(?P<letter>[a-z]+)(?P<number>0|[1-9]\d?)(?:_(?P<unit>\w
 
 @dataclass(frozen=True)
 class Quantity:
-    """What joints or cables have a column of each.
+    """A quantity with one column for each joint or cable.
 
     Attributes:
-        letter: with which its columns begin.
-        units: factor to SI of every unit that a column may end with; tables are written in the first.
+        letter: prefix of its columns.
+        units: factor to SI of every unit with which a column may end; tables are written in the first.
     """
 
     letter: str
     units: Mapping[str, float]
 
     def column(self, number: int) -> str:
-        """Of one joint or cable, as tables are written."""
+        """Return the column's name of one joint or cable, as in written tables."""
         return f"{self.letter}{number}_{next(iter(self.units))}"
 
     def names(self, column: str) -> tuple[int, str] | None:
-        """Number and unit that a column's name gives, whatever the unit; None where it is of something else."""
+        """Return number and unit from a column's name, whatever the unit; None for another quantity."""
         match = _NUMBERED.fullmatch(column)
         return (int(match["number"]), match["unit"] or "") if match and match["letter"] == self.letter else None
 
@@ -45,20 +45,20 @@ QUANTITIES = (ANGLE, RATE, TENSION, TORQUE)
 
 
 def angle_column(joint: int) -> str:
-    """Angle of a joint [degrees]."""
+    """Return the column's name of a joint's angle [degrees]."""
     return ANGLE.column(joint)
 
 
 def rate_column(joint: int) -> str:
-    """Rate of a joint [degrees/s]."""
+    """Return the column's name of a joint's rate [degrees/s]."""
     return RATE.column(joint)
 
 
 def tension_column(cable: int) -> str:
-    """Tension of a cable at the base [N]."""
+    """Return the column's name of a cable's tension at the base [N]."""
     return TENSION.column(cable)
 
 
 def torque_column(joint: int) -> str:
-    """Torque of a joint's drive [N m]."""
+    """Return the column's name of the torque of a joint's drive [N m]."""
     return TORQUE.column(joint)

@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from continuum.arrays import Array
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.input_signal import InputSignal
+from continuum.dynamics.model import InputKind
 from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.trajectory import Trajectory
 from continuum.whole_file import write_figure
@@ -20,7 +20,7 @@ _INSTANTS = 6
 """Postures shown."""
 
 _OUTSIDE: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0), "fontsize": 8, "frameon": False}
-"""Legends stand right of their panel."""
+"""Legends are to the right of their panel."""
 
 
 def write_motion_figure(motion: Trajectory, inputs: InputSignal, p: Parameters, path: str | Path) -> None:
@@ -59,7 +59,7 @@ def write_motion_figure(motion: Trajectory, inputs: InputSignal, p: Parameters, 
 
 
 def _draw_tensions(axes: Axes, times: Array, pull: Array) -> None:
-    """Tension of each cable at the base, (n_times, n_cables) [N]."""
+    """Draw the tension of each cable at the base, (n_times, n_cables) [N]."""
     for cable, (colour, column) in enumerate(zip(("#202020", "#b07800"), pull.T, strict=True)):
         axes.plot(times, column, color=colour, linewidth=1.3, label=f"cable {cable + 1}")
     axes.legend(**_OUTSIDE)
@@ -68,7 +68,7 @@ def _draw_tensions(axes: Axes, times: Array, pull: Array) -> None:
 
 
 def _draw_arm(axes: Axes, motion: Trajectory, p: Parameters) -> None:
-    """Joints and tip in the plane, gravity downwards, later instants darker."""
+    """Draw joints and tip in the plane, with gravity downwards and later instants darker."""
     shown = np.unique(np.linspace(0, len(motion.times) - 1, _INSTANTS).astype(int))
     for i, colour in zip(shown, _shades(len(shown)), strict=True):
         points = 1e3 * backbone(motion.theta[i], p)
@@ -81,7 +81,7 @@ def _draw_arm(axes: Axes, motion: Trajectory, p: Parameters) -> None:
 
 
 def backbone(theta: Array, p: Parameters) -> Array:
-    """Base plate, joints and tip of an arm in its plane, (n_joints + 2, 2) [m], the second axis upwards."""
+    """Return base plate, joints and tip of an arm in its plane, (n_joints + 2, 2) [m], the second axis upwards."""
     link_angle = np.cumsum(theta) + p.hang_angle
     lengths = np.concatenate([p.mount, p.joint_spacing[:-1], p.tip])
     directions = np.concatenate([p.hang_angle, link_angle])
@@ -90,6 +90,6 @@ def backbone(theta: Array, p: Parameters) -> Array:
 
 
 def _shades(n: int) -> Array:
-    """Colours from light to dark, (n, 3)."""
+    """Return colours from light to dark, (n, 3)."""
     share = np.linspace(0, 1, max(n, 2))[:n, None]
     return np.asarray((1 - share) * np.array([0.55, 0.78, 0.95]) + share * np.array([0.05, 0.12, 0.45]))

@@ -1,4 +1,4 @@
-"""A motion, simulated or measured, as a CSV table, in the columns in which recordings of an arm are read."""
+"""A motion, simulated or measured, as a CSV table with the columns of an arm's recordings."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.input_signal import InputSignal
+from continuum.dynamics.model import InputKind
 from continuum.dynamics.trajectory import Trajectory
 from continuum.recordings.motion_columns import TIME, angle_column, rate_column, tension_column, torque_column
 from continuum.whole_file import write_table
@@ -36,7 +36,7 @@ def write_measured_motion(times: Array, theta: Array, theta_rate: Array, path: s
         times: (n_times,) [s].
         theta: joint angles, (n_times, n_joints) [rad].
         theta_rate: joint rates, (n_times, n_joints) [rad/s].
-        path: of the file.
+        path: file to write.
 
     Raises:
         FileError: the file cannot be written.
@@ -45,7 +45,7 @@ def write_measured_motion(times: Array, theta: Array, theta_rate: Array, path: s
 
 
 def _of_joints(times: Array, theta: Array, theta_rate: Array) -> tuple[list[str], Array]:
-    """Names of the columns, and the columns."""
+    """Return the names of the columns, and the columns."""
     joints = range(1, theta.shape[1] + 1)
     names = [TIME, *map(angle_column, joints), *map(rate_column, joints)]
     return names, np.concatenate([times[:, None], np.degrees(theta), np.degrees(theta_rate)], axis=1)
@@ -56,5 +56,5 @@ def _write(path: str | Path, names: list[str], columns: Array) -> None:
 
 
 def _digits(row: Array) -> list[str]:
-    """Time to the nanosecond, the rest to nine digits."""
+    """Format time to the nanosecond, the rest to nine digits."""
     return [f"{row[0]:.9f}", *(f"{value:.9g}" for value in row[1:])]

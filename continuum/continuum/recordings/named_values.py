@@ -1,4 +1,4 @@
-"""Values of a message that names what they belong to."""
+"""Values of a message with names."""
 
 from __future__ import annotations
 
@@ -13,11 +13,10 @@ from continuum.recordings.bag import Bag
 
 
 def named_values(bag: Bag, message: Any, given: Array, wanted: Sequence[str], finite: bool = True) -> Array:
-    """Of the values ``given`` for ``message.name`` those of the names ``wanted``, in their order.
+    """Return the values of the ``wanted`` names, in their order, from those ``given`` for ``message.name``.
 
     Raises:
-        FileError: a name is not there, or there are more or fewer values than names, or one is not finite where all
-            have to be.
+        FileError: a name is missing, the numbers of values and names differ, or a value is not finite but has to be.
     """
     if len(given) != len(message.name):
         raise FileError(bag.path, f"has a message with {len(given)} values for {len(message.name)} names")

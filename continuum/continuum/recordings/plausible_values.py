@@ -1,4 +1,4 @@
-"""Whether samples can be of an arm and in the units that their columns name."""
+"""Whether samples can be from an arm and in the units of their columns."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from continuum.recordings.motion_columns import ANGLE, RATE, TENSION, TORQUE
 from continuum.recordings.samples import Samples
 
 MOST_BAD = 0.1
-"""Part of all rows that may be bad."""
+"""Fraction of all rows that may be bad."""
 
 LARGEST_TURN = 4 * np.pi
-"""Of a joint with a drive [rad]."""
+"""Largest angle of a joint with a drive [rad]."""
 
 _LARGEST_ANGLE = np.pi  # rad, of a joint between discs
 _LEAST_ANGLE = np.deg2rad(1.0)  # that a run must reach; sensors err by tenths of a degree
 _LEAST_MOTION = np.deg2rad(1.5)  # of the joint that moves most
-_QUIETED = 8  # rows of which the mean is taken then, against noise
+_QUIETED = 8  # rows that are averaged for it, against noise
 _LARGEST_RATE, _LARGEST_TENSION, _LARGEST_TORQUE = 200.0, 2e3, 2e3  # rad/s, N, N m; no arm of this kind has more
-_ALIKE = 0.5  # correlation of a joint's rate with the slope of its angle from which on their sizes are compared
+_ALIKE = 0.5  # correlation of a joint's rate with the derivative of its angle above which their sizes are compared
 
 
 def _limited(samples: Samples) -> list[tuple[Array, float, str]]:
-    """What was measured, the most that an arm of this kind has of it, and the letter of its columns."""
+    """Return each measured block with the largest value for an arm of this kind, and the letter of its columns."""
     turn = _LARGEST_ANGLE if samples.torque is None else LARGEST_TURN
     blocks = (
         (samples.theta, turn, ANGLE.letter),
@@ -40,10 +40,10 @@ def _limited(samples: Samples) -> list[tuple[Array, float, str]]:
 
 
 def _too_large(value: float, limit: float, letter: str) -> str:
-    """What is told of a value beyond its limit."""
+    """Describe a value beyond its limit."""
     if letter == ANGLE.letter:
         wraps = limit < value <= 2 * np.pi
-        hint = f"{np.degrees(value):.4g} degrees where angles wrap at 360, or " if wraps else ""
+        hint = f"{np.degrees(value):.4g} degrees, where angles wrap at 360, or " if wraps else ""
         return (
             f"joint angle of {value:.3g} rad; no joint turns by more than {limit:.3g}: {hint}degrees taken for radians?"
         )
@@ -55,7 +55,7 @@ def _too_large(value: float, limit: float, letter: str) -> str:
 
 
 def outliers(samples: Samples) -> NDArray[np.bool_]:
-    """Few rows with a value too large for its unit, where all others are far from that: an error code, no unit."""
+    """Return the few rows with a value too large for its unit if all others are far below: error codes, not units."""
     size = np.max([np.max(np.abs(block), axis=1) / limit for block, limit, *_ in _limited(samples)], axis=0)
     large = size > 1
     few = 0 < np.count_nonzero(large) <= MOST_BAD * large.size
@@ -63,10 +63,10 @@ def outliers(samples: Samples) -> NDArray[np.bool_]:
 
 
 def refuse_units(samples: Samples) -> None:
-    """Refuse what is too large or small for its unit.
+    """Refuse values that are too large or small for their unit.
 
     Raises:
-        FileError: so is a value, or an arm that hardly moves, or a rate that is not of its angle.
+        FileError: a value is, or the arm hardly moves, or a rate does not fit its angle.
     """
     for block, limit, letter in _limited(samples):
         large = np.abs(block) > limit
@@ -85,18 +85,18 @@ def refuse_units(samples: Samples) -> None:
         description = (
             f"{np.degrees(motion):.2g} degrees, hardly more than sensors err: at least {np.degrees(_LEAST_MOTION):g}"
         )
-        raise FileError(samples.path, f"is of an arm whose joints move by at most {description} are needed")
+        raise FileError(samples.path, f"has joints that move by at most {description} are needed")
     if samples.rate is not None:
-        slopes = np.gradient(samples.theta, samples.times, axis=0)
-        for joint, (slope, rate) in enumerate(zip(slopes.T, samples.rate.T, strict=True), start=1):
+        derivatives = np.gradient(samples.theta, samples.times, axis=0)
+        for joint, (slope, rate) in enumerate(zip(derivatives.T, samples.rate.T, strict=True), start=1):
             _refuse_mixed(samples.path, joint, slope, rate)
 
 
 def without_still_rates(samples: Samples) -> tuple[Samples, list[str]]:
-    """Rates that were not measured left out, and a note on it: they never change, though angles do.
+    """Leave out rates that were not measured, which never change although angles do, and return a note on it.
 
     Raises:
-        FileError: those of some joints change.
+        FileError: only some joints have such rates.
     """
     if samples.rate is None:
         return samples, []
@@ -112,21 +112,21 @@ def without_still_rates(samples: Samples) -> tuple[Samples, list[str]]:
 
 
 def _motion(theta: Array) -> Array:
-    """From the least to the most of each joint, (n_joints,) [rad]."""
+    """Return the range of each joint's angle, (n_joints,) [rad]."""
     means = [np.mean(piece, axis=0) for piece in np.array_split(theta, max(1, len(theta) // _QUIETED))]
     return np.asarray(np.ptp(means, axis=0))
 
 
 def _refuse_mixed(path: Path, joint: int, slope: Array, rate: Array) -> None:
-    """Refuse a joint whose rate is not of the sign and size of its angle's slope."""
+    """Refuse a joint whose rate does not have the sign and size of its angle's derivative."""
     alike = 0.0 if np.std(slope) == 0 or np.std(rate) == 0 else np.corrcoef(slope, rate)[0, 1]
     if alike < -_ALIKE:
-        raise FileError(path, f"joint {joint}: its rate is negative where its angle grows: one has the other sign")
+        raise FileError(path, f"joint {joint}: its rate is negative where its angle grows: one has the wrong sign")
     if alike < _ALIKE:
         return  # too noisy to judge by
     ratio = np.sum(slope * rate) / np.sum(slope**2)
     if not 1 / 15 < ratio < 15:
         raise FileError(
             path,
-            f"joint {joint}: rates {ratio:.3g} times as large as its angle changes: degrees and radians mixed?",
+            f"joint {joint}: its rate is {ratio:.3g} times the change of its angle: degrees and radians mixed?",
         )

@@ -1,10 +1,10 @@
-"""Whether angles change by what their rates add up to: by r = 1 times that, where clock, units and gains are right.
+"""Whether angles change as the integrals of their rates: the ratio r is 1 if clock, units and gains are right.
 
-  r = sum(I theta) / sum(I^2),  I the integral of a joint's rate, both less their mean and slope in time
+  r = sum(I theta) / sum(I^2),  I the integral of a joint's rate, both minus their mean and linear trend in time
 
-No model of the arm is asked: gyros that drift, sensors that are all late alike and zeros that are off leave r as it is.
-A clock that shows 5 % too little time makes r = 1.05, gyros that show 20 % too much r = 0.83; what a noise estimate
-would take for sensors that wander is then no noise, and all that is fitted is off.
+No model of the arm is needed: drifting gyros, a common delay of all sensors and wrong zeros leave r unchanged. A clock
+that shows 5 % too little time makes r = 1.05, gyros that show 20 % too much make r = 0.83; a noise estimate would then
+mistake the difference for wandering sensors, and all fitted values would be wrong.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from scipy.interpolate import CubicSpline
 from continuum.arrays import Array
 from continuum.recordings.recording import Recording
 
-_ENOUGH = 0.03  # off 1, of all recordings or of one; where joints stick and slip sound ones are off by up to 0.02
-_ENOUGH_OF_A_JOINT = 0.15  # one that sticks all the time is off by up to 0.08
+_ENOUGH = 0.03  # from 1, of all recordings or of one; correct ones with stick-slip deviate by up to 0.02
+_ENOUGH_OF_A_JOINT = 0.15  # one that sticks all the time deviates by up to 0.08
 _DEVIATIONS = 4.0
-_QUIETED = 8  # rows, over which an angle's white noise is averaged
+_QUIETED = 8  # rows over which an angle's white noise is averaged
 
 
 def odd_rates(recordings: Sequence[Recording]) -> list[str]:
-    """A sentence where angles and rates are not of one motion, or one for each recording and joint; none otherwise."""
+    """Return a sentence if angles and rates are not of one motion, or one for each recording and joint; else none."""
     description = _described("", rate_ratio(recordings), _ENOUGH)
     if description:
         return description
@@ -40,14 +40,14 @@ def _described(where: str, found: tuple[float, float], enough: float) -> list[st
     ratio, deviation = found
     if abs(ratio - 1) <= max(enough, _DEVIATIONS * deviation):
         return []
-    why = "the clock, a unit or a gyro's gain is wrong, and what is fitted is off by it"
-    return [f"{where}angles change {ratio:.2f} times as much as their rates add up to: {why}"]
+    why = "the clock, a unit or a gyro's gain is wrong, and so are fitted values"
+    return [f"{where}angles change by {ratio:.2f} times the integral of their rates: {why}"]
 
 
 def rate_ratio(recordings: Sequence[Recording], joint: int | None = None) -> tuple[float, float]:
-    """r of recordings with rates, of all joints or of one, and its standard deviation; 1 and infinite without any.
+    """Return r of recordings with rates, of all joints or of one, and its standard deviation; 1 and infinity without.
 
-    Between samples rates jump where a joint sticks or slips: what every second sample would say tells by how much.
+    Rates jump between samples where a joint sticks or slips: the r of every second sample shows the effect.
     """
     found, deviation = _ratio(recordings, joint)
     halves = [_ratio([run.rows(slice(first, None, 2)) for run in recordings], joint)[0] for first in (0, 1)]
@@ -55,9 +55,9 @@ def rate_ratio(recordings: Sequence[Recording], joint: int | None = None) -> tup
 
 
 def _ratio(recordings: Sequence[Recording], joint: int | None) -> tuple[float, float]:
-    """r, and its standard deviation by what is left of the angles.
+    """Return r, and its standard deviation from the residuals of the angles.
 
-    That hangs together over a second or so: a joint's whole recording counts as one sample of it.
+    These are correlated over about a second: a joint's whole recording counts as one sample of them.
     """
     product = square = error = 0.0
     chosen = slice(None) if joint is None else slice(joint, joint + 1)
@@ -75,6 +75,6 @@ def _ratio(recordings: Sequence[Recording], joint: int | None) -> tuple[float, f
 
 
 def _swinging(times: Array, signal: Array) -> Array:
-    """Less its mean and its slope in time."""
+    """Return a signal minus its mean and linear trend in time."""
     away = np.stack([np.ones(times.size), times - times.mean()], axis=1)
     return np.asarray(signal - away @ np.linalg.lstsq(away, signal)[0])

@@ -1,4 +1,4 @@
-"""One run from a file of any kind that is known: a CSV table, or a rosbag2 recording."""
+"""One run from a file of any known kind: a CSV table, or a rosbag2 recording."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from continuum.recordings.recording_csv import read_recording_csv
 
 
 def read_recording(path: str | Path) -> Recording:
-    """The run of a CSV file, or of a rosbag2 recording's folder or storage file.
+    """Read the run of a CSV file, or of a rosbag2 recording's folder or storage file.
 
     Raises:
-        FileError: it cannot be read, or is no such recording.
+        FileError: it cannot be read, or is not such a recording.
     """
     return read_recording_bag(path) if is_bag(path) else read_recording_csv(path)

@@ -1,4 +1,4 @@
-"""Whether a recording is of the arm that it is read with: both have the same sections with as many joints."""
+"""Whether a recording is of the given arm: both have the same sections with the same numbers of joints."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ def check_joints(path: Path | str, names: Iterable[str], arm: Arm) -> None:
     """Refuse a recording of another arm.
 
     Args:
-        path: of the recording.
-        names: of all of its joints; those that are of no section do not count.
-        arm: the one that it is to be of.
+        path: path of the recording.
+        names: names of all of its joints; those of no section do not count.
+        arm: the expected arm.
 
     Raises:
-        FileError: it is not; the message names the sections of both.
+        FileError: it is of another arm; the message names the sections of both.
     """
     recorded, expected = bending_joints(names), {section.name: section.n_joints for section in arm.sections}
     if recorded != expected:
@@ -27,7 +27,7 @@ def check_joints(path: Path | str, names: Iterable[str], arm: Arm) -> None:
 
 
 def _words(joints: Mapping[str, int]) -> str:
-    """As `section_1 (5 joints), section_2 (1 joint)`."""
+    """Format as `section_1 (5 joints), section_2 (1 joint)`."""
     return (
         ", ".join(f"{name} ({n} joint{'' if n == 1 else 's'})" for name, n in sorted(joints.items()))
         or "no section's joints"

@@ -8,10 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.input_kind import InputKind
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.joint_torques import JointTorques, no_torques
-from continuum.dynamics.model import Model
+from continuum.dynamics.model import InputKind, Model
 from continuum.dynamics.tensions import LET_GO, Tensions, slack
 from continuum.errors import InvalidValueError
 
@@ -21,17 +20,17 @@ class Recording:
     """One run.
 
     Attributes:
-        name: of the run, for reports.
-        times: of the samples, rising, (n_times,) [s].
+        name: name of the run, for reports.
+        times: rising times of the samples, (n_times,) [s].
         theta: joint angles, (n_times, n_joints) [rad].
-        theta_rate: joint rates, (n_times, n_joints) [rad/s]; None where they were not measured.
-        tensions: of the cables, commanded or measured at the base; slack where there are none.
-        notes: what was repaired while reading, one sentence each.
-        torques: of the joints' drives, commanded or measured; none where cables drive the arm or nothing does.
+        theta_rate: joint rates, (n_times, n_joints) [rad/s]; None if they were not measured.
+        tensions: tensions of the cables, commanded or measured at the base; slack if None.
+        notes: repairs made while reading, one sentence each.
+        torques: torques of the joints' drives, commanded or measured; None if cables or nothing drives the arm.
 
     Raises:
-        InvalidValueError: arrays that do not fit each other or are not finite, times that do not rise, or both tensions
-            and torques.
+        InvalidValueError: arrays that do not match or are not finite, times that do not rise, or both tensions and
+            torques.
     """
 
     name: str
@@ -70,8 +69,8 @@ class Recording:
     def pull(self) -> Tensions:
         """Tensions of the cables over time.
 
-        Where there are none, no motor holds a cable. Where constant ones fall to nothing from one row to the next and
-        stay so to the end, the cables were let go.
+        If there are none, no motor holds a cable. If constant tensions drop to zero from one row to the next and stay
+        there to the end, the cables were let go.
         """
         if self.tensions is None or not np.any(self.tensions.values > 0):
             return slack()
@@ -89,7 +88,7 @@ class Recording:
         return bool(pulled or (self.torques is not None and np.any(self.torques.values)))
 
     def inputs_for(self, model: Model) -> InputSignal:
-        """What drove the arm, as the model takes it; slack cables or no torques where nothing did.
+        """Return what drove the arm, as the model takes it; slack cables or zero torques if nothing did.
 
         Raises:
             InvalidValueError: the model takes other inputs than were recorded, or has another number of joints.
@@ -105,6 +104,6 @@ class Recording:
         return no_torques(self.n_joints) if self.torques is None else self.torques
 
     def rows(self, chosen: slice) -> Recording:
-        """A part of the run, its inputs kept."""
+        """Return a part of the run with all of its inputs."""
         rate = None if self.theta_rate is None else self.theta_rate[chosen]
         return replace(self, times=self.times[chosen], theta=self.theta[chosen], theta_rate=rate)

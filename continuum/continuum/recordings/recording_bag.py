@@ -1,9 +1,9 @@
 """Recordings from rosbag2: `joint_states` and `cable_states` of one section that bends in a plane.
 
-What the node `dynamics` publishes, or a real arm in its place: angles and rates of the bending joints, and the cables'
+The node `dynamics`, or a real arm in its place, publishes angles and rates of the bending joints, and the cables'
 tensions as `effort`. An arm with drives at its joints has their torques as `effort` of `joint_states`; values that are
-not finite, or zero throughout, say that there are none. Damage is told by the number of the `joint_states` message,
-from 1 in the order of the stamps.
+not finite, or zero throughout, mean that there are none. Messages on damage name the number of the `joint_states`
+message, from 1 in the order of the stamps.
 """
 
 from __future__ import annotations
@@ -31,15 +31,14 @@ from continuum.recordings.samples import Samples
 
 _JOINTS, _CABLES = "/joint_states", "/cable_states"
 _IN_PLANE = 1e-3  # rad, by which the bending plane may turn
-_FARTHEST = 0.1  # s, from a joint state to the next tension known
+_FARTHEST = 0.1  # s, from a joint state to the nearest known tension
 
 
 def read_recording_bag(path: str | Path) -> Recording:
-    """Read one run; the folder's name becomes the run's, time counts from its first joint state.
+    """Read one run, named after its folder; time counts from its first joint state.
 
     Raises:
-        FileError: no readable recording, one of another arm than a section that bends in a plane, or damaged beyond
-            repair.
+        FileError: not a readable recording, not of a section that bends in a plane, or damaged beyond repair.
     """
     with Bag(path) as bag:
         every = list(bag.messages(_JOINTS, TOPICS[_JOINTS]))
@@ -65,7 +64,7 @@ def read_recording_bag(path: str | Path) -> Recording:
     torques = None if good.torque is None else JointTorques(good.times, good.torque)
     notes = (*others, *other_cables, *notes)
     if tensions is None and torques is None:
-        notes = (*notes, f"no efforts on {_CABLES}: cables taken as slack")
+        notes = (*notes, f"no efforts on {_CABLES}: cables assumed slack")
     return Recording(
         printable(bag.path.name if bag.path.is_dir() else bag.path.stem),
         good.times,
@@ -78,7 +77,7 @@ def read_recording_bag(path: str | Path) -> Recording:
 
 
 def _bending_joints(bag: Bag, joints: Sequence[Any]) -> tuple[str, list[str]]:
-    """Name of the section, and of its bending joints from base to tip; its plane must not turn."""
+    """Return the names of the section and of its bending joints from base to tip; its plane must not turn."""
     known = list(dict.fromkeys(name for one in joints for name in one.name))
     first = theta_joints("", 1)[0]
     sections = [name.removesuffix(first) for name in known if name.endswith(first)]
@@ -93,7 +92,7 @@ def _bending_joints(bag: Bag, joints: Sequence[Any]) -> tuple[str, list[str]]:
 
 
 def _torque(joints: Sequence[Any], names: Sequence[str]) -> Array | None:
-    """Efforts of the joints, (n_times, n_joints) [N m], NaN in a message that has none; None where all are nothing."""
+    """Return the joints' efforts, (n_times, n_joints) [N m], NaN in a message without; None if all are zero or NaN."""
     torque = np.full((len(joints), len(names)), np.nan)
     for row, one in zip(torque, joints, strict=True):
         if len(one.effort) == len(one.name):
@@ -104,7 +103,7 @@ def _torque(joints: Sequence[Any], names: Sequence[str]) -> Array | None:
 
 
 def _pull(bag: Bag, section: str, start: int, times: Array) -> tuple[Array | None, tuple[str, ...]]:
-    """Tensions at the times of the joint states, (n_times, n_cables) [N], NaN far from any that is known; notes."""
+    """Return tensions at the times of the joint states, (n_times, n_cables) [N], NaN far from known ones; and notes."""
     messages = bag.messages(_CABLES, TOPICS[_CABLES]) if _CABLES in bag.topics else []
     there, others = of_an_arm(bag.path, _CABLES, messages)
     if not any(len(one.effort) for one in there):
@@ -123,7 +122,7 @@ def _pull(bag: Bag, section: str, start: int, times: Array) -> tuple[Array | Non
 
 
 def _table(bag: Bag, messages: Sequence[Any], field: str, names: Sequence[str]) -> Array:
-    """One row for each message, one column for each name; what is not there or not finite is left to be repaired."""
+    """Return a row for each message and a column for each name; missing and non-finite values are left for repair."""
     table = np.full((len(messages), len(names)), np.nan)
     for row, one in zip(table, messages, strict=True):
         if len(given := getattr(one, field)):

@@ -1,4 +1,4 @@
-"""What may be wrong with samples of a run, repaired or refused by row."""
+"""Faults of a run's samples, repaired or refused by row."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ _SAME_TIME = 1e-7  # s: no sensor is that fast
 _FEWEST_ROWS = 30
 _LONGEST_GAP = 0.25  # s; the arm may do anything in a longer one
 _UNITS = (("milliseconds", 1e3), ("microseconds", 1e6), ("nanoseconds", np.inf))  # and how many make a second
-_LONGEST_HOLD, _HELD = 12, 1 / 3  # rows that a reading stands for at most, and part of all rows that do from where on
-_CLIPPED_ROWS = 3  # of the same extreme value one after the other
+_LONGEST_HOLD, _HELD = 12, 1 / 3  # most rows that repeat a reading, and fraction of rows above which they are left out
+_CLIPPED_ROWS = 3  # consecutive rows with the same extreme value
 _CLIPPED_STEP = 3  # units of the last digit, by which a signal jumps to its limit
-_ZERO_TENSION = 0.2  # N, by which a load cell may be off where a cable hangs loose
+_ZERO_TENSION = 0.2  # N, largest error of a load cell on a loose cable
 
 
 def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
-    """The samples fit for use, and a note on each repair.
+    """Return repaired samples, and a note on each repair.
 
     Raises:
-        FileError: backward time, long gaps, negative tensions, too many bad rows, or units that cannot be the
-            stated ones.
+        FileError: time that runs backward, long gaps, negative tensions, too many bad rows, or units that cannot be
+            the stated ones.
     """
     notes: list[str] = []
     good, held = _without_held(samples)
@@ -57,15 +57,15 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     good, unmeasured = without_still_rates(good)
     if held:
         pushing.append(
-            f"{held} {good.row}s repeat the angles of the {good.row} before, as of a slower sensor; left out"
+            f"{held} {good.row}s repeat the angles of the {good.row} before, as from a slower sensor; left out"
         )
     return good, (*(f"{note}, left out" for note in notes), *pushing, *unmeasured)
 
 
 def _without_held(samples: Samples) -> tuple[Samples, int]:
-    """Rows between two readings of a sensor that is slower than the table left out, and how many these are.
+    """Leave out rows between two readings of a sensor that is slower than the table, and count them.
 
-    All angles are those of the row before, again and again for a few rows; an arm at rest is so for longer.
+    In these, all angles are those of the row before, for a few rows at a time; an arm at rest repeats them for longer.
     """
     same = np.all(np.diff(samples.theta, axis=0, prepend=np.nan) == 0, axis=1)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(int)))
@@ -76,7 +76,7 @@ def _without_held(samples: Samples) -> tuple[Samples, int]:
 
 
 def _complete(samples: Samples) -> NDArray[np.bool_]:
-    """Rows in which every number is finite."""
+    """Return the rows in which every number is finite."""
     return np.all(np.isfinite(np.column_stack([samples.times, *samples.measured])), axis=1)
 
 
@@ -91,7 +91,7 @@ def _refuse_backward(samples: Samples) -> None:
 
 
 def _clipped(samples: Samples) -> NDArray[np.bool_]:
-    """Rows in which a rate stands still at its extreme and jumps there, as a sensor at the end of its range does."""
+    """Return the rows in which a rate jumps to its extreme and stays there, like a sensor at the end of its range."""
     clipped = np.zeros(samples.times.size, dtype=bool)
     if samples.rate is None:
         return clipped
@@ -122,14 +122,14 @@ def _refuse_gaps(samples: Samples) -> None:
 
 
 def _unit_of(step: float) -> str:
-    """What steps from row to row may be in that are too long for seconds."""
+    """Return the probable unit of steps from row to row that are too long for seconds."""
     if step == 1:
         return "milliseconds, or a count of rows"
     return next(unit for unit, longest in _UNITS if step <= _LONGEST_GAP * longest)
 
 
 def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:
-    """Tensions a little below zero taken as none, and a note on them."""
+    """Set tensions slightly below zero to zero, and return a note on them."""
     if samples.pull is None or np.all(samples.pull >= 0):
         return samples, []
     least = np.min(samples.pull, axis=1)
@@ -141,8 +141,8 @@ def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:
             f"tension {least[at]:g} N; a cable cannot push, and a load cell's zero is off by {_ZERO_TENSION} N at most"
         )
         raise FileError(samples.path, f"{where}: {pushed}")
-    if np.max(samples.pull) <= _ZERO_TENSION:  # as far above as below: noise of cells whose cables hang loose
+    if np.max(samples.pull) <= _ZERO_TENSION:  # as far above as below: noise of load cells on loose cables
         summary = f"tensions from {np.min(least):.2g} to {np.max(samples.pull):.2g} N are of cables that hang loose"
-        return replace(samples, pull=np.zeros_like(samples.pull)), [f"{summary}, all taken as none"]
-    note = f"{samples.described(least < 0)} with a tension below zero, by {-np.min(least):.2g} N at most, taken as none"
+        return replace(samples, pull=np.zeros_like(samples.pull)), [f"{summary}, all set to zero"]
+    note = f"{samples.described(least < 0)} with a tension below zero, by {-np.min(least):.2g} N at most, set to zero"
     return replace(samples, pull=np.maximum(samples.pull, 0.0)), [note]

@@ -1,8 +1,8 @@
 """Recordings from CSV: `t_s`, `q1_deg` or `q1_rad` .., optional `dq1_deg_s` or `dq1_rad_s` .., and what drives the arm.
 
 That is `u1_N`, `u2_N`, the tensions of two cables of which cable 1 bends the arm towards positive angles, or `tau1_Nm`
-.., the torques of drives at the joints, positive towards positive angles. What is damaged is repaired where nothing is
-invented by it, and told; else refused, and told which row of the file (the header is row 1) is the matter.
+.., the torques of drives at the joints, positive towards positive angles. Damage is repaired, with a note, if that
+invents no data; otherwise the file is refused, and the message names the row (the header is row 1).
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ from continuum.recordings.recording_checks import repaired
 from continuum.recordings.samples import Samples
 from continuum.recordings.table_file import read_table
 
-_NAMES = f"{TIME} [s], q1_deg .. or q1_rad .., and where there are any dq1_deg_s .., u1_N, u2_N or tau1_Nm .."
+_NAMES = f"{TIME} [s], q1_deg .. or q1_rad .., and optionally dq1_deg_s .., u1_N, u2_N or tau1_Nm .."
 
 
 def read_recording_csv(path: str | Path) -> Recording:
-    """Read one run; the file's name without its ending becomes the run's.
+    """Read one run, named after the file without its suffix.
 
     Raises:
         FileError: the file cannot be read, has other columns, or is damaged beyond repair.
@@ -54,22 +54,22 @@ def read_recording_csv(path: str | Path) -> Recording:
     torques = None if good.torque is None else JointTorques(good.times, good.torque)
     for quantity in QUANTITIES:
         if any(name and name[0] == 0 for name in map(quantity.names, header)):
-            notes = (*notes, f"{quantity.letter}0 is that of number 1: numbers count from 0 in this file")
+            notes = (*notes, f"{quantity.letter}0 is read as number 1: numbers count from 0 in this file")
     if others:
         named = (name or "one without a name" for name in others)
-        notes = (*notes, f"columns that are not understood, and not used: {', '.join(named)}")
+        notes = (*notes, f"unknown columns, not used: {', '.join(named)}")
     return Recording(printable(path.stem), good.times, good.theta, good.rate, tensions, notes, torques)
 
 
 def _of_nothing(header: Sequence[str]) -> list[str]:
-    """Columns that are neither the time nor of a quantity."""
+    """Return the columns that are neither the time nor of a quantity."""
     return [name for name in header if name != TIME and not any(q.names(name) for q in QUANTITIES)]
 
 
 def _numbers(path: Path) -> tuple[list[str], NDArray[np.int64], Array]:
-    """Header, numbers of the rows that are not blank, and what they hold, (rows, columns).
+    """Read the header, the numbers of the rows that are not blank, and their values, (rows, columns).
 
-    A cell without a value is NaN, and so is what stands in a column that is not understood, a remark perhaps.
+    A cell without a value is NaN, and so is any cell of an unknown column, such as a remark.
     """
     found = read_table(path, TIME, _NAMES)
     header = found.header
@@ -87,11 +87,11 @@ def _number(path: Path, row: int, column: str, cell: str) -> float:
     try:
         return number_of(cell)
     except ValueError as error:
-        raise FileError(path, f"row {row}, column {column}: {cell!r} is no number{hint_of_cell(cell)}") from error
+        raise FileError(path, f"row {row}, column {column}: {cell!r} is not a number{hint_of_cell(cell)}") from error
 
 
 def _block(path: Path, columns: dict[str, Array], quantity: Quantity) -> Array | None:
-    """All columns of a quantity in SI units, (rows, n); None where there are none."""
+    """Return all columns of a quantity in SI units, (rows, n); None if there are none."""
     found: dict[int, Array] = {}
     for name, values in columns.items():
         named = quantity.names(name)
@@ -106,10 +106,10 @@ def _block(path: Path, columns: dict[str, Array], quantity: Quantity) -> Array |
         found[number] = values * quantity.units[unit]
     if not found:
         return None
-    if 0 in found:  # another program's count
+    if 0 in found:  # another program counts from 0
         found = {number + 1: values for number, values in found.items()}
     if sorted(found) != list(range(1, len(found) + 1)):
         numbers, others = ", ".join(map(str, sorted(found))), ", ".join(_of_nothing(list(columns)))
-        hint = f"; not understood: {others}" if others else ""
+        hint = f"; unknown: {others}" if others else ""
         raise FileError(path, f"has {quantity.letter} of {numbers}: numbers must run from 1 without a gap{hint}")
     return np.stack([found[number] for number in sorted(found)], axis=1)

@@ -1,4 +1,4 @@
-"""What one run's table holds, before it is checked."""
+"""The contents of one run's table, before they are checked."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ class Samples:
     """Rows of a table, NaN where a cell is empty.
 
     Attributes:
-        path: of the file or folder.
-        numbers: of the rows in it, as a person counts them, (rows,).
+        path: path of the file or folder.
+        numbers: numbers of the rows in it, from 1, (rows,).
         times: (rows,) [s].
         theta: (rows, n_joints) [rad].
         rate: (rows, n_joints) [rad/s], or None.
         pull: (rows, n_cables) [N], or None.
-        row: what a row is called.
+        row: word for a row in messages.
         torque: (rows, n_joints) [N m], or None.
     """
 
@@ -37,12 +37,12 @@ class Samples:
 
     @property
     def measured(self) -> list[Array]:
-        """The blocks that there are, (rows, columns) each."""
+        """All blocks that are not None, (rows, columns) each."""
         blocks = (self.theta, self.rate, self.pull, self.torque)
         return [block for block in blocks if block is not None]
 
     def chosen(self, rows: NDArray[np.bool_]) -> Samples:
-        """Some of the rows."""
+        """Return some of the rows."""
         some = (None if block is None else block[rows] for block in (self.rate, self.pull, self.torque))
         rate, pull, torque = some
         return replace(
@@ -56,7 +56,7 @@ class Samples:
         )
 
     def described(self, rows: NDArray[np.bool_]) -> str:
-        """`row 7`, or `rows 7, 8, 9, ..`."""
+        """Format as `row 7`, or `rows 7, 8, 9, ..`."""
         numbers = [str(number) for number in self.numbers[rows]]
         shown = ", ".join(numbers[:8]) + (", .." if len(numbers) > 8 else "")
         return f"{self.row}{'' if len(numbers) == 1 else 's'} {shown}"

@@ -1,7 +1,7 @@
-"""Tables of numbers in text files, however another program wrote them: one reader for all of them.
+"""Tables of numbers in text files: one reader for the formats of many programs.
 
-The names of the columns stand in the first line that has the one that every such table has; what stands before
-it are remarks. Columns stand between commas, semicolons or tabs; where these are not commas, decimals may have some.
+The names of the columns are in the line that has a column which every such table has; lines before it are remarks.
+Commas, semicolons or tabs separate columns; unless these are commas, decimals may have commas.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ class Table:
     """Cells of a file.
 
     Attributes:
-        path: of the file.
+        path: path of the file.
         before: lines before the columns' names, as cells.
-        header: names of the columns; the last ones that have neither a name nor a value are left out.
-        header_row: its number in the file, from 1.
-        numbers: of the rows that are not blank, (rows,).
-        rows: their cells, decimals with a point; as many as there are names.
+        header: names of the columns, without last columns that have neither a name nor a value.
+        header_row: number of the header in the file, from 1.
+        numbers: numbers of the rows that are not blank, (rows,).
+        rows: their cells, with decimal points; as many as there are names.
     """
 
     path: Path
@@ -45,15 +45,15 @@ class Table:
 
 
 def read_table(path: str | Path, key: str, wanted: str) -> Table:
-    """Read a file whose columns' names have ``key`` among them.
+    """Read a file with a column ``key``.
 
     Args:
-        path: of the file.
+        path: path of the file.
         key: name of the column that every such table has.
-        wanted: names of all columns that may be there, in words, for messages.
+        wanted: names of all possible columns, in words, for messages.
 
     Raises:
-        FileError: it cannot be read, is no text, is empty, has no such line or two, more columns than any arm, or a row
+        FileError: it cannot be read, is not text, is empty, has no header or two, more columns than any arm, or a row
             with more or fewer cells than there are names.
     """
     path = Path(path)
@@ -93,10 +93,10 @@ def read_table(path: str | Path, key: str, wanted: str) -> Table:
 
 
 def read_text(path: Path) -> str:
-    """What a file holds: UTF-8, UTF-16 with its mark, or an old code of one byte a letter.
+    """Read the text of a file in UTF-8, UTF-16 with a byte order mark, or an old encoding of one byte per letter.
 
     Raises:
-        FileError: it cannot be read, or is no text.
+        FileError: it cannot be read, or is not text.
     """
     try:
         data = path.read_bytes()
@@ -107,7 +107,7 @@ def read_text(path: Path) -> str:
     except UnicodeDecodeError:
         text = data.decode("cp1252", errors="replace")
     if "\0" in text:
-        raise FileError(path, "is no text file: a CSV file is needed, in UTF-8 or in UTF-16 with its mark")
+        raise FileError(path, "is not a text file: a CSV file is needed, in UTF-8 or in UTF-16 with a byte order mark")
     return text
 
 
@@ -116,5 +116,5 @@ def _separator(line: str) -> str:
 
 
 def _names(line: str) -> list[str]:
-    """Names of columns in a line, which may be marked as a remark."""
+    """Return the names of columns in a line, which may be marked as a remark."""
     return [cell.strip().strip('"') for cell in line.lstrip("#% ").split(_separator(line))]

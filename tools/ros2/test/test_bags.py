@@ -61,7 +61,7 @@ def test_mistakes(ros2, bag: Path) -> None:
 
 
 @pytest.mark.ros
-def test_play_tells_what_and_that_it_ended(ros2, bag: Path) -> None:
+def test_play_reports_what_and_that_it_ended(ros2, bag: Path) -> None:
     output = ros2("bag", "play", bag, "--rate", "5", "--clock").stderr
     assert f"playing '{bag}': 0.6 s, 1 topics" in output
     assert f"{COUNT}  /numbers" in output

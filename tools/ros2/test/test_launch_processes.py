@@ -34,7 +34,7 @@ def launch(ros2, tmp_path: Path):
     return start
 
 
-def test_a_crash_is_told_and_the_others_go_on(launch) -> None:
+def test_a_crash_is_reported_and_the_others_go_on(launch) -> None:
     running = launch("""
         <executable cmd="sh -c 'echo hello; exit 3'" name="crash" output="screen"/>
         <executable cmd="sh -c 'echo quiet; echo loud >&amp;2'" name="log"/>
@@ -118,7 +118,7 @@ def test_parameter_files_last_as_long_as_the_launch(launch, program, tmp_path: P
     assert not file.exists()
 
 
-def test_arguments_are_shown_and_mistyped_ones_told(ros2, tmp_path: Path) -> None:
+def test_arguments_are_shown_and_mistyped_ones_reported(ros2, tmp_path: Path) -> None:
     file = tmp_path / "test.launch.xml"
     file.write_text('<launch><arg name="n" default="1" description="how many"/><arg name="m"/></launch>')
     shown = ros2("launch", file, "--show-args").stdout

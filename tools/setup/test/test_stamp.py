@@ -57,7 +57,7 @@ def test_code_tests_and_linked_files_need_no_build(checkout: Path, name: str) ->
     assert stale_after(checkout, name) == set()
 
 
-def test_another_lock_makes_everything_anew(checkout: Path) -> None:
+def test_another_lock_makes_everything_again(checkout: Path) -> None:
     before = stamp.wanted().environment
     assert stale_after(checkout, "requirements.lock") == {"msgs", "nodes"}
     assert stamp.wanted().environment != before

@@ -1,4 +1,4 @@
-"""A diagnosis as one page that needs no other file."""
+"""A diagnosis as one self-contained page."""
 
 from continuum.discovery.report.page import write_report
 

@@ -1,6 +1,6 @@
 """A chart as paths and ticks of an SVG, which templates/chart.html draws.
 
-Colours are left to the page, so that they follow its light or dark mode.
+The page sets the colours, so that they follow its light or dark mode.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from continuum.arrays import Array
 _LEFT, _RIGHT, _TOP, _BOTTOM = 42.0, 8.0, 20.0, 34.0
 """Margins for the ticks' numbers, title and axis [px]."""
 _SEEN = 0.3
-"""By how much a line may leave out what it passes [px]: less than its own width."""
+"""Largest deviation of a simplified line from its points [px]: less than its width."""
 _ROOM = 0.06
-"""Part of an axis that is left free beyond the data."""
+"""Fraction of an axis that is left free beyond the data."""
 _SAME = 1e-9
-"""Values that differ by less are one on a scale, in parts of them: floats say no more of what is computed."""
+"""Relative difference below which values count as equal on a scale: computed floats are no more accurate."""
 
 type Limits = tuple[float, float]
 
@@ -34,7 +34,7 @@ class Line:
 
     Attributes:
         style: class of the page's style sheet.
-        x, y: points, (n,) each, of the axes' units; gaps where NaN.
+        x, y: points, (n,) each, in the axes' units; NaN leaves a gap.
     """
 
     style: str
@@ -47,11 +47,11 @@ class Axes:
     """What is drawn in one pair of axes.
 
     Attributes:
-        title: what it shows, above it.
-        x_label: below it.
-        lines: the uppermost last.
-        band: half-width of a band around zero; none at 0.
-        x, y: limits; those of the data without.
+        title: text above the axes.
+        x_label: text below the axes.
+        lines: curves, the topmost last.
+        band: half-width of a band around zero; 0 for none.
+        x, y: limits; those of the data if None.
     """
 
     title: str
@@ -63,7 +63,7 @@ class Axes:
 
 
 class Tick(NamedTuple):
-    """Where, and its number."""
+    """Position of a tick [px], and its number."""
 
     at: float
     text: str
@@ -71,13 +71,13 @@ class Tick(NamedTuple):
 
 @dataclass(frozen=True)
 class Chart:
-    """A chart in pixels from the upper left.
+    """A chart in pixels from the upper left corner.
 
     Attributes:
-        width, height: of the whole.
-        left, right, top, bottom: of the axes.
-        zero: height of y = 0; None where that is outside.
-        band: upper end and height of the band; None without.
+        width, height: size of the chart.
+        left, right, top, bottom: edges of the axes.
+        zero: position of y = 0; None if outside.
+        band: upper end and height of the band; None if there is none.
     """
 
     title: str
@@ -96,7 +96,7 @@ class Chart:
 
 
 def chart(axes: Axes, width: float = 320.0, height: float = 150.0) -> Chart:
-    """Put axes into pixels."""
+    """Convert axes to pixels."""
     left, right, top, bottom = _LEFT, width - _RIGHT, _TOP, height - _BOTTOM
     x_limits, y_limits = axes.x or limits([line.x for line in axes.lines], 0.0), axes.y or y_limits_of([axes])
     along = _Scale(x_limits, (left, right))
@@ -112,19 +112,19 @@ def chart(axes: Axes, width: float = 320.0, height: float = 150.0) -> Chart:
 
 
 def shared(several: Sequence[Axes]) -> list[Axes]:
-    """The same axes with one scale for all."""
+    """Return the same axes with one scale for all."""
     x, y = limits([line.x for one in several for line in one.lines], 0.0), y_limits_of(several)
     return [replace(one, x=x, y=y) for one in several]
 
 
 def y_limits_of(several: Sequence[Axes]) -> Limits:
-    """Limits that hold all lines and bands."""
+    """Return limits that contain all lines and bands."""
     bands = [np.array([-one.band, one.band]) for one in several if one.band > 0]
     return limits([*(line.y for one in several for line in one.lines), *bands], _ROOM)
 
 
 def limits(values: Sequence[Array], room: float) -> Limits:
-    """The least and the most of all that is finite, and a part of that to each side."""
+    """Return the least and the largest finite value, extended by a fraction of the range on each side."""
     every = np.concatenate([np.ravel(one) for one in values]) if values else np.zeros(0)
     every = every[np.isfinite(every)]
     if not every.size:
@@ -139,7 +139,7 @@ def limits(values: Sequence[Array], room: float) -> Limits:
 
 
 class _Scale(NamedTuple):
-    """From the axes' units to pixels."""
+    """Scale from the axes' units to pixels."""
 
     limits: Limits
     pixels: Limits
@@ -149,11 +149,11 @@ class _Scale(NamedTuple):
         return first + (values - low) * ((last - first) / (high - low))
 
     def at(self, value: float) -> float:
-        """To a tenth of a pixel."""
+        """Return the position of a value, to a tenth of a pixel."""
         return round(float(self(np.asarray(value))), 1)
 
     def ticks(self, most: int) -> tuple[Tick, ...]:
-        """At round numbers."""
+        """Return ticks at round numbers."""
         places = MaxNLocator(most, steps=[1, 2, 5, 10]).tick_values(*self.limits)
         step = min((b - a for a, b in itertools.pairwise(places)), default=1.0)
         decimals = max(0, -int(np.floor(np.log10(step) + 1e-9)))
@@ -166,7 +166,7 @@ def _text(value: float, decimals: int) -> str:
 
 
 def _path(x: Array, y: Array) -> str:
-    """Of an SVG, by fewer points where these are nearly in line; a new piece after every gap."""
+    """Return an SVG path with fewer points where these are nearly in line, and a new piece after every gap."""
     if not np.any(np.isfinite(x + y)):
         return ""
     path = Path(np.column_stack([x, y]))

@@ -1,4 +1,4 @@
-"""How templates become pages: what is put into a page is escaped, and nothing is left undefined."""
+"""How templates become pages: inserted values are escaped, and undefined ones are errors."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from continuum.printable import one_line
 
 
 def environment() -> jinja2.Environment:
-    """Escapes all that is put into the page; names of recordings, of which any character may be part, stay one line."""
+    """Return an environment that escapes inserted values and keeps names, with whatever characters, on one line."""
     return jinja2.Environment(
         loader=jinja2.PackageLoader(__package__),
         autoescape=True,

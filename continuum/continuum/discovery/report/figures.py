@@ -16,7 +16,7 @@ from continuum.identification.estimate import Z_95
 BEFORE, AFTER, MEASURED = "before", "after", "measured"
 """Classes of the page's style sheet."""
 TIME = "time [s]"
-_FIRST = (400.0, 230.0)  # width and height [px]: two beside each other on a screen, one below the other on a phone
+_FIRST = (400.0, 230.0)  # width and height [px]: two side by side on a screen, one below the other on a phone
 SMALL = (320.0, 130.0)
 
 
@@ -28,7 +28,7 @@ class Place(NamedTuple):
 
 
 class JointCharts(NamedTuple):
-    """Of one joint in one recording: angles, residuals, missing torque; the same scales at all joints."""
+    """Charts of one joint in one recording: angles, residuals, missing torque; all joints have the same scales."""
 
     angles: Chart
     residuals: Chart
@@ -36,32 +36,32 @@ class JointCharts(NamedTuple):
 
 
 def noise_band(result: Diagnosis) -> float:
-    """Half-width of the band around zero in which 95 % of the angles' noise are [degrees]."""
+    """Return the half-width of the band around zero that contains 95 % of the angles' noise [degrees]."""
     return Z_95 * float(np.degrees(result.before.floor))
 
 
 def worst_place(result: Diagnosis) -> Place:
-    """The joint that lacks most torque, in the recording whose simulation errs most there before the extension."""
+    """Return the joint that lacks most torque, in the recording that the refitted model simulates worst there."""
     joint = int(np.nanargmax(result.sigma[0]))
     errors = [_rms(result.before, result, r, joint) for r in range(len(result.recordings))]
     return Place(int(np.nanargmax(errors)) if np.any(np.isfinite(errors)) else 0, joint)
 
 
 def first_charts(result: Diagnosis) -> tuple[Chart, Chart]:
-    """Angles, measured and simulated, and the missing torque, both at the worst place."""
+    """Return charts of measured and simulated angles and of the missing torque, both at the worst place."""
     place = worst_place(result)
     return chart(_angles(result, place), *_FIRST), chart(_torques(result, place), *_FIRST)
 
 
 def charts_of_run(result: Diagnosis, run: int) -> list[JointCharts]:
-    """All joints of a recording."""
+    """Return the charts of all joints of a recording."""
     places = [Place(run, joint) for joint in range(result.recordings[run].n_joints)]
     kinds = ([kind(result, place) for place in places] for kind in (_angles, _residuals, _torques))
     return [JointCharts(*(chart(one, *SMALL) for one in three)) for three in zip(*map(shared, kinds), strict=True)]
 
 
 def torques_over_angle(result: Diagnosis) -> list[Chart]:
-    """Missing torque at each joint over its angle, of all recordings."""
+    """Return charts of the missing torque of each joint over its angle, with all recordings."""
     n = result.n_joints
     axes = [Axes(f"joint {j + 1}: missing torque [mN m]", "angle [°]", tuple(_over_angle(result, j))) for j in range(n)]
     return [chart(one, *SMALL) for one in shared(axes)]
@@ -82,7 +82,7 @@ def _angles(result: Diagnosis, place: Place) -> Axes:
 
 
 def _residuals(result: Diagnosis, place: Place) -> Axes:
-    """Simulated less measured."""
+    """Return the axes of the residuals, simulated minus measured."""
     measured = result.recordings[place.run].theta
     curves = [(style, np.degrees(loop.angles[place.run] - measured)) for style, loop in _loops(result)]
     return _over_time(result, place, "residual [°]", curves, noise_band(result))

@@ -1,4 +1,4 @@
-"""The page of an identification: Table 3, Table 4 and Fig. 9 of the thesis for one's own recordings."""
+"""The page of an identification: Table 3, Table 4 and Fig. 9 of the thesis for the given recordings."""
 
 from __future__ import annotations
 
@@ -29,10 +29,10 @@ def write_identification(
 
     Args:
         identified: values and model.
-        predicted: every run.
-        fitted: runs that values are identified from, by number from 0.
-        path: where.
-        made: how it was made, one line.
+        predicted: scores of every run.
+        fitted: numbers, from 0, of the runs that values are identified from.
+        path: file to write.
+        made: one line on how it was made.
 
     Raises:
         FileError: the file cannot be written.
@@ -47,12 +47,12 @@ def write_identification(
 
 
 def value_rows(identified: Identified) -> list[tuple[str, str, str, str, str]]:
-    """Table 3: name, unit, start, value and 95 % interval, in SI units."""
+    """Return the rows of Table 3: name, unit, start, value and 95 % interval, in SI units."""
     return [_value(one) for one in identified.values]
 
 
 def score_rows(predicted: Sequence[Score], fitted: Sequence[int]) -> list[tuple[str, str, str, str, str]]:
-    """Table 4: run, its use, Eq. 19 of position and rate, and the root mean square error [degrees]."""
+    """Return the rows of Table 4: run, its use, Eq. 19 of position and rate, root mean square error [degrees]."""
     rows = []
     for k, one in enumerate(predicted):
         use = _IDENTIFY if k in fitted else _VALIDATE
@@ -63,7 +63,7 @@ def score_rows(predicted: Sequence[Score], fitted: Sequence[int]) -> list[tuple[
 
 
 def remarks(identified: Identified, predicted: Sequence[Score], fitted: Sequence[int]) -> Iterator[str]:
-    """What the tables say, one sentence each."""
+    """Yield what the tables say, in one or a few sentences each."""
     groups = [[one for k, one in enumerate(predicted) if (k in fitted) is used] for used in (True, False)]
     (position, rate), *others = ([_mean(group, name) for name in ("position", "rate")] for group in groups if group)
     text = f"Mean NRMSE of the runs that values are identified from: position {position}, rate {rate}"
@@ -84,20 +84,20 @@ def remarks(identified: Identified, predicted: Sequence[Score], fitted: Sequence
             "model is right: an effect that it lacks can hide in these values. `continuum diagnose` looks for one."
         )
     else:
-        yield "A swarm gives values without intervals, and others with another --seed: compare the errors in Table 4."
+        yield "A swarm gives values without intervals, and they vary with --seed: compare the errors in Table 4."
     yield (
-        "All of this holds for the masses and lengths of the model file. Where only its weight drives the arm, "
-        "springs, viscous and Coulomb friction are known in proportion to the masses alone."
+        "All of this holds for the masses and lengths of the model file. If only its weight drives the arm, "
+        "springs, viscous and Coulomb friction are known only in proportion to the masses."
     )
     names = [name.replace("_", " ") for name in identified.undetermined]
     if names:
-        yield f"These runs say little about {', '.join(names)}: the value is mostly what was expected beforehand."
+        yield f"These runs say little about {', '.join(names)}: the value is mostly the prior one."
     absent = [_name(one) for one in identified.values if one.start == one.value == 0]
     if absent:
         yield f"Not sought, as the model file has none: {', '.join(absent)}. Give a first value if the arm has it."
     at_bound = [_name(one) for one in identified.values if one.is_at_bound and not one.start == one.value == 0]
     if at_bound:
-        yield f"At the bound of what is possible, and therefore uncertain: {', '.join(at_bound)}."
+        yield f"At the bound of the possible range, and therefore uncertain: {', '.join(at_bound)}."
 
 
 def _value(one: Estimate) -> tuple[str, str, str, str, str]:
@@ -119,7 +119,7 @@ def _mean(group: Sequence[Score], name: str) -> str:
 
 
 def _charts(score: Score) -> list[Chart]:
-    """Angles of every joint, measured and predicted, on one scale (Fig. 9)."""
+    """Return charts of the measured and predicted angles of every joint, on one scale (Fig. 9)."""
     times = score.recording.times
     axes = [
         Axes(

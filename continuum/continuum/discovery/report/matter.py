@@ -1,4 +1,4 @@
-"""What is the matter with the arm, where and how much: one sentence for each cause."""
+"""What is wrong with the arm, where and by how much: one sentence for each cause."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from continuum.discovery.words import matter_in_words, places
 from continuum.identification.estimate import Estimate
 
 _MOST: Final = 2
-"""Values that a sentence bears."""
+"""Most values in a sentence."""
 
 
 def matter_with_value(cause: Cause) -> str:
-    """What is the matter, where, and how large it is if one or two numbers say that; without a full stop."""
+    """Say what is wrong, where, and how large it is if one or two numbers show that; without a full stop."""
     shown = cause.estimates if len(cause.estimates) <= _MOST else ()
     details = [places(cause), *(_value(one, is_alone=len(shown) == 1) for one in shown)]
     text = ", ".join(filter(None, details))

@@ -20,8 +20,8 @@ def write_report(result: Diagnosis, path: str | Path, made: str) -> None:
 
     Args:
         result: the answer.
-        path: where.
-        made: how it was made, one line.
+        path: file to write.
+        made: one line on how it was made.
 
     Raises:
         FileError: the file cannot be written.
@@ -31,7 +31,7 @@ def write_report(result: Diagnosis, path: str | Path, made: str) -> None:
 
 
 def _first(result: Diagnosis) -> dict[str, Any]:
-    """What everybody reads."""
+    """Return what every reader reads."""
     contradictions = odd_rates(result.recordings)
     worst, kind = figures.worst_place(result), result.verdict.kind
     return {
@@ -56,7 +56,7 @@ def _first(result: Diagnosis) -> dict[str, Any]:
 
 
 def _details(result: Diagnosis) -> dict[str, Any]:
-    """What engineers read."""
+    """Return what engineers read."""
     return {
         "runs": [(row, figures.charts_of_run(result, r)) for r, row in enumerate(tables.error_rows(result))],
         "joints": tables.joint_rows(result),

@@ -1,4 +1,4 @@
-"""What the recordings would have shown: of every effect its smallest size, joint by joint, and why not where not."""
+"""What the recordings would have shown: the smallest size of every effect at each joint, or the reason why not."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ _DIGITS: Final = 2
 
 
 class Cell(NamedTuple):
-    """Smallest size that would have been named; whether that is no more than the typical one."""
+    """Smallest size that would have been named, and whether it is no more than the typical one."""
 
     text: str
     is_shown: bool
 
 
 class PowerRow(NamedTuple):
-    """An effect by one of its sizes.
+    """One of the sizes of an effect.
 
     Attributes:
-        name, id, meaning, unit, typical: of it.
-        whole: where it acts on the whole arm, or at several joints at once; None where that was not asked.
-        joints: at each joint; None where that was not asked.
+        name, id, meaning, unit, typical: texts on the size.
+        whole: smallest size on the whole arm, or at several joints at once; None if not evaluated.
+        joints: smallest size at each joint; None if not evaluated.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Hidden(NamedTuple):
 
 
 def power_rows(result: Diagnosis) -> list[PowerRow]:
-    """Of every effect that is not in the best set, in the order in which they show."""
+    """Return a row for every effect that is not in the best set, the most detectable first."""
     groups = dict[tuple[str, str], list[Detectable]]()
     for one in _asked(result):
         groups.setdefault((one.effect, one.parameter), []).append(one)
@@ -56,7 +56,7 @@ def power_rows(result: Diagnosis) -> list[PowerRow]:
 
 
 def hidden_effects(result: Diagnosis) -> list[Hidden]:
-    """By reason, with the places where it holds."""
+    """Return the hidden effects by reason, with their places."""
     places = dict[str, dict[str, list[Detectable]]]()
     for one in _asked(result):
         if not one.is_shown:
@@ -69,7 +69,7 @@ def hidden_effects(result: Diagnosis) -> list[Hidden]:
 
 
 def counts(result: Diagnosis) -> tuple[int, int]:
-    """Of how many effects the typical size would have been shown wherever it acts, and how many were asked about."""
+    """Return how many effects would have been shown at typical size wherever they act, and how many were evaluated."""
     shown = dict[str, bool]()
     for one in _asked(result):
         shown[one.effect] = shown.get(one.effect, True) and one.is_shown

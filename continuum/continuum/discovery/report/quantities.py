@@ -1,4 +1,4 @@
-"""Values as people read them: angles in degrees, factors in percent, no more digits than their intervals allow."""
+"""Values for readers: angles in degrees, ratios in percent, no more digits than their intervals support."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ _UNITS: Final = {
     "m": (1e3, "mm"),
     "1": (1.0, ""),
 }
-"""Factors and units in the place of SI ones. Per-radian units stay: stiffness is given so on data sheets."""
+"""Factors and units in place of SI ones. Per-radian units stay, as data sheets give stiffness in them."""
 _EXPONENTS: Final = str.maketrans("23", "²³")
 
 
 class Scale(NamedTuple):
-    """By what an SI value is multiplied, and the unit that it has then."""
+    """Factor by which an SI value is multiplied, and the resulting unit."""
 
     factor: float
     unit: str
@@ -31,12 +31,12 @@ class Scale(NamedTuple):
 
 
 def scale_of(unit: str, meaning: str, name: str = "") -> Scale:
-    """How values of a parameter are shown.
+    """Return the scale in which values of a parameter are shown.
 
     Args:
-        unit: SI.
-        meaning: of the parameter; a ratio less one is shown in percent.
-        name: of the parameter; a frequency is shown in Hz.
+        unit: SI unit.
+        meaning: meaning of the parameter; a ratio minus one is shown in percent.
+        name: name of the parameter; a frequency is shown in Hz.
     """
     if unit == "1" and meaning.endswith(RATIO):
         return Scale(100.0, "%")
@@ -46,33 +46,33 @@ def scale_of(unit: str, meaning: str, name: str = "") -> Scale:
 
 
 def meaning_in_words(meaning: str) -> str:
-    """The meaning of a parameter; of a ratio less one, which is shown in percent, as a comparison."""
+    """Return the meaning of a parameter; that of a ratio minus one, shown in percent, is worded as a comparison."""
     if not meaning.endswith(RATIO):
         return meaning
     return meaning.removesuffix(RATIO).replace(" by ", " compared with ", 1)
 
 
 def decimals_of(step: float, digits: int = 2) -> int:
-    """Decimal places that show so many digits of a step; none of one that is 0 or not finite."""
+    """Return the decimal places that show so many digits of a step; 0 for a step that is not finite and positive."""
     if not (math.isfinite(step) and step > 0):
         return 0
     return min(max(digits - 1 - math.floor(math.log10(step)), 0), 12)
 
 
 def number(value: float, digits: int = 3) -> str:
-    """With so many significant digits and without exponents up to 100000; a dash where there is none."""
+    """Format with so many significant digits and no exponent below 100000; a dash if the value is not finite."""
     if not math.isfinite(value):
         return "–"
     return with_decimals(value, decimals_of(abs(value), digits))
 
 
 def bound(value: float) -> str:
-    """To three digits, without zeros at the end."""
+    """Format to three digits without trailing zeros; "none" if infinite."""
     return f"{float(f'{value:.3g}'):g}".replace("-", "−") if math.isfinite(value) else "none"
 
 
 def with_decimals(value: float, decimals: int) -> str:
-    """With so many decimal places and a real minus sign."""
+    """Format with so many decimal places and a true minus sign."""
     if abs(value) >= 1e5 or (value and abs(value) < 1e-6):
         return f"{value:.3g}".replace("-", "−")
     text = f"{value:.{decimals}f}"
@@ -80,7 +80,7 @@ def with_decimals(value: float, decimals: int) -> str:
 
 
 def with_interval(value: float, low: float, high: float, digits: int = 2) -> tuple[str, str]:
-    """Value and interval, "low to high", to so many digits of half of it; a dash where no interval is known."""
+    """Format a value and its interval, "low to high", to so many digits of its half-width; a dash if there is none."""
     if not (math.isfinite(low) and math.isfinite(high) and high > low):
         return number(value), "–"
     places = decimals_of((high - low) / 2, digits)
@@ -88,7 +88,7 @@ def with_interval(value: float, low: float, high: float, digits: int = 2) -> tup
 
 
 def percent(part: float) -> str:
-    """A part of one in whole percent, without sign; never 0 or 100, which would claim certainty."""
+    """Format a fraction in whole percent, without sign; never 0 or 100, which would claim certainty."""
     if not math.isfinite(part):
         return "–"
     rounded = round(100 * part)
@@ -96,7 +96,7 @@ def percent(part: float) -> str:
 
 
 def percent_interval(low: float, high: float) -> str:
-    """An interval of a part of one in percent; a dash where none is known."""
+    """Format the interval of a fraction in percent; a dash if none is known."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return "–"
     ends = percent(low), percent(high)
@@ -104,6 +104,6 @@ def percent_interval(low: float, high: float) -> str:
 
 
 def tenths(part: float) -> str:
-    """A part of one in percent, to ten; never 0 or 100, which would claim certainty."""
+    """Format a fraction in percent, rounded to ten; never 0 or 100, which would claim certainty."""
     rounded = 10 * round(10 * part)
     return f"{rounded}" if 0 < rounded < 100 else "under 10" if part < 0.5 else "over 90"

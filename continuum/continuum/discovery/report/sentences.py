@@ -17,10 +17,10 @@ from continuum.discovery.words import UNSTEADY, adequate
 from continuum.dynamics.effect_lookup import effect_named
 
 _RIGHT: Final = {
-    Kind.ADEQUATE: "nothing was wrong with {} arms; in the others a fault was hidden that did not show",
-    Kind.CAUSE: "{} named only what was really there",
-    Kind.AMBIGUOUS: "{} listed exactly what was there as one of the possibilities",
-    Kind.UNKNOWN: "{} met a fault that the library lacks; the others met one that it has, or none",
+    Kind.ADEQUATE: "nothing was wrong with {} arms; the others had a hidden fault that did not show",
+    Kind.CAUSE: "{} named only faults that were really there",
+    Kind.AMBIGUOUS: "{} listed exactly the hidden faults as one possibility",
+    Kind.UNKNOWN: "{} arms had a fault that the library lacks; the others had one that it has, or none",
 }
 _IN_A_TITLE: Final = 3
 """Explanations that a title lists."""
@@ -63,7 +63,7 @@ def verdict_sentence(result: Diagnosis, contradictions: Sequence[str]) -> str:
         case Kind.AMBIGUOUS:
             return "Something is missing, and these recordings cannot tell which of the explanations below is right."
         case _ if contradictions:
-            return "Angles and rates in these recordings are not of one motion, so that no cause can be named."
+            return "Angles and rates in these recordings do not belong to one motion, so no cause can be named."
         case _ if result.causes:
             return (
                 "The simulation misses something that no effect of the library explains; what helps most "
@@ -88,7 +88,7 @@ def reliability(result: Diagnosis) -> str:
 
 def by_hand(result: Diagnosis) -> str:
     """What the verdict rests on besides the recordings, one sentence; empty where nothing."""
-    return f"Known besides the recordings: {'; '.join(result.known)}." if result.known else ""
+    return f"Also known: {'; '.join(result.known)}." if result.known else ""
 
 
 def power_sentence(result: Diagnosis) -> str:
@@ -97,7 +97,7 @@ def power_sentence(result: Diagnosis) -> str:
     if not asked:
         return ""
     found = f"{shown or 'none'} would have been found at their typical sizes"
-    return f"Of {asked} further effects that were looked for, {found}."
+    return f"Of {asked} further effects that were tried, {found}."
 
 
 def warnings(result: Diagnosis, contradictions: Sequence[str]) -> list[str]:

@@ -1,4 +1,4 @@
-"""What to do next: by hand, or a run that would tell more."""
+"""What to do next: a measurement by hand, or a further run."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _LISTED: Final = 4
 
 
 class Step(NamedTuple):
-    """Something to do, a sentence that says what for, and the option with which to diagnose again; may be empty."""
+    """Something to do, its purpose in a sentence, and the option with which to diagnose again; both may be empty."""
 
     instruction: str
     purpose: str
@@ -24,8 +24,8 @@ class Step(NamedTuple):
 
 
 REPEAT: Final = Step(
-    "Make one of these runs three times more, without touching anything in between.",
-    "Shows whether what is missing changes from run to run: pieces of the recordings disagree about its size.",
+    "Repeat one of these runs three times, without touching anything in between.",
+    "Shows whether the cause changes from run to run: segments of the recordings disagree about its size.",
 )
 
 
@@ -39,7 +39,7 @@ class ExperimentRow(NamedTuple):
 
 
 def next_steps(result: Diagnosis) -> list[Step]:
-    """What to do next, the best first."""
+    """Return what to do next, the best first."""
     by_hand = [
         Step(effect_named(c.effect).experiment, f"Tests: {label_in_words(c.label, result.n_joints)}.")
         for c in _in_doubt(result)
@@ -61,12 +61,12 @@ def next_steps(result: Diagnosis) -> list[Step]:
 
 
 def would_show(result: Diagnosis, one: Experiment, most: int | None = None) -> str:
-    """What an experiment would show that these recordings cannot; empty where nothing.
+    """Say what an experiment would show that these recordings cannot; empty if nothing.
 
     Args:
         result: the answer; effects of its sets are shown already.
         one: the experiment.
-        most: effects that are listed; all without.
+        most: most effects to list; all if None.
     """
     named, places = {cause.label for causes in result.sets for cause in causes}, dict[str, set[int]]()
     for label in one.shows:
@@ -80,7 +80,7 @@ def would_show(result: Diagnosis, one: Experiment, most: int | None = None) -> s
 
 
 def experiment_rows(result: Diagnosis) -> list[ExperimentRow]:
-    """All experiments, the best first."""
+    """Return all experiments, the best first."""
     return [
         ExperimentRow(capital(one.name), one.instruction, _separates(one), would_show(result, one))
         for one in result.experiments
@@ -92,21 +92,21 @@ def _separates(one: Experiment) -> str:
 
 
 def _separating(result: Diagnosis) -> list[Step]:
-    """What tells the explanations apart."""
+    """Return the step that distinguishes the explanations, if there is one."""
     match result.separating:
         case None:
             return []
         case Experiment() as run:
-            return [Step(repeated(run), "Tells the explanations apart.")]
+            return [Step(repeated(run), "Distinguishes the explanations.")]
         case Removal() as removal:
             command = f"--without {removal.effect}"
-            return [Step(f"{removal.instruction} {RECORD_AGAIN}", "Tells the explanations apart.", command)]
+            return [Step(f"{removal.instruction} {RECORD_AGAIN}", "Distinguishes the explanations.", command)]
         case test:
-            return [Step(test.instruction, "Tells the explanations apart.", option(test))]
+            return [Step(test.instruction, "Distinguishes the explanations.", option(test))]
 
 
 def _in_doubt(result: Diagnosis) -> list[Cause]:
-    """Effects of any set that not all sets have; those of the only set."""
+    """Return the effects that some sets have and others lack; with a single set, all of its effects."""
     sets = [{cause.label for cause in causes} for causes in result.sets]
     common = set.intersection(*sets) if len(sets) > 1 else set[str]()
     every = [cause for causes in result.sets for cause in causes if cause.label not in common]

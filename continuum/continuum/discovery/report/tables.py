@@ -18,7 +18,7 @@ from continuum.identification.nrmse import nrmse
 
 
 class ShareRow(NamedTuple):
-    """An effect, a set of them or the rest, with the part of the error that it closes in percent, and a bar's width."""
+    """An effect, a set or the rest, with the fraction of the error that it closes in percent, and a bar's width."""
 
     name: str
     id: str
@@ -36,7 +36,7 @@ class Pair(NamedTuple):
 
 
 class ErrorRow(NamedTuple):
-    """Errors of a recording, simulated whole: root mean square [degrees], fit [%], Eq. 19; whether it gets worse."""
+    """Errors of a whole recording: root mean square [degrees], fit [%], Eq. 19, and whether it gets worse."""
 
     name: str
     rms: Pair
@@ -46,7 +46,7 @@ class ErrorRow(NamedTuple):
 
 
 class JointRow(NamedTuple):
-    """Root mean square error [degrees] and missing torque [mN m] of a joint; whether its error gets worse."""
+    """Root mean square error [degrees] and missing torque [mN m] of a joint, and whether its error gets worse."""
 
     name: str
     rms: Pair
@@ -55,13 +55,13 @@ class JointRow(NamedTuple):
 
 
 def share_rows(result: Diagnosis) -> list[ShareRow]:
-    """What each effect of the best set closes of the open-loop error, and what stays unknown."""
+    """Return how much of the open-loop error each effect of the best set closes, and how much stays unexplained."""
     rows = [_share(capital(label_in_words(c.label, result.n_joints)), c.label, c.share, [c]) for c in result.causes]
     return [*rows, _share("Stays unexplained", "", result.shares["unknown"])]
 
 
 def set_rows(result: Diagnosis) -> list[ShareRow]:
-    """What each possible set closes."""
+    """Return how much of the open-loop error each possible set closes."""
     rows = []
     for causes, name in zip(result.sets, names_of_sets(result), strict=True):
         shares = [cause.share for cause in causes]
@@ -71,18 +71,18 @@ def set_rows(result: Diagnosis) -> list[ShareRow]:
 
 
 def names_of_sets(result: Diagnosis) -> list[str]:
-    """Names of each set's effects, those that are in all sets at the end."""
+    """Return the names of each set's effects, with those common to all sets at the end."""
     names, common = sets_in_words([[cause.label for cause in causes] for causes in result.sets], result.n_joints)
     return [name + f" with {common}" * bool(common) for name in names]
 
 
 def ids(causes: Sequence[Cause]) -> str:
-    """As docs and model files call them."""
+    """Return the names in docs and model files."""
     return " + ".join(cause.label for cause in causes)
 
 
 def error_rows(result: Diagnosis) -> list[ErrorRow]:
-    """Of each recording."""
+    """Return the errors of each recording."""
     rows = []
     for r, run in enumerate(result.recordings):
         models = (result.before, result.after)
@@ -98,7 +98,7 @@ def error_rows(result: Diagnosis) -> list[ErrorRow]:
 
 
 def joint_rows(result: Diagnosis) -> list[JointRow]:
-    """Of each joint, over all recordings."""
+    """Return the errors and missing torques of each joint, over all recordings."""
     errors = [_by_joint(result, one) for one in (result.before, result.after)]
     return [
         JointRow(
@@ -110,7 +110,7 @@ def joint_rows(result: Diagnosis) -> list[JointRow]:
 
 
 def is_worse(result: Diagnosis, before: float, after: float) -> bool:
-    """Whether errors [rad] rise by more than the sensors' noise: less than that no reading shows."""
+    """Whether errors [rad] rise by more than the sensors' noise: no reading shows less."""
     if not result.is_extended:
         return False
     return not math.isfinite(after) or after**2 - before**2 > result.before.floor**2
@@ -123,11 +123,11 @@ def _share(name: str, label: str, share: Share, causes: Sequence[Cause] = ()) ->
 
 
 def _pair(values: Iterable[float], decimals: int) -> Pair:
-    """Without decimals from 100 on."""
+    """Format two values, without decimals from 100 on."""
     return Pair(*(with_decimals(float(v), decimals * (abs(v) < 100)) if math.isfinite(v) else "–" for v in values))
 
 
 def _by_joint(result: Diagnosis, loop: OpenLoop) -> Array:
-    """Root mean square over the rows of all recordings, (n_joints,) [rad]."""
+    """Return the root mean square error over the rows of all recordings, (n_joints,) [rad]."""
     residuals = [angles - run.theta for angles, run in zip(loop.angles, result.recordings, strict=True)]
     return np.asarray(np.sqrt(np.mean(np.concatenate(residuals) ** 2, axis=0)))

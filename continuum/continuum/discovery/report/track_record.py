@@ -10,12 +10,12 @@ from continuum.discovery.decision import Kind
 
 
 class Record(NamedTuple):
-    """Of a kind of verdict.
+    """Track record of one kind of verdict.
 
     Attributes:
-        n: verdicts of this kind.
-        right: of them.
-        low, high: Wilson interval of 95 % of the part that is right, 0 to 1.
+        n: number of verdicts of this kind.
+        right: number of these that were right.
+        low, high: 95 % Wilson interval of the fraction that is right, 0 to 1.
     """
 
     n: int
@@ -25,10 +25,10 @@ class Record(NamedTuple):
 
 
 def track_record(kind: Kind) -> Record | None:
-    """Of one kind, from track_record.json, which `make bench-discovery` writes; None where there was no such verdict.
+    """Read the record of a kind from track_record.json, which `make bench-discovery` writes; None if it never occurred.
 
-    `cause` is right where all that it names was hidden, `ambiguous` where one of its sets was exactly what was hidden,
-    `adequate` where nothing was, `unknown` where an effect outside of the library was.
+    `cause` is right if all that it names was hidden, `ambiguous` if one of its sets was exactly what was hidden,
+    `adequate` if nothing was, `unknown` if an effect outside of the library was.
     """
     text = resources.files(__package__).joinpath("track_record.json").read_text(encoding="utf-8")
     found = json.loads(text)["verdicts"][kind.value]

@@ -42,17 +42,17 @@ class CorrelationRow(NamedTuple):
 
 
 def value_rows(result: Diagnosis, causes: Sequence[Cause]) -> list[ValueRow]:
-    """Values of some effects."""
+    """Return the values of some effects."""
     return [_value(one, result, cause) for cause in causes for one in cause.estimates]
 
 
 def model_rows(result: Diagnosis) -> list[ValueRow]:
-    """Values of the model's own."""
+    """Return the values of the model."""
     return [_value(one, result, None) for one in result.estimates]
 
 
 def correlation_rows(result: Diagnosis) -> list[CorrelationRow]:
-    """Of the best set's values."""
+    """Return the correlations of the best set's values."""
     return [
         CorrelationRow(value_in_words(name), name, [(with_decimals(float(r), 2), float(r)) for r in row])
         for name, row in zip(*result.correlation, strict=True)

@@ -17,7 +17,7 @@ import numpy as np
 from continuum.dynamics.balance import balance
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.motion import Motion
+from continuum.dynamics.planar.instant import Motion
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The fast integrator: an adaptive ESDIRK method on the implicit equations r(x, v, u, p) = 0, and its exact slopes.
+"""The fast integrator: an adaptive ESDIRK method for the implicit equations r(x, v, u, p) = 0, with exact derivatives.
 
 Every stage is solved by Newton's method with the exact Jacobian, so that a stage's own derivative by initial state
 and parameters is one more linear solve with the same matrix: the sensitivities are those of the computed trajectory,
@@ -12,8 +12,7 @@ import numpy as np
 
 from continuum.dynamics.integration.compiled_loops import compiled, entry_point
 from continuum.dynamics.integration.esdirk_step import first_stage, sensitivities_of_stages, solve_stages
-from continuum.dynamics.integration.inputs_at import jumps_at
-from continuum.dynamics.integration.problem import work_for
+from continuum.dynamics.integration.problem import jumps_at, work_for
 from continuum.dynamics.integration.step_size import FIRST_STEP, error_size, longer, shorter, step_towards
 from continuum.dynamics.trajectory import SimulationStatus
 
@@ -32,7 +31,7 @@ def _next_bend(input_times, t):  # type: ignore[no-untyped-def]
 
 @entry_point
 def integrate(problem, method, x0, times, sensitivity0):  # type: ignore[no-untyped-def]
-    """States (n_times, n_x), their slopes (n_times, n_x, n_free), steps taken, refused, index into `STATUSES`."""
+    """States (n_times, n_x), their derivatives (n_times, n_x, n_free), steps taken, refused, index into `STATUSES`."""
     x, sensitivity, free = x0.copy(), sensitivity0.copy(), sensitivity0.shape[1]
     work = work_for(problem, x.size, free, method.c.size)
     states, sensitivities = np.full((times.size, x.size), np.nan), np.full((times.size, x.size, free), np.nan)

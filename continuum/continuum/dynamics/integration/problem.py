@@ -1,4 +1,4 @@
-"""What the compiled loops are given, and the arrays that they use again at every step."""
+"""What the compiled loops are given, the inputs at an instant, and the arrays that they use again at every step."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Work(NamedTuple):
         out: what the equations answer.
         matrix, pivots: of Newton's method, factorised, (n_v, n_v) and (n_v,).
         change, further: of the rates in one iteration and in the next, (n_v, 1).
-        row: of a matrix of slopes, (n_free,).
+        row: of a matrix of derivatives, (n_free,).
         base, base_slope: a stage's state but for its own rates, and its slope, (n_x,) and (n_x, n_free).
         states, rates, rate_slopes: of every stage, (stages, n_x), (stages, n_x) and (stages, n_x, n_free).
     """
@@ -100,3 +100,26 @@ def work_for(problem, n_x, n_free, stages):  # type: ignore[no-untyped-def]
         rates=np.zeros((stages, n_x)),
         rate_sensitivities=np.zeros((stages, n_x, n_free)),
     )
+
+
+@compiled
+def inputs_at(begin, t, times, values, u):  # type: ignore[no-untyped-def]
+    """Write into ``u`` the inputs at ``t``: linear between the rows, held before the first and after the last.
+
+    ``begin`` is the start of the step that ``t`` is in: where two rows of one time make a jump, a step that ends there
+    still has the inputs before it.
+    """
+    last = times.size - 1
+    k = min(max(np.searchsorted(times, begin, side="right") - 1, 0), last)
+    part = 0.0
+    if k < last and t > times[k]:
+        part = (t - times[k]) / (times[k + 1] - times[k])
+    for j in range(values.shape[1]):
+        u[j] = (1 - part) * values[k, j] + part * values[min(k + 1, last), j]
+
+
+@compiled
+def jumps_at(t, times):  # type: ignore[no-untyped-def]
+    """Whether two rows have the time ``t``."""
+    k = np.searchsorted(times, t, side="right") - 1
+    return k > 0 and times[k] == t and times[k - 1] == t

@@ -6,12 +6,12 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from continuum.arrays import Array
+from continuum.dynamics.balance import numpy_state_space
 from continuum.dynamics.compiled.equations import CompiledEquations
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.model import Model
 from continuum.dynamics.model_inputs import suitable_inputs
-from continuum.dynamics.planar.eq18_state_space import numpy_state_space
 from continuum.dynamics.simulation_input import initial_state, output_times
 from continuum.dynamics.trajectory import SimulationStatus, Trajectory
 

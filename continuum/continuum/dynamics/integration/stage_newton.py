@@ -13,8 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from continuum.dynamics.integration.call_at import call_at
-from continuum.dynamics.integration.compiled_loops import compiled
+from continuum.dynamics.integration.compiled_loops import call_at, compiled
 from continuum.dynamics.integration.linear_solve import factorise, solve_factorised
 
 _MOST_ITERATIONS = 8  # matrices

@@ -6,8 +6,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.integration.tolerances import Tolerances
-from continuum.dynamics.live.bdf_stepper import BdfStepper
-from continuum.dynamics.live.esdirk_stepper import EsdirkStepper
+from continuum.dynamics.live.integrators import BdfStepper, EsdirkStepper
 from continuum.dynamics.live.stepper import Interval, Stepper
 from continuum.dynamics.model import Model
 from continuum.dynamics.planar.cables import SIDES, cable_lengths, cable_rates

@@ -1,14 +1,16 @@
 """The thesis's dynamic model of one section that bends in a plane, term by term.
 
-====================  ==================================================================
-Eq. 12                eq12_inertia_matrix.py (M), eq12_coriolis_matrix.py (C), eq12_spring_torque.py (K),
-                      eq12_gravity_torque.py (G), eq12_cable_torque.py (right-hand side), eq12_balance.py (the sum)
-Eq. 13                eq13_joint_friction.py (F)
-Eqs. 14, 15           eq15_tension_propagation.py (B)
-Eq. 16                eq16_link_wrenches.py (W)
-Eq. 17                eq17_serial_jacobian.py (J_s)
-Eq. 18                eq18_state_space.py
-====================  ==================================================================
+=======================  =====================================================================================
+rigid_body.py            Eq. 12: M inertia_matrix, C coriolis_matrix, G gravity_torque
+springs_and_friction.py  Eq. 12: K spring_torque; Eq. 13: F joint_friction
+cables.py                Eqs. 14, 15: B tension_propagation, wrap_angles; Eq. 16: W link_wrenches;
+                         Eq. 17: J_s serial_jacobian, serial_jacobian_transposed_times;
+                         Eq. 12, right-hand side: cable_torque; Eq. 8 in the plane: chord_lengths
+balance.py               Eq. 12, the sum: torque_balance, rigid_body_torque
+instant.py               what these terms see: Motion, Instant
+=======================  =====================================================================================
+
+Eq. 18, the state space, is `numpy_state_space` of `continuum.dynamics.balance`, where effects add to the sum.
 
 The plane: z points along the straight arm, as in `base_link`, x to the side towards which positive angles bend; a
 link's absolute angle is the sum of the joint angles up to it, and moments turn z towards x. Every function takes

@@ -1,4 +1,4 @@
-"""The two cables of a planar section: on which side they run, and how long a cable is in one module.
+"""The two cables of a planar section: where they run, and the torque J_s^T W B u that they make (Eqs. 12, 14 to 17).
 
 Cable 1 runs at x = +a and bends the arm towards positive angles, cable 2 at x = -a. Its chord in a module whose joint
 stands at theta is l = 2 (b cos(theta / 2) - side a sin(theta / 2)): Eq. 8 in the plane, with one joint.
@@ -9,15 +9,16 @@ from __future__ import annotations
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.dynamics.expressions import Numbers
+from continuum.dynamics.expressions import Numbers, positive_part, smooth_sign, suffix_sum
 from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.planar.instant import Motion
 
 SIDES = np.array([1.0, -1.0])
 """Side of each cable, (n_cables,)."""
 
 
 def chord_lengths(theta: Numbers, p: Parameters) -> Numbers:
-    """Length of each cable in each module, (n, n_cables) [m]."""
+    """Length of each cable in each module, (n, n_cables) [m]: Eq. 8 with one joint."""
     half = theta[:, None] / 2
     return 2 * (p.half_spacing[:, None] * np.cos(half) - SIDES * p.hole_radius[:, None] * np.sin(half))
 
@@ -36,3 +37,101 @@ def cable_lengths(theta: Array, p: Parameters) -> Array:
 def cable_rates(theta: Array, rate: Array, p: Parameters) -> Array:
     """Their rates, positive when a cable gets longer, (n_cables,) [m/s]."""
     return np.asarray(rate @ chord_jacobian(theta, p))
+
+
+def cable_torque(move: Motion, u: Numbers, p: Parameters) -> Numbers:
+    """Right-hand side of Eq. 12, J_s^T W B u, (n,) [N m]; nothing where the arm has no cables.
+
+    Args:
+        move: of the joints and links.
+        u: tension of each cable at the base, (n_cables,) [N]; below 0 there is none, a cable cannot push.
+        p: parameters.
+    """
+    if not p.has_cables:
+        return np.zeros(p.n_joints)
+    local = tension_propagation(move.theta, move.slip_rate, p) * positive_part(u)
+    return serial_jacobian_transposed_times(link_wrenches(local, move.theta, p), move.link_angle, p)
+
+
+def tension_propagation(theta: Numbers, slip_rate: Numbers, p: Parameters) -> Numbers:
+    """Eqs. 14 and 15, B(theta, theta'): tension in each module for one newton at the base, (n, n_cables).
+
+    At every disc a cable loses or gains by the capstan law T_(i+1) = T_i exp(-+ mu_c wrap). The loss follows the
+    cable's motion over that very disc: where the cable beyond it grows shorter, tension falls towards the tip, as
+    printed; where it grows longer, tension rises.
+
+    Args:
+        theta, slip_rate: of the joints, (n,) [rad, rad/s].
+        p: parameters.
+    """
+    taken_in = -suffix_sum(chord_jacobian(theta, p) * slip_rate[:, None])  # cable speed over each disc [m/s]
+    losing = smooth_sign(taken_in, p.cable_slope)
+    return np.exp(-p.capstan_friction * np.cumsum(losing * wrap_angles(theta)[:, None], axis=0))
+
+
+def wrap_angles(theta: Numbers) -> Numbers:
+    """Wrap of Eq. 14: angle by which a cable turns at the base plate and at each disc but the last, (n,) [rad].
+
+    It is an absolute value: half the first joint's angle at the base plate, half the sum of its two joints' angles at
+    disc i, which adds up to the printed theta_1 + ... + theta_i / 2 for an arm bent to one side.
+    """
+    before = np.concatenate([np.zeros(1), theta[:-1]])
+    return np.abs(before + theta) / 2
+
+
+def link_wrenches(tensions: Numbers, theta: Numbers, p: Parameters) -> Numbers:
+    """Eq. 16, W T: (F_x, F_z, M) on each link, at its disc's centre, in its own frame, (n, 3) [N, N, N m].
+
+    A cable pulls a disc backwards along the chord of module i and forwards along that of module i + 1. By symmetry a
+    chord is parallel to the bisector of its two links, so it leans by half the joint's angle. Compared with the printed
+    matrix the signs are those of this plane (z along the link, moments from z to x); that J_s^T W B u is the virtual
+    work of the cables is tested. A link longer than b_i + b_(i+1) has two discs; what pulls at the further one is told
+    at the nearer one.
+
+    Args:
+        tensions: T = B u, of each cable in each module, (n, n_cables) [N].
+        theta: of the joints, (n,) [rad].
+        p: parameters.
+    """
+    sine, cosine, a = np.sin(theta / 2), np.cos(theta / 2), p.hole_radius
+    pull = tensions.sum(axis=1)
+    twist = (tensions * SIDES).sum(axis=1)
+    module = np.stack([pull * sine, pull * cosine, twist * a * cosine], axis=1)
+    beyond = np.concatenate([module[1:], np.zeros((1, 3))])  # the cables end at the last disc
+    further = p.disc_gap * beyond[:, 0]  # a lever longer by the gap
+    at_disc = np.stack([np.zeros_like(further), np.zeros_like(further), further], axis=1)
+    return module * np.array([1.0, -1.0, 1.0]) + beyond * np.array([1.0, 1.0, -1.0]) + at_disc
+
+
+def serial_jacobian_transposed_times(wrenches: Numbers, link_angle: Numbers, p: Parameters) -> Numbers:
+    """Eq. 17, J_s^T F of wrenches at the discs' centres in the links' own frames, (n,) [N m].
+
+    Joint k moves disc i >= k by the lever from the joint to the disc, across it. Written as the sum that the block
+    matrix means: what lies beyond a joint pushes on it through that joint's link.
+
+    Args:
+        wrenches: (F_x, F_z, M) of each link, (n, 3) [N, N, N m].
+        link_angle: absolute angle of each link, (n,) [rad].
+        p: parameters.
+    """
+    force = turned(wrenches[:, :2], link_angle)
+    beyond = suffix_sum(force) - force
+    across = np.stack([np.cos(link_angle), -np.sin(link_angle)], axis=1)  # d(sin, cos) / d angle
+    lever_work = p.middle * (across * force).sum(axis=1) + p.joint_spacing * (across * beyond).sum(axis=1)
+    return suffix_sum(lever_work + wrenches[:, 2])
+
+
+def turned(vectors: Numbers, angle: Numbers) -> Numbers:
+    """Vectors (n, 2) in (x, z), each turned by its angle (n,) [rad] from z towards x."""
+    x, z = vectors[:, 0], vectors[:, 1]
+    return np.stack([np.cos(angle) * x + np.sin(angle) * z, np.cos(angle) * z - np.sin(angle) * x], axis=1)
+
+
+def serial_jacobian(link_angle: Numbers, p: Parameters) -> Numbers:
+    """Eq. 17, J_s, (3 n, n): motion (x, z, angle) of every disc, in its link's frame, for a unit rate of every joint.
+
+    It is upper triangular by blocks, as printed.
+    """
+    n = p.n_joints
+    unit = np.eye(3 * n).reshape(3 * n, n, 3)
+    return np.stack([serial_jacobian_transposed_times(wrench, link_angle, p) for wrench in unit])

@@ -21,7 +21,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.eq13_joint_friction import break_away_torque
+from continuum.dynamics.planar.springs_and_friction import break_away_torque
 from continuum.dynamics.statics.equilibrium import Equilibrium, joint_stiffness, solve_pull
 from continuum.dynamics.statics.resting_arm import RestingArm
 
@@ -66,8 +66,8 @@ def break_away(model: Model) -> Array:
 def _extreme(arm: RestingArm, around: Equilibrium, weights: Array, held: Array) -> Array:
     """Posture of the zone in which weights . theta is largest, (n,) [rad].
 
-    From corner to corner by the slopes there. Where a slope as good as zero changes its sign between two corners, the
-    better one of them is taken.
+    Steps from corner to corner by the derivatives there. Where a derivative near zero changes its sign between two
+    corners, the better corner is taken.
     """
     n, y = held.size, around.unknowns
     visited: dict[bytes, Array] = {}

@@ -11,9 +11,7 @@ from numba.extending import register_jitable
 
 from continuum import compiled_code, kinematics
 from continuum.compiled_code import compiled
-from continuum.kinematics import rigid, smooth_functions
-from continuum.kinematics.chain import eq10_pose, eq11_jacobian
-from continuum.kinematics.section import chord, eq04_pose, eq05_configuration_from_point, eq21_jacobian
+from continuum.kinematics import chain, rigid, section, smooth_functions
 
 _EQUATIONS = (
     smooth_functions.sinc,
@@ -25,16 +23,16 @@ _EQUATIONS = (
     rigid.product,
     rigid.transposed,
     rigid.cross,
-    chord.chord_length,
-    chord.chord_derivative,
-    eq04_pose.rotation_entries,
-    eq04_pose.position_entries,
-    eq05_configuration_from_point.configuration_entries,
-    eq21_jacobian.position_jacobian,
-    eq21_jacobian.rotation_jacobian,
-    eq10_pose.next_tip,
-    eq11_jacobian.section_columns,
-    eq11_jacobian._carried,
+    section.chord_length,
+    section.chord_derivative,
+    section.rotation_entries,
+    section.position_entries,
+    section.configuration_entries,
+    section.position_jacobian,
+    section.rotation_jacobian,
+    chain.next_tip,
+    chain.section_columns,
+    chain._carried,
 )
 for _equation in _EQUATIONS:
     register_jitable(_equation)

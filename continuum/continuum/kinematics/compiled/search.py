@@ -15,7 +15,7 @@ from continuum.kinematics.compiled.task import TargetArrays
 from continuum.kinematics.compiled.two_sections import MOST_CANDIDATES, fill_candidates
 from continuum.kinematics.fabrikc import LARGEST_BEND, fabrikc
 from continuum.kinematics.ik_target import POSITION
-from continuum.kinematics.section.eq05_configuration_from_point import configuration_entries
+from continuum.kinematics.section import configuration_entries
 
 _FABRIKC_PASSES = argument(1)
 _MAX_ITERATIONS = argument(40)  # of a descent

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.kinematics.chain.eq10_pose import next_tip
-from continuum.kinematics.chain.eq11_jacobian import section_columns
+from continuum.kinematics.chain import next_tip, section_columns
 from continuum.kinematics.compiled.arm_arrays import ArmArrays
 from continuum.kinematics.compiled.equations import compiled, inlined
 from continuum.kinematics.rigid import IDENTITY, Entries3, Entries9, turned_about_z

@@ -1,0 +1,42 @@
+"""Completion of the command line in bash and zsh: argcomplete, called by the shell while somebody types."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+_ASKED = "_ARGCOMPLETE"
+"""Environment variable by which a shell asks for completions."""
+
+
+def complete(parser: argparse.ArgumentParser) -> None:
+    """Answer the shell and end the process, where it is a shell that asks."""
+    if _ASKED in os.environ:
+        import argcomplete
+
+        argcomplete.autocomplete(parser)
+
+
+def completes_files(action: argparse.Action, folder: Path, *suffixes: str) -> None:
+    """Let an argument be completed by names of shipped files, by YAML files, and by files of other ``suffixes``."""
+
+    def names(prefix: str) -> list[str]:
+        from argcomplete.completers import FilesCompleter
+
+        from continuum.shipped_files import shipped_names
+
+        return [*shipped_names(folder), *FilesCompleter(("yaml", "yml", *suffixes))(prefix)]
+
+    completes(action, names)
+
+
+def completes(action: argparse.Action, names: Callable[[str], Iterable[str]]) -> None:
+    """Let an argument be completed by what ``names`` gives for its beginning."""
+
+    def completer(prefix: str, **_: Any) -> Iterable[str]:
+        return names(prefix)
+
+    action.completer = completer  # type: ignore[attr-defined]

@@ -1,0 +1,33 @@
+"""The model file that a command works with: the option that names it, and the model in it."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from continuum.cli.completion import completes_files
+from continuum.shipped_files import MODELS
+
+if TYPE_CHECKING:
+    from continuum.dynamics.model import Model
+
+
+def add_model_option(parser: argparse.ArgumentParser, what: str = "model file") -> None:
+    """Add ``--model``, a path or the name of a model that comes with the library."""
+    option = parser.add_argument(
+        "--model", metavar="MODEL.yaml", default="lamecc_prototype.yaml",
+        help=f"{what}, or one of the library's; default %(default)s",
+    )  # fmt: skip
+    completes_files(option, MODELS)
+
+
+def read_model(name: str) -> Model:
+    """The model of a file, or of a shipped one by its name.
+
+    Raises:
+        FileError: there is no such file or model, or it cannot be read.
+        InvalidValueError: a value in it is not allowed.
+    """
+    from continuum.dynamics.model_file import load_model  # here, so that help need not wait for it
+
+    return load_model(name)

@@ -1,1 +1,0 @@
-"""Equations that several effects need."""

@@ -1,6 +1,0 @@
-"""`make bench-link`: emulated bench and bridge as real processes over a pseudo-terminal and DDS, measured.
-
-Parts: `closed` (angles, frames, latency, load), `campaign` (every fault alone and in pairs), `crash_tests` (the bridge
-killed or hanging, the port gone), `soak` (memory). What each part measured is kept in the folder of results, and the
-page is made of all that is there.
-"""

@@ -1,0 +1,57 @@
+"""How long sensors' frames take until their joint states are there, and which never were."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum_hw_imu.protocol.frame import WRAP_TIME
+from tools.benchmarks.link.latency_probe import State
+from tools.benchmarks.link.truth import Truth
+
+
+@dataclass(frozen=True)
+class Delays:
+    """Of each frame with its joint state, from when the emulator wrote its last byte; (n,) [s].
+
+    Attributes:
+        written: when that was, of this machine's monotonic clock.
+        published, received, called: see `State`.
+        missing: frames between the first and the last of these that became no joint state.
+        shift: stamp less the true instant.
+    """
+
+    written: Array
+    published: Array
+    received: Array
+    called: Array
+    missing: int
+    shift: Array
+
+
+def load_sent(path: Path, truth: Truth) -> tuple[Array, Array]:
+    """When each frame was written, and the instant that it tells of; of the monotonic clock, (frames,) each [s]."""
+    table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    instants = dict(zip((truth.device.astype(np.int64) % WRAP_TIME).tolist(), truth.time.tolist(), strict=True))
+    measured_at = np.array([instants[int(device)] for device in table[:, 1]])
+    return table[:, 0], measured_at
+
+
+def delays(states: Sequence[State], written: Array, measured_at: Array) -> Delays:
+    """States beside their frames: those of the nearest instant, by the states' stamps.
+
+    Args:
+        states: in the order of their stamps.
+        written, measured_at: as of `load_sent`.
+    """
+    stamps = np.array([state.stamp for state in states])
+    right = np.clip(np.searchsorted(measured_at, stamps), 1, len(measured_at) - 1)
+    nearest = np.where(stamps - measured_at[right - 1] < measured_at[right] - stamps, right - 1, right)
+    columns = (np.array([getattr(state, name) for state in states]) for name in ("published", "received", "called"))
+    published, received, called = (column - written[nearest] for column in columns)
+    missing = int(nearest[-1] - nearest[0] + 1 - np.unique(nearest).size)
+    return Delays(written[nearest], published, received, called, missing, stamps - measured_at[nearest])

@@ -1,0 +1,67 @@
+"""Results of the parts as files, so that the record can be made of several runs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from continuum.whole_file import write_whole
+from tools.benchmarks.link.campaign import Case
+from tools.benchmarks.link.closed_loop import ClosedLoop, Minute
+from tools.benchmarks.link.crash_tests import Crash
+from tools.benchmarks.link.soak import Memory, Soak
+
+
+@dataclass(frozen=True)
+class Results:
+    """What there is; None where a part was not run yet. By part, the niceness of its processes.
+
+    All runs of the closed loop are kept, the newest is the last: delays depend on what else the machine did.
+    """
+
+    closed: list[ClosedLoop] | None
+    campaign: list[Case] | None
+    crash_tests: list[Crash] | None
+    soak: Soak | None
+    niceness: dict[str, int] = field(default_factory=dict)
+
+
+PARTS = "closed", "campaign", "crash_tests", "soak"
+"""Each in a file of its name."""
+
+
+def keep(folder: Path, part: str, result: Any, niceness: int) -> None:
+    """Write what a part measured."""
+    plain = [asdict(one) for one in result] if isinstance(result, Sequence) else asdict(result)
+    text = json.dumps({"niceness": niceness, "result": plain}, indent=1)
+    write_whole(folder / f"{part}.json", f"{text}\n")
+
+
+def together(kept: Sequence[Case] | None, new: Sequence[Case]) -> list[Case]:
+    """Cases kept and new ones, which count in the place of those of the same faults."""
+    cases = {tuple(case.faults): case for case in (*(kept or []), *new)}
+    return list(cases.values())
+
+
+def load(folder: Path) -> Results:
+    """All that was kept."""
+    kept = {part: _plain(folder / f"{part}.json") for part in PARTS}
+    closed, campaign, crash_tests, soak = (kept[part] and kept[part]["result"] for part in PARTS)
+    for run in closed or []:
+        run["by_minute"] = [Minute(**minute) for minute in run["by_minute"]]
+    if soak:
+        soak |= {name: Memory(**soak[name]) for name in ("bridge", "emulator")}
+    return Results(
+        closed and [ClosedLoop(**run) for run in closed],
+        campaign and [Case(**case) for case in campaign],
+        crash_tests and [Crash(**crash) for crash in crash_tests],
+        soak and Soak(**soak),
+        {part: known["niceness"] for part, known in kept.items() if known},
+    )
+
+
+def _plain(file: Path) -> Any:
+    return json.loads(file.read_text(encoding="utf-8")) if file.exists() else None

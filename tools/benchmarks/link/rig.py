@@ -1,0 +1,121 @@
+"""Emulated bench, calibrated bridge and listener, set up for a measurement and ended in any case."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from domain_coordinator import domain_id
+from emulated_bench import Bridge, EmulatedBench, bridge_at, emulated_bench
+from harness import Probe
+
+from continuum.arrays import Array
+from tools.benchmarks.link.latency_probe import LatencyProbe
+from tools.demo.folder import claimed
+
+RATE = 60.0
+"""Of the sensors, live [Hz]."""
+
+COMMAND_PERIOD = 1 / 30
+"""Between two tension commands [s]."""
+
+CALIBRATION, SENT = "sensors.yaml", "sent.csv"
+FILES = "port", "control", "truth.csv", CALIBRATION, SENT
+"""In the folder of a measurement."""
+
+Pull = Callable[[float], Array]
+"""Tension of each cable [N] at a time since some instant [s]."""
+
+
+@dataclass(frozen=True)
+class Rig:
+    """What a measurement works with.
+
+    Attributes:
+        domain: ROS domain.
+        folder: of the emulator's files.
+        bench: the emulator's process.
+        ears: the listener.
+    """
+
+    domain: int
+    folder: Path
+    bench: EmulatedBench
+    latency_probe: LatencyProbe
+
+    @property
+    def calibration(self) -> Path:
+        return self.folder / CALIBRATION
+
+    @property
+    def truth_file(self) -> Path:
+        return self.bench.truth_file
+
+    @property
+    def sent_file(self) -> Path:
+        return self.folder / SENT
+
+    def calibrate(self) -> None:
+        """Leave the sensors' calibration in its file."""
+        with bridge_at(self.latency_probe, self.bench, self.domain, calibration=self.calibration) as bridge:
+            bridge.wait_for_state("inactive")
+            bridge.calibrate()
+            bridge.node.stop()
+        self.wait_for_free_port()
+
+    def wait_for_free_port(self) -> None:
+        self.latency_probe.probe.wait_until(lambda: not self.bench.status["open"], "a free port")
+
+    @contextmanager
+    def bridge(self, **parameters: object) -> Iterator[Bridge]:
+        """A bridge with that calibration that is active, once its joint states come."""
+        self.wait_for_free_port()
+        given = {"calibration": self.calibration, "keep_bias": True, "autostart": "activate", **parameters}
+        with bridge_at(self.latency_probe, self.bench, self.domain, **given) as bridge:
+            bridge.wait_for_state("active")
+            self.wait_for_joints(bridge)
+            yield bridge
+
+    def wait_for_joints(self, bridge: Bridge) -> None:
+        """Until some come from now on."""
+        before = len(self.latency_probe.joints)
+        bridge.probe.wait_until(
+            lambda: len(self.latency_probe.joints) > before + 5, lambda: f"states; {bridge.diagnostic('angles')}"
+        )
+
+    def drive(self, bridge: Bridge, pull: Pull | None, lasts: float) -> None:
+        """Command tensions (None: nothing), and listen, for so long [s]."""
+        begin = due = time.monotonic()
+
+        def over() -> bool:
+            nonlocal due
+            now = time.monotonic()
+            if pull is not None and now >= due:
+                bridge.command(pull(now - begin))
+                due += COMMAND_PERIOD * max(1.0, np.ceil((now - due) / COMMAND_PERIOD))
+            return now - begin >= lasts
+
+        while not over():
+            bridge.probe.spin(COMMAND_PERIOD / 4)
+
+
+@contextmanager
+def rig(folder: Path, *options: str) -> Iterator[Rig]:
+    """An emulated bench in a ROS domain of its own, sensors calibrated; ``options`` are of the emulator.
+
+    Raises:
+        DemoError: another measurement uses the folder.
+    """
+    with (
+        claimed(folder, FILES),
+        domain_id() as domain,
+        Probe(domain, "bench_link") as probe,
+        emulated_bench(domain, folder, "--sent", str(folder / SENT), *options) as bench,
+    ):
+        found = Rig(domain, folder, bench, LatencyProbe(probe))
+        found.calibrate()
+        yield found

@@ -1,0 +1,162 @@
+"""The command line of the demo, and its course from the first start to the diagnosis."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+import tools.demo.bench
+from continuum.cli import main as continuum
+from continuum.cli.diagnose import EXIT_CODES
+from continuum.dynamics.effect_lookup import effect_named
+from continuum.dynamics.model import ActiveEffect, Model
+from continuum.dynamics.model_file import load_model, save_model
+from continuum.errors import ContinuumError
+from tools.demo.bench.conductor import Conductor, side_by_side
+from tools.demo.bench.runs import BEND, RUNS, Run
+from tools.demo.bench.truth import error_of_angles, rms_degrees
+from tools.demo.domain import domain_for_demo
+from tools.demo.errors import DemoError
+from tools.demo.folder import claimed
+from tools.demo.nodes import checker, launched
+
+TOPICS = ("/joint_states", "/cable_states", "/cable_tension_cmd", "/simulated/joint_states", "/simulated/cable_states",
+          "/diagnostics", *(f"/imu_{k}/data_raw" for k in range(1, 6)))  # fmt: skip
+
+RESULTS = (*(run.name for run in RUNS), "nodes.log", "recorder.log", "arm.yaml", "sensors.yaml", "truth.csv",
+           "verdict.json", "diagnosis.html", "better.yaml")  # fmt: skip
+
+
+HIDDEN, JOINT, RATIO = "joint_friction", 2, 2.0
+"""Effect hidden in the emulated arm: viscous and Coulomb friction of one joint, from 1, larger by so many times."""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the demo; returns 0 if all of it was done, 1 if not."""
+    parser = argparse.ArgumentParser(prog="make bench-demo ARGS=...", description=tools.demo.bench.__doc__)
+    parser.add_argument("--port", default="", help="serial port of a real bench; without, one is emulated")
+    parser.add_argument("--out", type=Path, default=Path("out/bench_demo"), metavar="FOLDER",
+                        help="default: %(default)s")  # fmt: skip
+    parser.add_argument("--no-diagnosis", action="store_true", help="end with the recordings")
+    options = parser.parse_args(arguments)
+    try:
+        record_runs(options.port, options.out)
+        status = 0 if options.no_diagnosis else diagnosed(options.out)
+        if not options.port:
+            print(f"Hidden in the emulated arm was: {HIDDEN} at joint {JOINT}, {1 + RATIO:g} times the model's.")
+        return status
+    except ContinuumError as error:
+        print(f"bench-demo: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print(f"bench-demo: interrupted; what was recorded until then is in {options.out}", file=sys.stderr)
+        raise
+
+
+def record_runs(port: str, out: Path) -> None:
+    """Calibrate, pull and release, and leave a recording of each run in ``out``.
+
+    Raises:
+        ContinuumError: a node died, or did not do what it was asked.
+    """
+    with domain_for_demo() as domain, claimed(out, RESULTS):
+        log_file = out / "nodes.log"
+        with (
+            log_file.open("w", encoding="utf-8") as log,
+            launched(_launch_command(port, out.resolve()), domain, log.fileno()) as launch,
+            Conductor(domain, checker(launch, log_file)) as conductor,
+        ):
+            _calibrate(conductor)
+            for run in RUNS:
+                with recorder(out / run.name, domain, conductor):
+                    conductor.place_simulated_arm()
+                    conductor.listen(0.5)
+                    conductor.wait_for_states()
+                    conductor.activate()
+                    conductor.carry_out(run)
+                _report(run, conductor, None if port else out / "truth.csv")
+
+
+def diagnosed(out: Path) -> int:
+    """Run `continuum diagnose` on the recordings; returns 0 whatever it finds."""
+    files = ["--json", out / "verdict.json", "--report", out / "diagnosis.html", "--extended", out / "better.yaml"]
+    words = ["diagnose", *(out / run.name for run in RUNS), *files]
+    print(f"continuum {' '.join(str(word) for word in words)}", flush=True)
+    status = continuum([str(word) for word in words])
+    return 0 if status in EXIT_CODES.values() else 1
+
+
+def _launch_command(port: str, out: Path) -> list[str]:
+    """Bridge and simulated arm, and without a port an emulated bench whose arm has the hidden effect."""
+    words = ["ros2", "launch", "continuum_hw_imu", "bench.launch.xml", "simulated:=true"]
+    words.append(f"calibration:={out / 'sensors.yaml'}")
+    if port:
+        return [*words, f"port:={port}"]
+    save_model(with_hidden_effect(load_model("lamecc_prototype.yaml")), out / "arm.yaml")
+    return [
+        *words,
+        f"emulated_model:={out / 'arm.yaml'}",
+        f"emulator_link:={out / 'port'}",
+        f"emulator_control:={out / 'control'}",
+        f"emulator_truth:={out / 'truth.csv'}",
+    ]
+
+
+def with_hidden_effect(model: Model) -> Model:
+    """The model with one joint that is too tight."""
+    at_joint = RATIO * (np.arange(model.n_joints) == JOINT - 1)
+    effect = ActiveEffect(effect_named(HIDDEN), {"viscous": at_joint, "coulomb": at_joint})
+    return replace(model, effects=(*model.effects, effect))
+
+
+def _calibrate(conductor: Conductor) -> None:
+    print("calibration: bias and zero at rest, axes from a bend towards cable 1 and back", flush=True)
+    conductor.trigger("bench_bridge/calibrate_bias", patient=True)
+    conductor.trigger("bench_bridge/zero", patient=True)
+    conductor.activate()
+    conductor.carry_out(BEND)
+    print(f"  {conductor.trigger('bench_bridge/find_axes', patient=True)}", flush=True)
+    conductor.wait_for_states()
+
+
+def _report(run: Run, conductor: Conductor, truth: Path | None) -> None:
+    times, measured, simulated = side_by_side(conductor.received)
+    line = (
+        f"{run.name}: {times[-1]:.1f} s, {len(times)} joint states, bent by up to "
+        f"{abs(measured.sum(axis=1)).max() * 57.29578:.0f} degrees; the simulation errs by "
+        f"{rms_degrees(simulated - measured):.1f} degrees RMS"
+    )
+    if truth is not None:
+        off = rms_degrees(error_of_angles(conductor.received["measured"], truth))
+        line += f"; the measured angles err by {off:.2f} degrees RMS"
+    print(line, flush=True)
+
+
+@contextmanager
+def recorder(folder: Path, domain: int, conductor: Conductor) -> Iterator[None]:
+    """Record the run's topics into ``folder`` during the block.
+
+    Raises:
+        DemoError: it does not begin.
+    """
+    log_file = folder.parent / "recorder.log"
+    topics = ", ".join(TOPICS)
+    words = ["ros2", "run", "continuum_manipulator", "recorder", "--ros-args", "-p", f"output:={folder}"]
+    with log_file.open("a", encoding="utf-8") as log:
+        before = log_file.read_text(encoding="utf-8")
+        with launched([*words, "-p", f"topics:=[{topics}]"], domain, log.fileno()) as process:
+
+            def recording() -> bool:
+                if process.poll() is not None:
+                    raise DemoError(f"the recorder ended; see {log_file}")
+                text = log_file.read_text(encoding="utf-8").removeprefix(before)
+                return f"recording {len(TOPICS)} topics" in text
+
+            conductor.wait_until(recording, "the recorder")
+            yield

@@ -1,0 +1,1 @@
+"""What makes documentation that no benchmark makes: API reference, table of equations, pictures, notebook outputs."""

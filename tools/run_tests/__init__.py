@@ -1,1 +1,0 @@
-"""Run every test: what starts nodes alone, what only computes on all cores."""
