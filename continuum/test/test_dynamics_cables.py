@@ -9,7 +9,7 @@ from dynamics_laws import moving, prototype_model, random_parameters
 
 from continuum.arm import Section
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.cables import (
+from continuum.dynamics.planar.cable_tension import (
     SIDES,
     cable_torque,
     chord_jacobian,

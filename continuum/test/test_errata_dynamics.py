@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from dynamics_laws import prototype_model
 
-from continuum.dynamics.planar.cables import (
+from continuum.dynamics.planar.cable_tension import (
     SIDES,
     chord_jacobian,
     link_wrenches,

@@ -14,7 +14,7 @@ from continuum.errors import InvalidValueError
 from trajectory_generator.checked_arrays import LARGEST, positive
 from trajectory_generator.path import Path
 from trajectory_generator.rotation import quaternions
-from trajectory_generator.trapezoid import Trapezoid
+from trajectory_generator.speed_profile import Trapezoid
 
 MOST_INSTANTS = 10_000_000
 """Largest number of instants made at once."""

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from trajectory_generator.trapezoid import Trapezoid
+from trajectory_generator.speed_profile import Trapezoid
 
 figures = st.floats(1e-4, 1e3)
 profiles = st.builds(Trapezoid, st.just(0.0) | st.floats(1e-9, 1e3), figures, figures)
