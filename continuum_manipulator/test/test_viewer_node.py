@@ -72,7 +72,9 @@ def test_a_browser_that_stalls_or_leaves_holds_nobody_up(probe):
     """Frames are drawn while one is there, if it takes them or not, and none once all have left."""
     joints = probe.speaker(JointState, "joint_states").publish
     way = [joint_state(k, w) for k, w in enumerate(postures(200)[0])]
-    looker = subprocess.Popen([sys.executable, "-m", "tools.bench_viewer.looker", probe.report("viewer")["address"]])
+    looker = subprocess.Popen(
+        [sys.executable, "-m", "tools.benchmarks.viewer.looker", probe.report("viewer")["address"]]
+    )
     try:
         probe.wait_until(lambda: probe.count("viewer", "browsers") == 1, "a browser")
         looker.send_signal(signal.SIGSTOP)
