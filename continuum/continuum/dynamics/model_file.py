@@ -17,11 +17,11 @@ chain with neither ``half_spacing`` nor ``hole_radius`` is driven by torques.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
 from pathlib import Path
 
 import yaml
 
+from continuum.did_you_mean import did_you_mean
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.expressions import Numbers
@@ -148,6 +148,5 @@ def _only(block: Mapping[str, object], allowed: Iterable[str], prefix: str) -> N
     names = tuple(allowed)
     for key in block:
         if key not in names:
-            near = get_close_matches(str(key), names, 1)
-            meant = f"; did you mean {near[0]}?" if near else ""
-            raise InvalidValueError(f"{prefix}{key}", block[key], f"not known here; one of {', '.join(names)}{meant}")
+            near = did_you_mean(str(key), names)
+            raise InvalidValueError(f"{prefix}{key}", block[key], f"not known here; one of {', '.join(names)}{near}")
