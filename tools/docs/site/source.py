@@ -29,7 +29,7 @@ _PICTURE = re.compile(r"(!\[[^\]]*\]\()([^)\s]+)\)")
 def assemble(folder: Path) -> None:
     """Fill a folder, which is made again, with all that the site shows."""
     shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(DOCS, folder, ignore=shutil.ignore_patterns("*.json"))
+    shutil.copytree(DOCS, folder)
     for page in folder.glob("*.md"):
         page.write_text(within_site(page.read_text(encoding="utf-8"), DOCS), encoding="utf-8")
     start = within_site((ROOT / "README.md").read_text(encoding="utf-8"), ROOT)
@@ -88,7 +88,7 @@ def _within(address: str, folder: Path) -> str | None:
     path = (folder / address).resolve()
     if path in GENERATED:
         return GENERATED[path]
-    return os.path.relpath(path, DOCS) if path.is_relative_to(DOCS) and path.suffix != ".json" else None
+    return os.path.relpath(path, DOCS) if path.is_relative_to(DOCS) else None
 
 
 def _title(page: str) -> str:
