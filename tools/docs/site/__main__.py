@@ -29,7 +29,7 @@ def main() -> int:
     except MkDocsException as error:
         print(f"docs: {error}", file=sys.stderr)
         return 1
-    print(f"written: {(OUT / 'site' / 'README.html').relative_to(Path.cwd())}")
+    print(f"written: {(OUT / 'site' / 'index.html').relative_to(Path.cwd())}")
     return 0
 
 
