@@ -1,7 +1,10 @@
 """Markers over DDS, and a node's parameters as ROS tools see them."""
 
+import shlex
+
 import numpy as np
 import pytest
+import yaml
 from arm_messages import ARM, instant_of, joint_state, postures
 from harness import ARM_FILE, NodeProcess, Probe, running
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
@@ -139,3 +142,5 @@ def test_parameters_do_not_change_after_the_start(probe):
     (result,) = ask(probe, SetParameters, "set_parameters", parameters=[Parameter(name="rate", value=value)]).results
     assert not result.successful
     assert "read-only" in result.reason
+    name, given = shlex.split(result.reason)[-1].split(":=")  # the option that starts the node with it
+    assert (name, yaml.safe_load(given)) == ("rate", 5.0)

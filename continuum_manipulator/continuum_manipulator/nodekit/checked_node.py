@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import shlex
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
@@ -9,7 +11,7 @@ from copy import copy
 from typing import Any, ClassVar
 
 import numpy as np
-from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.duration import Duration
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
@@ -104,6 +106,16 @@ class CheckedNode(Node):
         """As rclpy's, which calls it with all that is given; an empty list has no type there: it is as if not given."""
         typed = [entry for entry in parameters if entry[1] is not None]
         return super().declare_parameters(namespace, typed, ignore_override)
+
+    def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
+        """As rclpy's; the refusal of a read-only parameter says how to start the node with the value."""
+        result = super().set_parameters_atomically(parameter_list)
+        if not result.successful:
+            read_only = [p for p in parameter_list if self.describe_parameter(p.name).read_only]
+            if read_only:
+                options = " ".join(f"-p {shlex.quote(f'{p.name}:={_yaml(p)}')}" for p in read_only)
+                result.reason += f" Restart the node with: --ros-args {options}"
+        return result
 
     @classmethod
     def parameter_specs(cls, given: Mapping[str, object]) -> tuple[ParameterSpec, ...]:  # noqa: ARG003
@@ -217,3 +229,9 @@ class CheckedNode(Node):
     def give_up(self, problem: str) -> str:
         """Called once in the place of :meth:`close` when the node cannot go on; the line that is told of it."""
         return problem
+
+
+def _yaml(parameter: Parameter) -> str:
+    """The parameter's value as `-p name:=VALUE` takes it: JSON, which is YAML in one line."""
+    value = parameter.value
+    return json.dumps(value.tolist() if hasattr(value, "tolist") else value, ensure_ascii=False, default=str)

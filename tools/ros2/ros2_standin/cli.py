@@ -15,8 +15,8 @@ from ros2_standin.errors import UserError
 
 NOTE = (
     "This is not the stock ros2: it is a small stand-in that this workspace's set-up carries for machines without a "
-    "ROS 2 installation. It covers run, launch (XML, in part Python), topic, node, param, service, bag (rosbag2, MCAP) "
-    "and pkg, in the stock grammar. Where a stock ros2 is on the PATH, that one is used."
+    "ROS 2 installation. It covers run, launch (XML, in part Python), topic, node, param, service, lifecycle, "
+    "interface, bag (rosbag2, MCAP) and pkg, in the stock grammar. Where a stock ros2 is on the PATH, that one is used."
 )
 
 

@@ -42,6 +42,7 @@ COMMANDS: MappingProxyType[str, Verb | Family] = MappingProxyType(
         "launch": Verb("Run a launch file", "launch.command", "launch", passes_arguments=True),
         "topic": _family(
             "Various topic related sub-commands",
+            bw=Verb("Display bandwidth used by topic", "topic_bw", "bw"),
             echo=Verb("Output messages from a topic", "topic_echo", "echo"),
             find=Verb("Output a list of available topics of a given type", "topic_graph", "find"),
             hz=Verb("Print the average receiving rate to screen", "topic_hz", "hz"),
@@ -66,8 +67,22 @@ COMMANDS: MappingProxyType[str, Verb | Family] = MappingProxyType(
         "service": _family(
             "Various service related sub-commands",
             call=Verb("Call a service", "service", "call"),
+            find=Verb("Output a list of available services of a given type", "service", "find"),
             list=Verb("Output a list of available services", "service", "list"),
             type=Verb("Output a service's type", "service", "type"),
+        ),
+        "lifecycle": _family(
+            "Various lifecycle related sub-commands",
+            get=Verb("Get lifecycle state for one or more nodes", "lifecycle", "get"),
+            list=Verb("Output a list of available transitions", "lifecycle", "list"),
+            nodes=Verb("Output a list of nodes with lifecycle", "lifecycle", "nodes"),
+            set=Verb("Trigger lifecycle state transition", "lifecycle", "set"),
+        ),
+        "interface": _family(
+            "Show information about ROS interfaces",
+            list=Verb("List all interface types available", "interface", "list"),
+            package=Verb("Output a list of available interface types within one package", "interface", "package"),
+            show=Verb("Output the interface definition", "interface", "show"),
         ),
         "bag": _family(
             "Various rosbag related sub-commands",

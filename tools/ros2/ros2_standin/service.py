@@ -1,4 +1,4 @@
-"""``ros2 service list|type|call``."""
+"""``ros2 service list|type|find|call``."""
 
 from __future__ import annotations
 
@@ -56,6 +56,29 @@ def type_verb(args: argparse.Namespace) -> int:
         for name in types:
             print(name)
         return 0 if types else 1
+
+
+def find_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of ``find``."""
+    add_discovery_arguments(parser)
+    parser.add_argument("service_type", help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/Empty')")
+    parser.add_argument(
+        "-c", "--count-services", action="store_true", help="Only display the number of services discovered"
+    )
+    parser.add_argument("--include-hidden-services", action="store_true", help="Consider hidden services as well")
+
+
+def find_verb(args: argparse.Namespace) -> None:
+    """Print the services of one type."""
+    with open_session(args) as session:
+        session.discover()
+        found = sorted(
+            name
+            for name, types in session.node.get_service_names_and_types()
+            if args.service_type in types and (args.include_hidden_services or not is_hidden(name))
+        )
+        for line in [len(found)] if args.count_services else found:
+            print(line)
 
 
 def call_arguments(parser: argparse.ArgumentParser) -> None:

@@ -34,6 +34,14 @@ def find_topic_types(session: Session, topic: str) -> list[str]:
     return known()
 
 
+def wait_for_topic(session: Session, topic: str) -> None:
+    """Wait until the topic is there, however long that takes; warn where discovery does not find it."""
+    if not find_topic_types(session, topic):
+        print(f"WARNING: topic [{topic}] does not appear to be published yet", flush=True)
+        full = session.node.resolve_topic_name(topic)
+        session.spin_until(lambda: full in dict(session.node.get_topic_names_and_types()))
+
+
 def the_topic_type(session: Session, topic: str) -> str:
     """The one type of a topic, waiting for discovery.
 

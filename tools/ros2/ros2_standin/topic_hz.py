@@ -10,7 +10,7 @@ from collections import deque
 from ros2_standin.interface_types import message_class
 from ros2_standin.qos import add_qos_arguments, qos_for_subscribing
 from ros2_standin.session import add_discovery_arguments, open_session, positive_int
-from ros2_standin.topic_graph import find_topic_types, the_topic_type
+from ros2_standin.topic_graph import the_topic_type, wait_for_topic
 
 
 class ArrivalRate:
@@ -62,10 +62,7 @@ def hz_arguments(parser: argparse.ArgumentParser) -> None:
 def hz_verb(args: argparse.Namespace) -> None:
     """Print the rate once a second until interrupted; waits for a topic that is not there yet."""
     with open_session(args) as session:
-        if not find_topic_types(session, args.topic_name):
-            print(f"WARNING: topic [{args.topic_name}] does not appear to be published yet", flush=True)
-            full = session.node.resolve_topic_name(args.topic_name)
-            session.spin_until(lambda: full in dict(session.node.get_topic_names_and_types()))
+        wait_for_topic(session, args.topic_name)
         message_type = message_class(the_topic_type(session, args.topic_name))
         qos = qos_for_subscribing(args, session.node, session.node.resolve_topic_name(args.topic_name))
         rate = ArrivalRate(args.window)

@@ -55,6 +55,9 @@ def test_publish_and_echo(ros2) -> None:
     rate = ros2.start("topic", "hz", "/joints")
     rate.wait_for("average rate: ")
     assert rate.stop() == 2
+    bandwidth = ros2.start("topic", "bw", "/joints", "--window", "5")
+    bandwidth.wait_for("from 5 messages\n\tMessage size mean: ")
+    assert bandwidth.stop() == 2
     assert publisher.stop() == 2
     assert "Traceback" not in publisher.stderr + rate.stderr
 
@@ -99,7 +102,39 @@ def test_parameters_of_a_launched_node(ros2, program, tmp_path) -> None:
     assert f"{node}\n" in ros2("node", "list", *wait).stdout
     assert "    /lab/switch: std_srvs/srv/SetBool\n" in ros2("node", "info", node, *wait).stdout
     assert ros2("service", "type", "/lab/switch", *wait).stdout == "std_srvs/srv/SetBool\n"
+    assert "/lab/switch\n" in ros2("service", "find", "std_srvs/srv/SetBool", *wait).stdout
+    assert ros2("service", "find", "std_srvs/srv/Trigger", *wait).stdout == ""
     called = ros2("service", "call", "/lab/switch", "std_srvs/srv/SetBool", "data: true").stdout
     assert "SetBool_Response(success=True, message='done')" in called
     assert launch.stop() == 0
     assert "[plant-1]: process has finished cleanly" in launch.stdout
+
+
+MANAGED = """
+import rclpy
+from rclpy.lifecycle import LifecycleNode
+
+rclpy.init()
+node = LifecycleNode("managed")
+print("ready", flush=True)
+try:
+    rclpy.spin(node)
+except (rclpy.executors.ExternalShutdownException, KeyboardInterrupt):
+    pass
+"""
+
+
+def test_a_managed_node_goes_through_its_states(ros2, program) -> None:
+    program("managed", MANAGED)
+    node = ros2.start("run", "demo", "managed")
+    node.wait_for("ready")
+    wait = ("--spin-time", "30")
+    assert ros2("lifecycle", "nodes", *wait).stdout == "/managed\n"
+    assert ros2("lifecycle", "get", "managed", *wait).stdout == "unconfigured [1]\n"
+    assert "allows: configure [1]" in ros2("lifecycle", "set", "managed", "activate", *wait, code=1).stderr
+    for transition, state in (("configure", "inactive [2]"), ("3", "active [3]")):
+        assert ros2("lifecycle", "set", "managed", transition, *wait).stdout == "Transitioning successful\n"
+        assert ros2("lifecycle", "get", *wait).stdout == f"/managed: {state}\n"
+    assert "- deactivate [4]\n\tStart: active\n" in ros2("lifecycle", "list", "managed", *wait).stdout
+    node.stop()
+    assert "Node not found" in ros2("lifecycle", "get", "managed", "--spin-time", "0.2", code=1).stderr
