@@ -29,7 +29,7 @@ from continuum_hw_imu.link.bench_client import BenchClient
 from continuum_hw_imu.protocol.messages.forces import LARGEST, STEP
 from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_hw_imu.sensor_watch import SensorWatch
-from continuum_manipulator.nodekit import tension_limits
+from continuum_manipulator.nodekit import tension_parameters
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_manipulator.nodekit.planar_arm import PlanarArm
@@ -69,14 +69,14 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         CheckedNode.__init__(self)
         if self.get_parameter("use_sim_time").value:
             raise InvalidValueError("use_sim_time", True, "false; a bench lives in real time")
-        model = load_model(self.values["model"])
         section = str(self.values["section"])
+        model = load_model(self.values["model"], section)
         self._planar = PlanarArm(section, model)
         self._n_joints = model.n_joints
         self._steps = steps_from(self.values["calibration"], model.n_joints, self.values["keep_bias"])
         LifecycleNodeMixin.__init__(self)
         self._refuse_what_is_none()
-        self._limits = tension_limits.limits_from(self.values)
+        self._limits = tension_parameters.limits_from(self.values)
         most = LARGEST * STEP
         if self._limits.max_tension > most:
             raise InvalidValueError("max_tension", self._limits.max_tension, f"up to {most:g} N, what the line carries")
@@ -239,7 +239,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         before = commander.gate.abandoned
         commander.send(now)
         if commander.gate.abandoned and not before:
-            tension_limits.report_abandoned(self.diagnostics, self._limits)
+            tension_parameters.report_abandoned(self.diagnostics, self._limits)
 
     def _on_command(self, message: CableStates) -> None:
         speakers = self.count_publishers(self.resolve_topic_name(COMMANDS))
@@ -250,7 +250,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         age = max(0, now - nanoseconds(message.header.stamp)) / NANOSECONDS
         if not self._commander.gate.command(wanted, time.monotonic() - age):
             raise MessageFault("not active", "a tension command; the node has to be activated first")
-        tension_limits.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
+        tension_parameters.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
 
     # --- services
 

@@ -6,11 +6,11 @@ import math
 import time
 from collections.abc import Callable
 
-from continuum.dynamics.live.tension_follower import TensionLimits
+from continuum.dynamics.live.tension_limit import TensionLimits
 from continuum.errors import ContinuumError
+from continuum_hw_imu.command_gate import CommandGate
 from continuum_hw_imu.link.bench_client import BenchClient
 from continuum_hw_imu.protocol.messages import GuardState, Result
-from continuum_hw_imu.tension_gate import TensionGate
 
 SILENT = 0.5
 """Time without a frame from which a bench is silent [s]."""
@@ -46,7 +46,7 @@ class BenchCommander:
 
     def __init__(self, limits: TensionLimits, n_cables: int, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
-        self.gate = TensionGate(limits, n_cables)
+        self.gate = CommandGate(limits, n_cables)
         self.client: BenchClient | None = None
         self.deviance = ""
         self.refused = ""

@@ -10,7 +10,7 @@ from continuum.inertial.calibration import load_calibration
 from continuum.inertial.calibration_steps import CalibrationSteps
 from continuum.parameter_spec import ParameterSpec
 from continuum_hw_imu.sensor_quality import SensorQuality
-from continuum_manipulator.nodekit import tension_limits
+from continuum_manipulator.nodekit import tension_parameters
 
 AUTOSTARTS = ("none", "configure", "activate")
 """How far a node goes by itself. Sensors do no harm, so by default it opens the port; tension takes a person's word."""
@@ -35,7 +35,7 @@ PARAMETERS = (
     ParameterSpec("force_noise", float, "noise of the accelerations, standard deviation", "m/s^2", 0.0, 10.0,
                   default=SensorQuality().force_noise),
     ParameterSpec("command_rate", float, "set points a second", "Hz", 20.0, 200.0, default=60.0),
-    *tension_limits.PARAMETERS,
+    *tension_parameters.PARAMETERS,
 )  # fmt: skip
 
 

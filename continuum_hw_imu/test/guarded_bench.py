@@ -3,7 +3,7 @@
 import numpy as np
 
 from continuum_hw_imu.protocol.messages import ReceiverLimits, Result
-from continuum_hw_imu.receiver.tension_guard import TensionGuard
+from continuum_hw_imu.receiver.safety_guard import SafetyGuard
 
 TICK = 5_000  # us
 LIMITS = ReceiverLimits(max_tension=40.0, max_rate=400.0)
@@ -14,7 +14,7 @@ class Bench:
     """A guard, its clock, and the record of its set points. It begins 100 s after the device's start."""
 
     def __init__(self, start: int = 100_000_000) -> None:
-        self.guard = TensionGuard(LIMITS, 2)
+        self.guard = SafetyGuard(LIMITS, 2)
         self.now = start
         self.sequence = 0
         self.record = [self.guard.set_points]

@@ -3,7 +3,7 @@
 import pytest
 from looped_bench import LoopedBench
 
-from continuum.dynamics.live.tension_follower import TensionLimits
+from continuum.dynamics.live.tension_limit import TensionLimits
 from continuum_hw_imu.bench_commander import BenchCommander
 from continuum_hw_imu.protocol.messages import GuardState
 

@@ -9,7 +9,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from looped_bench import HELLO, LoopedBench
 from rclpy.clock import Clock
 
-from continuum.dynamics.live.tension_follower import TensionLimits
+from continuum.dynamics.live.tension_limit import TensionLimits
 from continuum.dynamics.model_file import load_model
 from continuum.inertial.calibration import Calibration
 from continuum.inertial.calibration_steps import CalibrationSteps

@@ -13,14 +13,14 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
 from continuum.dynamics.live.live_arm import INTEGRATORS, LiveArm
-from continuum.dynamics.live.tension_follower import TensionFollower
+from continuum.dynamics.live.tension_limit import TensionLimiter
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.planar.cable_tension import SIDES
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
 from continuum.parameter_spec import ParameterSpec
 from continuum_manipulator.load_meter import LoadMeter, Mark
-from continuum_manipulator.nodekit import tension_limits
+from continuum_manipulator.nodekit import tension_parameters
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.planar_arm import PlanarArm
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
@@ -51,7 +51,7 @@ class DynamicsNode(CheckedNode):
 
     NAME = "dynamics"
     PARAMETERS = (
-        ParameterSpec("model", str, "model file, or the name of one that comes with the library",
+        ParameterSpec("model", str, "model file, or arm file with a block dynamics, or the name of one of the library's",
                       default="lamecc_prototype.yaml"),
         ParameterSpec("section", str, "name of the section, with which those of joints and cables begin",
                       default="section_1"),
@@ -62,18 +62,18 @@ class DynamicsNode(CheckedNode):
                       default=0.0),
         ParameterSpec("initial_angles", float, "joint angles at the start from base to tip, in the place of a bend",
                       "rad", -np.pi, np.pi, is_list=True, default=[]),
-        *tension_limits.PARAMETERS,
+        *tension_parameters.PARAMETERS,
     )  # fmt: skip
 
     def __init__(self) -> None:
         super().__init__()
-        model = load_model(self.values["model"])
+        model = load_model(self.values["model"], str(self.values["section"]))
         self._planar = PlanarArm(str(self.values["section"]), model)
         self._n_joints = model.n_joints
         self._posture = initial_posture(model.n_joints, self.values)
         self._arm = LiveArm(model, self._posture, self.values["integrator"])
-        self._limits = tension_limits.limits_from(self.values)
-        self._tensions = TensionFollower(self._limits, len(SIDES))
+        self._limits = tension_parameters.limits_from(self.values)
+        self._tensions = TensionLimiter(self._limits, len(SIDES))
         self._pace: Pace | None = None  # until there is a time
         self._by_clock = bool(self.get_parameter("use_sim_time").value)
         self._failure: SimulationStatus | None = None
@@ -152,7 +152,7 @@ class DynamicsNode(CheckedNode):
         duration = (self._pace.reach(number) - begin) / NANOSECONDS
         interval = self._tensions.move_on(self._pace.seconds(begin), duration)
         if self._tensions.abandoned and not before:
-            tension_limits.report_abandoned(self.diagnostics, self._limits)
+            tension_parameters.report_abandoned(self.diagnostics, self._limits)
         status = self._arm.advance(interval)
         if status is SimulationStatus.COMPLETE:
             self._publish()
@@ -171,7 +171,7 @@ class DynamicsNode(CheckedNode):
         wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
         if self._pace is None:
             return  # within the first period
-        tension_limits.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
+        tension_parameters.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
         self._tensions.command(wanted, self._pace.seconds(min(now, nanoseconds(message.header.stamp))))
 
     def _release(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:

@@ -12,8 +12,8 @@ from concurrent.futures import ProcessPoolExecutor
 
 import pytest
 
-from blind.plant import EFFECTS, LIBRARY, OUTSIDE
-from blind.plant.effect import DRIVEN, RELEASE
+from blind.mujoco_plant import EFFECTS, LIBRARY, OUTSIDE
+from blind.mujoco_plant.effect import DRIVEN, RELEASE
 from tools.benchmarks.discovery.answer import Answer, answer, label
 from tools.benchmarks.discovery.cases import run_case
 from tools.benchmarks.discovery.plans import PLANTS, Plan

@@ -8,10 +8,10 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from blind import moreau, plant
-from blind.plant import COMMANDS, DATASETS, EFFECTS, LIBRARY, OUTSIDE, Case, draw_plan, make_case, write_case
-from blind.plant.effect import SIZES
-from blind.plant.table import table
+from blind import moreau_plant, mujoco_plant
+from blind.mujoco_plant import COMMANDS, DATASETS, EFFECTS, LIBRARY, OUTSIDE, Case, draw_plan, make_case, write_case
+from blind.mujoco_plant.effect import SIZES
+from blind.mujoco_plant.table import table
 
 pytestmark = pytest.mark.slow
 
@@ -21,7 +21,7 @@ DIGITS = (
     {"t_s": 6, "u1_N": 4, "u2_N": 4} | {f"q{i}_deg": 4 for i in range(1, 6)} | {f"dq{i}_deg_s": 3 for i in range(1, 6)}
 )
 
-each_plant = pytest.mark.parametrize("of", [plant, moreau], ids=lambda of: of.__name__)
+each_plant = pytest.mark.parametrize("of", [mujoco_plant, moreau_plant], ids=lambda of: of.__name__)
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,7 @@ def cases() -> list[Case]:
     ]
 
 
-@pytest.mark.parametrize(("folder", "engine"), [("plant", "mujoco"), ("moreau", "numba")])
+@pytest.mark.parametrize(("folder", "engine"), [("mujoco_plant", "mujoco"), ("moreau_plant", "numba")])
 def test_a_plant_shares_no_code_with_the_library_and_the_second_none_with_mujoco(folder: str, engine: str) -> None:
     found = set()
     for path in (Path(__file__).parent / folder).rglob("*.py"):
@@ -66,7 +66,7 @@ def test_a_seed_gives_the_same_bytes_again_and_another_seed_others(of: ModuleTyp
 
 
 def test_a_seed_draws_the_same_in_both_plants() -> None:
-    assert moreau.make_case(["inertia"], **SHORT).truth.plain() == make_case(["inertia"], **SHORT).truth.plain()
+    assert moreau_plant.make_case(["inertia"], **SHORT).truth.plain() == make_case(["inertia"], **SHORT).truth.plain()
 
 
 def test_files_are_alike_whatever_is_hidden(cases: list[Case]) -> None:
@@ -149,7 +149,7 @@ def test_a_drawn_case_holds_what_is_planned(of: ModuleType) -> None:
 
 
 def test_files_of_the_second_plant_hold_angles_and_tensions_and_no_rates() -> None:
-    files = moreau.make_case([], **SHORT).files.values()
+    files = moreau_plant.make_case([], **SHORT).files.values()
     columns = "t_s,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,u1_N,u2_N"
     assert {content.decode().splitlines()[0] for content in files} == {columns}
 
@@ -157,9 +157,9 @@ def test_files_of_the_second_plant_hold_angles_and_tensions_and_no_rates() -> No
 @pytest.mark.parametrize("noise", ["low", "ordinary", "high"])
 def test_zeros_are_wrong_by_tenths_of_a_degree_on_top_of_the_noise(noise: str) -> None:
     """Each joint's but the first, which has one sensor: by 0.15 degrees, and what the noise has by itself."""
-    joints = np.degrees(np.sqrt(2) * np.array([moreau.NOISES[noise].start, plant.NOISES[noise].start]))
+    joints = np.degrees(np.sqrt(2) * np.array([moreau_plant.NOISES[noise].start, mujoco_plant.NOISES[noise].start]))
     assert np.sqrt(joints[0] ** 2 - joints[1] ** 2) == pytest.approx(0.15)
-    case = moreau.make_case(dataset=["release"] * 4, seed=5, noise=noise)
+    case = moreau_plant.make_case(dataset=["release"] * 4, seed=5, noise=noise)
     errors = []
     for name, content in case.files.items():
         rows = np.loadtxt(content.decode().splitlines(), delimiter=",", skiprows=1)

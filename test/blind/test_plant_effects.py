@@ -6,20 +6,20 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from blind import moreau, plant
-from blind.moreau.loads import carried
-from blind.plant import EFFECTS, Case, Effect, prototype
-from blind.plant.chain import BALL_INERTIA, BALL_MASS, without_ball
-from blind.plant.parameters import GRAVITY
-from blind.plant.sensors import ORDINARY
+from blind import moreau_plant, mujoco_plant
+from blind.moreau_plant.loads import carried
+from blind.mujoco_plant import EFFECTS, Case, Effect, prototype
+from blind.mujoco_plant.chain import BALL_INERTIA, BALL_MASS, without_ball
+from blind.mujoco_plant.parameters import GRAVITY
+from blind.mujoco_plant.sensors import ORDINARY
 
 pytestmark = pytest.mark.slow
 
-each_plant = pytest.mark.parametrize("of", [plant, moreau], ids=lambda of: of.__name__)
+each_plant = pytest.mark.parametrize("of", [mujoco_plant, moreau_plant], ids=lambda of: of.__name__)
 
 SEED = 3
 NOTHING = np.zeros(2)
-SECONDS = {plant: 1.0, moreau: 2.0}
+SECONDS = {mujoco_plant: 1.0, moreau_plant: 2.0}
 # as multiples of medium; a winch and a ring of fixed size go only with the effect as a whole, and a joint that hardly
 # gives before it slips is too stiff for the step
 FADED = dict.fromkeys(EFFECTS, 0.0005) | {"elastic_cable": 0.0, "presliding": 2e-3}
@@ -41,17 +41,17 @@ def change(case: Case, other: Case) -> float:
     return float(np.sqrt(np.mean(difference**2)) / ORDINARY.joint_angle())
 
 
-def arm(*effects: Effect, of: ModuleType = moreau, seed: int = 0) -> plant.Machine | moreau.Machine:
+def arm(*effects: Effect, of: ModuleType = moreau_plant, seed: int = 0) -> mujoco_plant.Machine | moreau_plant.Machine:
     return of.Machine(prototype(), effects, np.random.default_rng(seed))
 
 
-def pulling(machine: plant.Machine | moreau.Machine) -> np.ndarray:
+def pulling(machine: mujoco_plant.Machine | moreau_plant.Machine) -> np.ndarray:
     """Tensions at the base (2,) [N]."""
-    of_it: np.ndarray = machine.pulling if isinstance(machine, plant.Machine) else machine.state.pulling
+    of_it: np.ndarray = machine.pulling if isinstance(machine, mujoco_plant.Machine) else machine.state.pulling
     return of_it.copy()
 
 
-def pulled(machine: plant.Machine | moreau.Machine, command: list[float], steps: int) -> np.ndarray:
+def pulled(machine: mujoco_plant.Machine | moreau_plant.Machine, command: list[float], steps: int) -> np.ndarray:
     """Tension of the first cable [N] at so many instants."""
     found = []
     for _ in range(steps):
@@ -70,7 +70,7 @@ def test_an_effect_shows_at_medium_size(of: ModuleType, name: str) -> None:
 @each_plant
 @pytest.mark.parametrize("name", EFFECTS)
 def test_an_effect_fades_with_its_size(of: ModuleType, name: str) -> None:
-    size = (FADED_IN_MUJOCO if of is plant else FADED)[name]
+    size = (FADED_IN_MUJOCO if of is mujoco_plant else FADED)[name]
     assert change(measured(of, "chirp", name, size=size, seconds=0.4), clean(of, "chirp", 0.4)) < 0.2
 
 
@@ -98,7 +98,7 @@ def test_a_remounted_base_hangs_otherwise_in_every_recording(of: ModuleType) -> 
     """By either side."""
     machines = [arm(EFFECTS["remounted_base"](0.05), of=of, seed=seed) for seed in range(12)]
     turned = np.array(
-        [np.arctan2(one.plumb[0], -one.plumb[2]) if of is plant else one.mechanism.base_tilt for one in machines]
+        [np.arctan2(one.plumb[0], -one.plumb[2]) if of is mujoco_plant else one.mechanism.base_tilt for one in machines]
     )
     assert np.unique(np.round(turned, 6)).size == 12
     assert np.all((np.abs(turned) > 0.025) & (np.abs(turned) < 0.075))
@@ -120,7 +120,7 @@ def test_a_ball_and_what_is_beyond_it_are_the_link() -> None:
     assert inertia + mass * centre**2 + BALL_INERTIA == pytest.approx(8e-5 + 0.22 * 0.019**2)
 
 
-@pytest.mark.parametrize(("of", "gives"), [(plant, 1e-3), (moreau, 1e-12)], ids=["plant", "moreau"])
+@pytest.mark.parametrize(("of", "gives"), [(mujoco_plant, 1e-3), (moreau_plant, 1e-12)], ids=["mujoco", "moreau"])
 def test_play_ends_at_its_stops(of: ModuleType, gives: float) -> None:
     """Free in between, and pressed to one or the other again and again; MuJoCo's stops give way by 1 mrad at most."""
     machine = arm(EFFECTS["backlash"](0.015, 2), of=of)
@@ -128,13 +128,15 @@ def test_play_ends_at_its_stops(of: ModuleType, gives: float) -> None:
     angle = np.empty(round(0.5 / machine.dt))
     for k in range(angle.size):
         machine.step(NOTHING)
-        in_play = machine.data.qpos[machine.dof("play_2")] if of is plant else machine.state.q[machine.chain.link[1]]
+        in_play = (
+            machine.data.qpos[machine.dof("play_2")] if of is mujoco_plant else machine.state.q[machine.chain.link[1]]
+        )
         angle[k] = in_play
     assert np.ptp(angle) > 0.029  # from stop to stop
     assert np.abs(angle).max() < 0.015 + gives
 
 
-@pytest.mark.parametrize(("of", "within"), [(plant, 0.0), (moreau, 0.5)], ids=["plant", "moreau"])
+@pytest.mark.parametrize(("of", "within"), [(mujoco_plant, 0.0), (moreau_plant, 0.5)], ids=["mujoco", "moreau"])
 def test_a_lag_begins_at_the_instant_of_the_command(of: ModuleType, within: float) -> None:
     """What pulls in a step is that of its beginning, or of its middle."""
     machine = arm(EFFECTS["actuator_lag"](0.02), of=of)

@@ -8,30 +8,30 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from blind import moreau, plant
-from blind.moreau.boxes import solve_boxed
-from blind.moreau.chain import Chain, assemble, equations, gravity
-from blind.moreau.joints import dry_friction
-from blind.moreau.mechanism import Mechanism, without_effects
-from blind.plant import EFFECTS, Effect, Parameters, prototype
-from blind.plant.parameters import GRAVITY
+from blind import moreau_plant, mujoco_plant
+from blind.moreau_plant.boxes import solve_boxed
+from blind.moreau_plant.chain import Chain, assemble, equations, gravity
+from blind.moreau_plant.joints import dry_friction
+from blind.moreau_plant.mechanism import Mechanism, without_effects
+from blind.mujoco_plant import EFFECTS, Effect, Parameters, prototype
+from blind.mujoco_plant.parameters import GRAVITY
 
 pytestmark = pytest.mark.slow
 
-each_plant = pytest.mark.parametrize("of", [plant, moreau], ids=lambda of: of.__name__)
+each_plant = pytest.mark.parametrize("of", [mujoco_plant, moreau_plant], ids=lambda of: of.__name__)
 
 NOTHING = np.zeros(2)
 BENT = [20, 10, 25, -5, 30]  # [deg]
 H = 1e-6  # of differences [rad]
 
 
-def made(of: ModuleType, p: Parameters, *effects: Effect, steps: int) -> plant.Machine | moreau.Machine:
+def made(of: ModuleType, p: Parameters, *effects: Effect, steps: int) -> mujoco_plant.Machine | moreau_plant.Machine:
     return of.Machine(p, effects, np.random.default_rng(0), steps)
 
 
-def angles(machine: plant.Machine | moreau.Machine) -> np.ndarray:
+def angles(machine: mujoco_plant.Machine | moreau_plant.Machine) -> np.ndarray:
     """Joint angles (5,) [rad], which can be set."""
-    return machine.data.qpos if isinstance(machine, plant.Machine) else machine.state.q
+    return machine.data.qpos if isinstance(machine, mujoco_plant.Machine) else machine.state.q
 
 
 def frictionless() -> Parameters:
@@ -55,7 +55,7 @@ def test_the_arm_moves_alike_in_both_plants(rubs: bool) -> None:
     The laws of friction agree without Stribeck's term only.
     """
     p = prototype().scaled("stribeck", None, 0.0) if rubs else frictionless().with_(base_tilt=0.1)
-    one, other = released(moreau, p, 40), released(plant, p, 256)
+    one, other = released(moreau_plant, p, 40), released(mujoco_plant, p, 256)
     assert np.sqrt(np.mean((one - other) ** 2)) / np.ptp(other) < (2e-5 if rubs else 2e-3)
 
 
@@ -63,9 +63,9 @@ def test_the_arm_moves_alike_in_both_plants(rubs: bool) -> None:
 def test_a_whole_case_without_stribecks_term_is_alike_in_both_plants(regime: str) -> None:
     """Pulled, held, let go or driven, with the cables' friction: to some hundredths of a degree most of the time."""
     p = prototype().scaled("stribeck", None, 0.0)
-    command = plant.COMMANDS["reversals"](np.arange(121) / 120, np.random.default_rng(4))
+    command = mujoco_plant.COMMANDS["reversals"](np.arange(121) / 120, np.random.default_rng(4))
     found = []
-    for of in (moreau, plant):
+    for of in (moreau_plant, mujoco_plant):
         arm = of.Machine(p, (), np.random.default_rng(0))
         if regime == "release":
             command = np.tile(arm.pull_to(1.2), (121, 1))
@@ -77,7 +77,9 @@ def test_a_whole_case_without_stribecks_term_is_alike_in_both_plants(regime: str
     assert np.degrees(np.abs(found[0] - found[1])).max() < 0.1
 
 
-@pytest.mark.parametrize(("of", "steps", "near"), [(plant, 64, 0.04), (moreau, 40, 0.001)], ids=["plant", "moreau"])
+@pytest.mark.parametrize(
+    ("of", "steps", "near"), [(mujoco_plant, 64, 0.04), (moreau_plant, 40, 0.001)], ids=["mujoco", "moreau"]
+)
 @pytest.mark.parametrize("moves", [False, True])
 def test_a_joint_breaks_away_at_coulomb_and_stribeck_together(
     of: ModuleType, steps: int, near: float, moves: bool
@@ -91,7 +93,9 @@ def test_a_joint_breaks_away_at_coulomb_and_stribeck_together(
     assert (np.degrees(angles(machine)[4]) < np.degrees(start) - 1e-3) == moves
 
 
-@pytest.mark.parametrize(("of", "steps", "creeps"), [(plant, 64, 2e-3), (moreau, 40, 0.0)], ids=["plant", "moreau"])
+@pytest.mark.parametrize(
+    ("of", "steps", "creeps"), [(mujoco_plant, 64, 2e-3), (moreau_plant, 40, 0.0)], ids=["mujoco", "moreau"]
+)
 def test_a_pulled_arm_stands_still_while_tension_changes_little(of: ModuleType, steps: int, creeps: float) -> None:
     """In the second plant to the last digit."""
     machine = made(of, prototype(), steps=steps)
@@ -107,7 +111,7 @@ def test_a_pulled_arm_stands_still_while_tension_changes_little(of: ModuleType, 
 def test_a_loaded_joint_rubs_by_what_it_carries(pull: float) -> None:
     """Straight and still, between two cables: the weight beyond the joint less what both cables press it together."""
     p = prototype()
-    machine = made(plant, p, EFFECTS["load_friction"](1e-3), steps=64)
+    machine = made(mujoco_plant, p, EFFECTS["load_friction"](1e-3), steps=64)
     for _ in range(3):
         machine.step(np.full(2, pull))
     weight = GRAVITY * np.cumsum(p.mass[::-1])[::-1]
@@ -168,7 +172,7 @@ def test_torques_and_mass_matrix_are_those_of_lagrange() -> None:
     ids=lambda effects: effects[0].name if effects else "none",
 )  # fmt: skip
 def test_no_law_gives_energy_in_any_step_and_all_are_kept(effects: tuple[Effect, ...]) -> None:
-    machine = made(moreau, prototype(), *effects, steps=40)
+    machine = made(moreau_plant, prototype(), *effects, steps=40)
     machine.pull_to(1.0)
     for pull in (np.array([25.0, 3.0]), NOTHING, np.array([0.0, 20.0])):
         for _ in range(1200):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from blind.plant import EFFECTS, Effect, Motion, Noise
-from blind.plant.machine import KEPT, RATE
-from blind.plant.sensors import ORDINARY, Reading
+from blind.mujoco_plant import EFFECTS, Effect, Motion, Noise
+from blind.mujoco_plant.machine import KEPT, RATE
+from blind.mujoco_plant.sensors import ORDINARY, Reading
 
 ROWS = 481
 TIME = np.arange((ROWS - 1) * KEPT + 1) / (RATE * KEPT)

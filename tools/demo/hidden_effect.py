@@ -15,9 +15,9 @@ import time
 from pathlib import Path
 
 import numpy as np
-from blind.plant import make_case, write_case
-from blind.plant.case import Case
-from blind.plant.effects import EFFECTS, LIBRARY
+from blind.mujoco_plant import make_case, write_case
+from blind.mujoco_plant.case import Case
+from blind.mujoco_plant.effects import EFFECTS, LIBRARY
 
 from continuum.discovery import diagnose
 from continuum.discovery.decision import Kind

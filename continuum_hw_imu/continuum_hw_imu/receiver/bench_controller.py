@@ -34,7 +34,7 @@ from continuum_hw_imu.protocol.messages import (
 )
 from continuum_hw_imu.protocol.sequence import Arrival, SequenceTracker
 from continuum_hw_imu.receiver.fault_board import FaultBoard
-from continuum_hw_imu.receiver.tension_guard import TensionGuard
+from continuum_hw_imu.receiver.safety_guard import SafetyGuard
 
 STATUS_PERIOD = 100_000
 """Between two `Status` at most [us]."""
@@ -70,7 +70,7 @@ class BenchController:
         self._hello = hello
         self.decoder = Decoder.of_device()
         self.arrivals = SequenceTracker()
-        self.guard = TensionGuard(hello.limits, hello.n_cables)
+        self.guard = SafetyGuard(hello.limits, hello.n_cables)
         self.faults = FaultBoard()
         self.batteries: list[int | None] = [None] * len(hello.sensors)
         self._reported: _Condition | None = None

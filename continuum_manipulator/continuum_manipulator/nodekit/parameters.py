@@ -5,11 +5,12 @@ from __future__ import annotations
 import sys
 from array import array
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 
-from continuum.arm import SECTION_PARAMETERS, Arm, arm_from_mapping, arm_to_mapping
+from continuum.arm import DYNAMICS, SECTION_PARAMETERS, Arm, arm_from_mapping, arm_to_mapping
 from continuum.errors import ContinuumError, InvalidValueError
 from continuum.parameter_spec import ParameterSpec, Value
 
@@ -64,6 +65,9 @@ def declare_parameters(node: Node, specs: Iterable[ParameterSpec], given: Mappin
 def declare_arm(node: Node, given: Mapping[str, object], default: Arm | None = None) -> Arm:
     """Build the arm from the parameters ``arm.*`` and declare them, defaults included; ``default`` if there are none.
 
+    They are declared by the names and in the units of their specifications, however a file has them. What it has for
+    simulations alone is declared as it is.
+
     Raises:
         InvalidValueError: no arm is given, or one of its parameters is missing, unknown or out of range.
     """
@@ -81,6 +85,10 @@ def declare_arm(node: Node, given: Mapping[str, object], default: Arm | None = N
             continue
         for spec in SECTION_PARAMETERS:
             _declare(node, spec, f"{ARM_PREFIX}{name}.{spec.name}", value[spec.name])
+    declared = {f"{ARM_PREFIX}{section.name}.{spec.name}" for section in arm.sections for spec in SECTION_PARAMETERS}
+    for name, value in given.items():
+        if _is_of_arm(name) and name not in declared | {ARM_PREFIX + ARM_SECTIONS.name}:
+            _declare_other(node, name, value)
     return arm
 
 
@@ -120,6 +128,14 @@ def _declare(node: Node, spec: ParameterSpec, name: str, value: Value) -> None:
     if value == []:
         return  # ROS cannot tell the type of an empty list; not declared means the same
     node.declare_parameter(name, value, describe(spec), ignore_override=True)
+
+
+def _declare_other(node: Node, name: str, value: Any) -> None:
+    """Fix what only simulations read; another name of a parameter that is declared goes."""
+    node.undeclare_parameter(name)
+    if name.split(".")[2:3] == [DYNAMICS]:
+        for_simulations = ParameterDescriptor(description="read by simulations of the section", read_only=True)
+        node.declare_parameter(name, value, for_simulations, ignore_override=True)
 
 
 def _is_of_arm(name: str) -> bool:

@@ -11,13 +11,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from blind import moreau, plant
-from blind.moreau.machine import Machine as MoreauMachine
-from blind.plant.case import Builder
-from blind.plant.machine import RATE, Motion
-from blind.plant.parameters import JOINTS
-from blind.plant.regimes import RELEASE_ROWS
-from blind.plant.sensors import Noise, Reading
+from blind import moreau_plant, mujoco_plant
+from blind.moreau_plant.machine import Machine as MoreauMachine
+from blind.mujoco_plant.case import Builder
+from blind.mujoco_plant.machine import RATE, Motion
+from blind.mujoco_plant.parameters import JOINTS
+from blind.mujoco_plant.regimes import RELEASE_ROWS
+from blind.mujoco_plant.sensors import Noise, Reading
 
 from continuum.arrays import Array
 from continuum.curvature.answer import Answer, answer
@@ -29,8 +29,8 @@ from continuum.dynamics.tensions import Tensions
 from continuum.recordings.recording import Recording
 
 PLANTS: Mapping[str, tuple[Builder, Mapping[str, Noise], int]] = {
-    "MuJoCo": (plant.Machine, plant.NOISES, plant.machine.STEPS),
-    "Moreau": (MoreauMachine, moreau.case.NOISES, moreau.machine.STEPS),
+    "MuJoCo": (mujoco_plant.Machine, mujoco_plant.NOISES, mujoco_plant.machine.STEPS),
+    "Moreau": (MoreauMachine, moreau_plant.case.NOISES, moreau_plant.machine.STEPS),
 }
 """What moves, its sensors, and steps of its integrator in a sample."""
 
@@ -80,7 +80,7 @@ def known_holds(name: str, model: Model, count: int) -> list[KnownHold]:
 def _of_seed(name: str, model: Model, seed: int) -> Iterator[KnownHold]:
     machine, noises, steps = PLANTS[name]
     drawing, moving, reading = np.random.default_rng([seed, 43]).spawn(3)
-    p, level = plant.varied(drawing), str(drawing.choice(list(_LEVELS), p=list(_LEVELS.values())))
+    p, level = mujoco_plant.varied(drawing), str(drawing.choice(list(_LEVELS), p=list(_LEVELS.values())))
     side, arm = int(drawing.choice([-1, 1])), RestingArm(model)
     command = _pulls(drawing, side)
     pulled = machine(p, (), moving, steps, len(command) / RATE)

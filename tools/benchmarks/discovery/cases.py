@@ -16,7 +16,7 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any, Final, NoReturn
 
-from blind import moreau, plant
+from blind import moreau_plant, mujoco_plant
 
 from continuum.discovery import diagnose
 from continuum.discovery.verdict_json import as_mapping
@@ -26,7 +26,7 @@ from tools.benchmarks.discovery.plans import Plan
 from tools.benchmarks.discovery.result import Result, kept
 
 _LIMIT = 600  # of one diagnosis [s]
-MAKERS: Final = {"mujoco": plant.make_case, "moreau": moreau.make_case}
+MAKERS: Final = {"mujoco": mujoco_plant.make_case, "moreau": moreau_plant.make_case}
 _SHOWN = 1500  # characters of a failure
 MODEL = "lamecc_prototype.yaml"
 
@@ -49,7 +49,7 @@ def run_case(plan: Plan, digest: str) -> Result:
         signal.signal(signal.SIGALRM, _too_late)
         signal.alarm(_LIMIT)
         try:
-            verdict, seconds = diagnosed(plant.write_case(case, Path(folder) / "data"))
+            verdict, seconds = diagnosed(mujoco_plant.write_case(case, Path(folder) / "data"))
         except Exception:  # noqa: BLE001 - whatever went wrong is a result
             failure, seconds = traceback.format_exc()[-_SHOWN:], time.process_time() - began
         finally:
@@ -74,7 +74,9 @@ def _ready_worker() -> None:
     """Leave Ctrl-C to the campaign, and load what is compiled before any time is taken."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with tempfile.TemporaryDirectory() as folder, contextlib.suppress(Exception):
-        diagnosed(plant.write_case(moreau.make_case(dataset=("release", "multisine")), Path(folder) / "data"))
+        diagnosed(
+            mujoco_plant.write_case(moreau_plant.make_case(dataset=("release", "multisine")), Path(folder) / "data")
+        )
 
 
 def run_campaign(

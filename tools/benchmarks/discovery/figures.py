@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Final, NamedTuple
 
-from blind.plant import LIBRARY
+from blind.mujoco_plant import LIBRARY
 from scipy.stats import binomtest
 
 from tools.benchmarks.discovery.answer import Answer, is_exactly, is_it

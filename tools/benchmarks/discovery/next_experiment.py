@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from blind import moreau, plant
-from blind.plant.further import Wanted, further_run
+from blind import moreau_plant, mujoco_plant
+from blind.mujoco_plant.further import Wanted, further_run
 
 from continuum.discovery import diagnose
 from continuum.discovery.decision import Kind
@@ -65,7 +65,7 @@ def separation(plan: Plan) -> Separation | None:
     case = MAKERS[plan.plant](plan.effects, plan.size, plan.recordings, plan.seed, plan.noise)
     model, hidden = load_model(MODEL), list(case.truth.plain()["effects"])  # type: ignore[call-overload]
     with tempfile.TemporaryDirectory() as folder:
-        files = plant.write_case(case, Path(folder) / "data")
+        files = mujoco_plant.write_case(case, Path(folder) / "data")
         recordings = [read_recording(str(path)) for path in files]
         first, measured, zeroed = diagnose(recordings, model), list[HandMeasurement](), list[int]()
         if len(first.sets) < 2 or first.verdict.kind.value != "ambiguous" or not first.experiments:
@@ -75,7 +75,7 @@ def separation(plan: Plan) -> Separation | None:
         if isinstance(best, Removal):
             left = tuple(name for name in plan.effects if name != best.effect)
             again = MAKERS[plan.plant](left, plan.size, plan.recordings, plan.seed, plan.noise)
-            recordings = [read_recording(str(path)) for path in plant.write_case(again, Path(folder) / "again")]
+            recordings = [read_recording(str(path)) for path in mujoco_plant.write_case(again, Path(folder) / "again")]
             taken_off = {(best.effect, None)}
         elif isinstance(best, HandTest):
             measured.append(_measured(best, hidden, np.random.default_rng(plan.seed)))
@@ -98,13 +98,13 @@ def separation(plan: Plan) -> Separation | None:
     return Separation(str(plan), _labels(first), _labels(second), name, runs, kept and not both, kept)
 
 
-def _made(plan: Plan, truth: plant.case.Truth, design: Design, number: int) -> bytes:
+def _made(plan: Plan, truth: mujoco_plant.case.Truth, design: Design, number: int) -> bytes:
     driven = bool((design.inputs.values > 0).any())
     bend = None if driven else float(design.posture.sum())
     wanted = Wanted(bend, design.inputs.values if driven else None, design.zeroed)
     if plan.plant == "moreau":
-        noises, steps = moreau.case.NOISES, moreau.machine.STEPS
-        return further_run(truth, wanted, number, moreau.Machine, noises, rates=False, steps=steps)
+        noises, steps = moreau_plant.case.NOISES, moreau_plant.machine.STEPS
+        return further_run(truth, wanted, number, moreau_plant.Machine, noises, rates=False, steps=steps)
     return further_run(truth, wanted, number)
 
 

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from blind.plant import EFFECTS, LIBRARY, OUTSIDE, SIZES
-from blind.plant.effect import DRIVEN, RELEASE
+from blind.mujoco_plant import EFFECTS, LIBRARY, OUTSIDE, SIZES
+from blind.mujoco_plant.effect import DRIVEN, RELEASE
 
 PLANTS: Final = ("mujoco", "moreau")
 NOISES: Final = ("low", "ordinary", "high")

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from blind import plant
+from blind import mujoco_plant
 
 from continuum.discovery.power import Power, powers
 from continuum.discovery.refit import refitted
@@ -56,7 +56,7 @@ def predicted(result: Result) -> Predicted | None:
 def _probability(plan: Plan, hidden: Mapping[str, Any], size: float) -> float:
     case = MAKERS[plan.plant]((), plan.size, plan.recordings, plan.seed, plan.noise)
     with tempfile.TemporaryDirectory() as folder:
-        files = plant.write_case(case, Path(folder) / "data")
+        files = mujoco_plant.write_case(case, Path(folder) / "data")
         recordings = [read_recording(str(path)) for path in files]
     base, judge = refitted(recordings, load_model(MODEL))
     library = with_library(judge.problem, base.found).lin.library

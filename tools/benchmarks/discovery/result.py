@@ -97,7 +97,7 @@ def digest_of_sources() -> str:
     Comments and formatting do not count.
     """
     library, plants, total = Path(str(continuum.__file__)).parent, Path(str(blind.__file__)).parent, hashlib.sha256()
-    for folder in (*(library / part for part in _PARTS), plants / "plant", plants / "moreau"):
+    for folder in (*(library / part for part in _PARTS), plants / "mujoco_plant", plants / "moreau_plant"):
         for path in sorted(folder.rglob("*.py")):
             tree = ast.dump(ast.parse(path.read_text(encoding="utf-8")))
             total.update(f"{folder.name}/{path.relative_to(folder)} {tree}\n".encode())

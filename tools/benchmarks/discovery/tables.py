@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from itertools import product
 
-from blind.plant import LIBRARY, OUTSIDE, SIZES
+from blind.mujoco_plant import LIBRARY, OUTSIDE, SIZES
 
 from tools.benchmarks.discovery.answer import Answer, label
 from tools.benchmarks.discovery.figures import FOUND, WRONG, bins, closed_shares, estimates, of_kind, quantile, rate

@@ -8,7 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from blind.plant import make_case, write_case
+from blind.mujoco_plant import make_case, write_case
 
 from continuum.recordings.recording import Recording
 from continuum.recordings.recording_csv import read_recording_csv

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from blind.plant import EFFECTS
+from blind.mujoco_plant import EFFECTS
 
 from tools.benchmarks.discovery.plans import Plan, campaign
 from tools.benchmarks.discovery.result import Result

@@ -6,8 +6,8 @@ from collections import Counter
 from functools import cache
 
 import pytest
-from blind.plant import EFFECTS, LIBRARY, OUTSIDE, SIZES
-from blind.plant.effect import DRIVEN
+from blind.mujoco_plant import EFFECTS, LIBRARY, OUTSIDE, SIZES
+from blind.mujoco_plant.effect import DRIVEN
 
 from tools.benchmarks.discovery.plans import HALVES, NOISES, PLANTS, REGIMES, Plan, campaign, narrowed, shown_in
 
