@@ -26,7 +26,7 @@ _SWITCHES = (
 """Root may run it; drawing needs no graphics card; it asks nobody for updates."""
 
 
-_SCENE = {"x": 310, "y": 0, "width": 550, "height": 720}
+_SCENE = {"x": 330, "y": 0, "width": 530, "height": 720}
 """What is to be seen of the scene, without panels."""
 
 

@@ -66,7 +66,7 @@ class Served:
     def uuid(self, name: str) -> str:
         """Of an input of the page."""
         handles = {
-            "Section": self.page._plots._choice._handle,
+            "Section": self.page._plots.plots.choice._handle,
             "theta": self.remote._controls._sliders[0].theta,
             "take": self.remote.tensions._taken._handle,
         }
@@ -77,7 +77,7 @@ class Served:
         controls, tensions = self.remote._controls, self.remote.tensions
         angles = controls._read().tolist()
         return [
-            self.page._plots._choice.value, controls._sliders[0].theta.visible, angles, tensions.taken,
+            self.page._plots.plots.choice.value, controls._sliders[0].theta.visible, angles, tensions.taken,
             controls._gizmo.position.tolist(), self.remote.target.tolist(),
         ]  # fmt: skip
 
@@ -172,7 +172,7 @@ def test_the_section_to_plot_is_chosen(served: Served) -> None:
         for section in ("section 2", "section 1"):
             said = {"type": "GuiUpdateMessage", "uuid": served.uuid("Section"), "updates": {"value": section}}
             client.send(msgspec.msgpack.encode(said))
-            served.wait(lambda section=section: served.page._plots._choice.value == section)
+            served.wait(lambda section=section: served.page._plots.plots.choice.value == section)
 
 
 def test_what_is_repeated_of_browsers_is_one_printable_line(served: Served) -> None:
@@ -230,7 +230,7 @@ def refused(served: Served, data: bytes | str) -> None:
         before, count, errors = served.state(), served.faults.total, served.faults.counts["error of the page's server"]
         client.send(data)
         served.wait(lambda: served.faults.total > count)
-        served.page._plots._due = 0.0
+        served.page._plots.plots.draw_soon()
         served.page.draw()
         assert served.state() == before
         served.hears(client, PLACES[1])

@@ -1,5 +1,9 @@
 """The page: its controls and what they say, without a browser."""
 
+import gzip
+import re
+import urllib.request
+
 import numpy as np
 import pytest
 from hypothesis import example, given
@@ -9,15 +13,15 @@ from scipy.spatial.transform import Rotation
 from continuum.kinematics.cable_lines import section_arrow
 from continuum.kinematics.chain import arm_pose
 from continuum.kinematics.routing import tangle
-from continuum.viewer import status_table
+from continuum.viewer import posture_controls, status_table
 from continuum.viewer.default_arm import default_arm
 from continuum.viewer.manual_source import ManualSource
 from continuum.viewer.page import Page
-from continuum.viewer.plots import SPAN
+from continuum.viewer.plot_data import LENGTHS
 from continuum.viewer.remote_arm import RemoteArm
 from continuum.viewer.screen_colours import linear_light
 from continuum.viewer.section_angles import joints_of
-from continuum.viewer.seen import Seen, Status
+from continuum.viewer.seen import Status
 from continuum.viewer.slider_value import end_in_degrees
 
 pytestmark = pytest.mark.slow
@@ -54,6 +58,38 @@ def test_target_leads_the_sliders_and_sliders_the_target(opened):
     assert np.hypot(*controls.w[0]) == pytest.approx(np.radians(20.0))
 
 
+def test_a_typed_target_is_reached_and_the_arm_straightened(opened):
+    source = ManualSource(ARM)
+    page = opened(source)
+    page.draw()
+    controls = source._controls
+    straight, wanted = controls.target, arm_pose(np.array([[0.3, -0.2], [0.5, 0.4]]), ARM)[:3, 3]
+    for number, part in zip(controls._typed, wanted, strict=True):
+        number.value = 1e3 * part
+    page.draw()
+    np.testing.assert_allclose(page._scene.tip, straight)  # nothing moves while numbers are typed
+    controls._pressed = posture_controls._GO
+    page.draw()
+    np.testing.assert_allclose(page._scene.tip, wanted, atol=1e-5)
+    np.testing.assert_allclose(controls._gizmo.position, wanted)
+    controls._pressed = posture_controls._STRAIGHTEN
+    page.draw()
+    np.testing.assert_allclose(page._scene.tip, straight, atol=1e-9)
+    np.testing.assert_allclose([number.value for number in controls._typed], 1e3 * straight, atol=0.05)
+
+
+def test_a_button_that_was_pressed_while_others_moved_the_arm_does_nothing_later(opened):
+    remote = RemoteArm(ARM, 30.0)
+    page = opened(remote)
+    w = np.array([[0.1, 0.2], [-0.3, 0.1]])
+    remote.tell(joints=joints_of(w, ARM), time=1.0)
+    remote._controls._pressed = posture_controls._STRAIGHTEN
+    page.draw()
+    remote._leads._handle.value = "the joints"
+    page.draw()
+    np.testing.assert_allclose(remote.posture, w, atol=1e-9)
+
+
 def test_state_of_others_is_shown_and_nothing_asked_of_them(opened):
     remote = RemoteArm(ARM, 30.0)
     page = opened(remote)
@@ -76,13 +112,13 @@ def test_an_arm_that_nobody_reported_of_is_pale_and_said_so(opened):
     page.draw()
     assert remote._unheard.visible
     assert max(mesh.opacity for mesh in meshes) < 1.0
-    assert page._plots._lengths.plot is None
-    page._plots._due = 0.0
+    assert page._plots.plots.plot(LENGTHS) is None
+    page._plots.plots.draw_soon()
     remote.tell(joints=joints_of(np.full((2, 2), 0.1), ARM), time=1.0)
     page.draw()
     assert not remote._unheard.visible
     assert {mesh.opacity for mesh in meshes} == {None}
-    assert page._plots._lengths.plot is not None
+    assert page._plots.plots.plot(LENGTHS).plot is not None
 
 
 @given(st.floats(1e-3, np.pi))
@@ -103,9 +139,9 @@ def test_measured_arm_is_the_ghost_of_the_simulated_one(opened):
     for output in (joints_of(simulated, ARM), {}, joints_of(simulated, ARM)):
         remote.tell(joints=joints_of(measured, ARM), simulated=output)
         page.draw()
-        assert page._ghost.visible == bool(output)
+        assert page._ghosts["/ghost"].visible == bool(output)
     np.testing.assert_allclose(page._scene.tip, arm_pose(simulated, ARM)[:3, 3], atol=1e-9)
-    np.testing.assert_allclose(page._ghost.poses[-1, :3, 3], arm_pose(measured, ARM)[:3, 3], atol=1e-9)
+    np.testing.assert_allclose(page._ghosts["/ghost"].poses[-1, :3, 3], arm_pose(measured, ARM)[:3, 3], atol=1e-9)
 
 
 def test_cables_are_pulled_while_control_is_taken_and_slack_after(opened):
@@ -156,47 +192,6 @@ def test_a_target_that_no_mouse_drags_is_put_back(opened, place):
     np.testing.assert_allclose(source._controls._gizmo.position, before)
 
 
-def test_plots_have_the_cables_alone_that_somebody_tells_of(opened):
-    """A number that is missing anywhere leaves the browser's plot empty."""
-    remote = RemoteArm(ARM, 30.0)
-    plots = opened(remote)._plots
-    own, others = ARM.sections[0].cable_names, ARM.sections[1].cable_names
-
-    def show(time, **what):
-        plots._due = 0.0
-        plots.show(Seen(time=time, **what))
-
-    show(0.0, lengths=dict.fromkeys(own, 0.2))
-    assert plots._tensions.plot is None
-    assert not plots._lengths.plot.visible  # one point is no line
-    show(1.0, lengths={own[0]: 0.2, own[2]: 0.3}, tensions={own[0]: 5.0, own[2]: 6.0})
-    for plot, values in ((plots._lengths.plot, ([200.0] * 1, [300.0])), (plots._tensions.plot, ([5.0], [6.0]))):
-        times, *lines = plot.data
-        assert len(plot.series) == 3
-        np.testing.assert_allclose(times[-1:], [0.0])
-        np.testing.assert_allclose([line[-1:] for line in lines], values)
-        assert np.isfinite(plot.data).all()
-    show(22.0, lengths=dict.fromkeys(own + others, 0.25))  # after a gap: no line over it
-    np.testing.assert_allclose(plots._lengths.plot.data, [[0.0], *[[250.0]] * len(own)])
-    assert plots._tensions.plot is None
-    plots._choice.value = "section 2"
-    show(23.0, lengths=dict.fromkeys(others, 0.1))
-    assert plots._lengths.plot.visible
-    np.testing.assert_allclose(plots._lengths.plot.data[0], [-1.0, 0.0])
-    np.testing.assert_allclose(plots._lengths.plot.data[1], [250.0, 100.0])
-    show(22.5, lengths=dict.fromkeys(others, 0.1))  # the time went back
-    assert len(plots._lengths.plot.data[0]) == 1
-
-
-def test_plots_reach_back_so_far_and_no_further(opened):
-    plots = opened(ManualSource(ARM))._plots
-    for time in range(60):
-        plots._due = 0.0
-        plots.show(Seen(time=float(time), lengths=dict.fromkeys(ARM.cable_names, 0.2)))
-    np.testing.assert_allclose(plots._lengths.plot.data[0], np.arange(-SPAN, 1.0))
-    assert len(plots._rows) == SPAN + 1
-
-
 def test_all_of_the_arm_moves_with_its_joints(opened):
     remote = RemoteArm(ARM, 30.0)
     page = opened(remote)
@@ -208,6 +203,9 @@ def test_all_of_the_arm_moves_with_its_joints(opened):
         turns = Rotation.from_quat(np.roll(mesh.batched_wxyzs, -1, axis=-1)).as_matrix()
         np.testing.assert_allclose(turns, scene.links.poses[links, :3, :3], atol=1e-6)
     np.testing.assert_allclose(list(scene.cable_lengths().values()), tangle(w, ARM), atol=1e-6)
+    assert not scene._arrows.visible
+    page._view._vectors.value = True
+    page.draw()
     assert scene._arrows.visible
     base = scene.links.poses[scene._bases[1]]
     arrow = section_arrow(w[1], ARM.sections[1], 0.25 * ARM.length, 10.0 * ARM.length)
@@ -228,6 +226,42 @@ def test_a_target_out_of_reach_is_reported(opened):
 
 def test_colours_of_points_are_shares_of_light():
     np.testing.assert_array_equal(linear_light([0.0, 0.5, 1.0]), [0, 55, 255])
+
+
+@pytest.mark.parametrize("hanging", [False, True])
+def test_the_base_is_below_or_above_as_chosen(opened, hanging):
+    page = opened(ManualSource(ARM))
+    page._view._hanging.value = hanging
+    page.draw()
+    camera = page._server.initial_camera
+    upwards = np.dot(camera.up, page._scene.tip)
+    assert bool(upwards < 0.0) is hanging
+    assert np.dot(camera.up, np.subtract(camera.position, camera.look_at)) > 0.0  # seen from above
+
+
+def test_the_tip_is_read_in_numbers(opened):
+    remote = RemoteArm(ARM, 30.0)
+    page = opened(remote)
+    page.draw()
+    assert not re.findall(r"[xyz] \*\*-?[\d.]+", page._readout._table.content)
+    remote.tell(joints=joints_of(np.array([[0.1, 0.2], [-0.3, 0.1]]), ARM), time=1.0)
+    page._readout._due = 0.0
+    page.draw()
+    read = re.findall(r"[xyz] \*\*(-?[\d.]+)", page._readout._table.content)
+    np.testing.assert_allclose([float(number) for number in read], 1e3 * page._scene.tip, atol=0.05)
+
+
+def test_the_browser_is_given_the_title_of_the_page():
+    page = Page(ARM, ManualSource(ARM), port=0, title="a < b.csv")
+    try:
+        for compression in ("gzip", "identity"):
+            request = urllib.request.Request(page.address, headers={"Accept-Encoding": compression})
+            with urllib.request.urlopen(request) as answer:
+                body = answer.read()
+                text = (gzip.decompress(body) if answer.headers["Content-Encoding"] == "gzip" else body).decode()
+            assert re.findall("<title>(.*?)</title>", text) == ["a &lt; b.csv"]
+    finally:
+        page.close()
 
 
 def test_words_of_others_are_text():

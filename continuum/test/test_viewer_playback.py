@@ -7,11 +7,16 @@ import pytest
 import recorded_runs as runs
 
 from continuum.errors import FileError
+from continuum.joint_names import theta_joints
 from continuum.kinematics.chain import arm_pose
 from continuum.viewer import playback
+from continuum.viewer.default_arm import arm_of_joints
+from continuum.viewer.drawn_cables import drawn_cables
+from continuum.viewer.motion_csv import motion_csv
 from continuum.viewer.page import Page
+from continuum.viewer.plot_data import LENGTHS, TENSIONS
 from continuum.viewer.section_angles import configuration_of_joints
-from continuum.viewer.tracks import Track, read_tracks
+from continuum.viewer.tracks import NOTHING, Track, read_tracks
 
 pytestmark = pytest.mark.slow
 
@@ -54,7 +59,7 @@ class Shown:
     def __init__(self, folder, monkeypatch):
         self._now = 100.0
         monkeypatch.setattr(playback.time, "monotonic", lambda: self._now)
-        self.source = playback.Playback(read_tracks(folder), "run")
+        self.source = playback.Playback(runs.ARM, read_tracks(folder), "run")
         self.page = Page(runs.ARM, self.source, port=0)
         self.page.draw()
 
@@ -76,15 +81,17 @@ def test_what_was_recorded_is_shown(shown):
     assert shown.after(0.305) == pytest.approx(0.305)
     page, w = shown.page, runs.postures()[0][30]
     np.testing.assert_allclose(page._scene.tip, arm_pose(BENT, runs.ARM)[:3, 3], atol=1e-6)
-    assert page._ghost.visible
-    np.testing.assert_allclose(page._ghost.poses[-1, :3, 3], arm_pose(w, runs.ARM)[:3, 3], atol=1e-6)
+    assert page._ghosts["/ghost"].visible
+    np.testing.assert_allclose(page._ghosts["/ghost"].poses[-1, :3, 3], arm_pose(w, runs.ARM)[:3, 3], atol=1e-6)
     np.testing.assert_allclose(page._target.position, runs.tips()[30], atol=1e-6)
-    page._plots._due = 0.0
-    shown.after(0.0)
     own = len(runs.ARM.sections[0].cable_names)
-    newest = np.array(page._plots._lengths.plot.data)[1:, -1]
-    np.testing.assert_allclose(newest, 1e3 * runs.tangle(w, runs.ARM)[:own])
-    np.testing.assert_allclose(np.array(page._plots._tensions.plot.data)[1:, -1], 1.0 + np.arange(own))
+    for title, values in ((LENGTHS, 1e3 * runs.tangle(w, runs.ARM)[:own]), (TENSIONS, 1.0 + np.arange(own))):
+        times, *lines, cursor = shown.source._plots.plots.plot(title).plot.data
+        np.testing.assert_allclose(np.diff(times).min(), 0.0)
+        now = np.argmax(cursor)
+        assert times[now] == pytest.approx(0.305)
+        before = np.array(lines)[:, np.searchsorted(times, 0.3 + 1e-9) - 1]
+        np.testing.assert_allclose(before, values, rtol=1e-6)
 
 
 def test_time_goes_as_fast_as_chosen_stops_at_the_end_and_begins_again(shown):
@@ -111,8 +118,28 @@ def test_the_slider_says_the_time(shown):
     shown.source._plays.value = False
     shown.source._slider.value = 0.405
     shown.after(1.0)
-    ghost = shown.page._ghost.poses[-1, :3, 3]
+    ghost = shown.page._ghosts["/ghost"].poses[-1, :3, 3]
     np.testing.assert_allclose(ghost, arm_pose(runs.postures()[0][40], runs.ARM)[:3, 3], atol=1e-6)
+
+
+def test_steps_go_from_sample_to_sample_and_pause(shown):
+    shown.after(0.305)
+    for steps, row in ((1, 31), (1, 32), (-1, 31), (-100, 0), (1000, runs.N - 1)):
+        shown.source._steps = steps
+        assert shown.after(0.1) == pytest.approx(row / runs.RATE)
+        assert not shown.source._plays.value
+
+
+def test_the_motion_is_saved_as_a_table(tmp_path):
+    names = theta_joints("section_1", 2)
+    arm = arm_of_joints(names)
+    times, angles = np.arange(40) / 100, np.random.default_rng(0).uniform(-0.3, 0.3, (40, 2))
+    file = tmp_path / "motion.csv"
+    joints = Track(times, names, angles)
+    file.write_text(motion_csv(joints, drawn_cables(joints, arm), NOTHING, arm), encoding="utf-8")
+    again = read_tracks(file)
+    np.testing.assert_allclose(again.joints.times, times, atol=1e-9)
+    np.testing.assert_allclose(again.joints.values, angles, atol=1e-8)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])

@@ -20,6 +20,7 @@ from continuum.errors import ContinuumError
 from continuum.parameter_spec import ParameterSpec
 from continuum.viewer.address import HOST, PORT
 from continuum.viewer.default_arm import default_arm
+from continuum.viewer.layout import NAME
 from continuum.viewer.page import FRAME_RATE, Page
 from continuum.viewer.remote_arm import RemoteArm
 from continuum.viewer.seen import Status
@@ -82,7 +83,7 @@ class ViewerNode(CheckedNode):
         self._statuses: dict[str, tuple[float, Status]] = {}
         self._pulled_until = -float("inf")
         host, port = self.values["host"], self.values["port"]
-        self._page = Page(self.arm, self._remote, host, port, self.diagnostics.faults)
+        self._page = Page(self.arm, self._remote, host, port, self.diagnostics.faults, title=f"live - {NAME}")
         self.diagnostics.values |= {
             "address": lambda: self._page.address,
             "browsers": lambda: self._page.lookers,

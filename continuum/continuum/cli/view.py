@@ -43,11 +43,13 @@ def add_to(commands: Any) -> None:
 def run(options: argparse.Namespace) -> int:
     """Serve the page until Ctrl-C."""
     # Here, so that the other commands need neither viser nor the time to load it.
+    from continuum.viewer.layout import NAME
     from continuum.viewer.page import Page
 
     arm, source = _shown(options)
     stop = threading.Event()
-    page = Page(arm, source, options.host, options.port)
+    title = NAME if options.what is None else f"{Path(options.what).name} - {NAME}"
+    page = Page(arm, source, options.host, options.port, title=title)
     signal.signal(signal.SIGTERM, lambda *_: stop.set())
     print(f"open {page.address} in a browser; Ctrl-C ends it", flush=True)
     try:
@@ -84,7 +86,7 @@ def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
     else:
         arm = load_arm(options.arm)
         check_joints(what, tracks.joints.names, arm)
-    return arm, Playback(tracks, Path(what).name)
+    return arm, Playback(arm, tracks, Path(what).name)
 
 
 def _is_arm(what: str) -> bool:

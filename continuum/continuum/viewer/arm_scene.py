@@ -12,15 +12,15 @@ from yourdfpy import URDF
 
 from continuum.arm import Arm
 from continuum.arrays import Array
+from continuum.cable_colours import Colour
 from continuum.kinematics.cable_lines import section_arrow
 from continuum.viewer.cable_holes import CableHoles
 from continuum.viewer.link_poses import LinkPoses
 from continuum.viewer.link_shapes import link_shapes
-from continuum.viewer.screen_colours import linear_light
+from continuum.viewer.screen_colours import linear_light, seen_on_dark
 from continuum.viewer.section_angles import configuration_of_joints
 
 _ARROW_COLOUR = (150, 0, 200)
-_GHOST_COLOUR = (70, 130, 200)
 _PALE = 0.3
 """Opacity."""
 
@@ -41,19 +41,19 @@ class ArmLinks:
         server: of the page.
         name: of its nodes in the scene.
         description: of the arm.
-        ghost: translucent, in one colour.
+        ghost: colour of translucent links; None for links in their own colours.
 
     Attributes:
         chain: poses its links.
         poses: of the links as they were shown last, (n_links, 4, 4) [m].
     """
 
-    def __init__(self, server: viser.ViserServer, name: str, description: URDF, ghost: bool = False) -> None:
+    def __init__(self, server: viser.ViserServer, name: str, description: URDF, ghost: Colour | None = None) -> None:
         self.chain = LinkPoses(description)
         self._angles = np.zeros(len(self.chain.joints))
         self.poses = self.chain.poses(self._angles)
         self._frame = server.scene.add_frame(name, show_axes=False)
-        self._pale = ghost
+        self._pale = ghost is not None
         shapes = link_shapes(description, self.chain.links)
         turns, places = self._placed()
         self._meshes = [
@@ -65,8 +65,8 @@ class ArmLinks:
                     shape.faces,
                     batched_wxyzs=turns[shape.links],
                     batched_positions=places[shape.links],
-                    batched_colors=_GHOST_COLOUR if ghost else linear_light(shape.colours),
-                    opacity=_PALE if ghost else None,
+                    batched_colors=linear_light(shape.colours) if ghost is None else linear_light(ghost),
+                    opacity=None if ghost is None else _PALE,
                     flat_shading=True,
                     lod="off",
                     cast_shadow=False,
@@ -134,6 +134,8 @@ class ArmScene:
         self._bases = [names.index(section.base_frame) for section in arm.sections]
         self._tip = names.index(arm.sections[-1].tip_frame)
         self._cables = []
+        self._dark, self._vectors = False, False
+        self._joints: Mapping[str, float] = {}
         for kind, thickness in (("own", _CABLE), ("passing", 0.5 * _CABLE)):
             holes = CableHoles(arm, names, passing=kind == "passing")
             if len(holes.colours):
@@ -170,11 +172,28 @@ class ArmScene:
             return False
         for holes, lines in self._cables:
             lines.points = holes.pieces(self.links.poses).astype(np.float32)
-        arrows = self._rotation_vectors(joints)
+        self._joints = joints
+        self._draw_vectors()
+        return True
+
+    def set_vectors(self, shown: bool) -> None:
+        """Show the rotation vectors of the sections that are bent, or none."""
+        if shown is not self._vectors:
+            self._vectors = shown
+            self._draw_vectors()
+
+    def set_dark(self, dark: bool) -> None:
+        """Draw cables so that they are seen on a dark or a light page."""
+        if dark is not self._dark:
+            self._dark = dark
+            for holes, lines in self._cables:
+                lines.colors = linear_light(seen_on_dark(holes.colours) if dark else holes.colours)
+
+    def _draw_vectors(self) -> None:
+        arrows = self._rotation_vectors(self._joints) if self._vectors else []
         if arrows:
             self._arrows.points = np.array(arrows, dtype=np.float32)
         self._arrows.visible = bool(arrows)
-        return True
 
     def _rotation_vectors(self, joints: Mapping[str, float]) -> list[Array]:
         w = configuration_of_joints(joints, self._arm)

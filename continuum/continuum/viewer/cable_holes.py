@@ -52,8 +52,8 @@ class CableHoles:
         self.colours = np.repeat(np.array(colours).reshape(-1, 1, 3), 2, axis=1)
 
     def pieces(self, poses: Array) -> Array:
-        """Both ends of each piece, (n_pieces, 2, 3) [m], at the links' ``poses`` (n_links, 4, 4)."""
-        frames = poses[self._links]
-        held = np.einsum("pekl,pl->pek", frames[..., :3, :3], self._places)
+        """Both ends of each piece, (..., n_pieces, 2, 3) [m], at the links' ``poses`` (..., n_links, 4, 4)."""
+        frames = poses[..., self._links, :, :]
+        held = np.einsum("...pekl,pl->...pek", frames[..., :3, :3], self._places)
         ends: Array = held + frames[..., :3, 3]
         return ends

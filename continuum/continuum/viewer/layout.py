@@ -8,8 +8,10 @@ import viser
 
 from continuum.burst_log import BurstLog
 
-_WIDTH = 300
+_WIDTH = 320
 """Of the panel on the left [pixels]."""
+
+NAME = "continuum"
 
 
 @dataclass(frozen=True)
@@ -19,7 +21,7 @@ class Layout:
     Attributes:
         server: of the page.
         move: what moves the arm.
-        cables: plots.
+        plots: plots over time.
         status: statuses.
         faults: where it is noted what a browser must not say.
         words: that a browser may say: options of what there is to choose.
@@ -27,7 +29,7 @@ class Layout:
 
     server: viser.ViserServer
     move: viser.GuiFolderHandle
-    cables: viser.GuiTabHandle
+    plots: viser.GuiTabHandle
     status: viser.GuiTabHandle
     faults: BurstLog
     words: set[str]
@@ -40,10 +42,17 @@ def spoken(name: str) -> str:
 
 def layout_of(server: viser.ViserServer, faults: BurstLog, words: set[str]) -> Layout:
     """Make the panels."""
-    server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="medium")
-    server.gui.set_panel_label("continuum")
+    set_theme(server, dark=False)
+    server.gui.set_panel_label(NAME)
     panel = server.gui.add_panel()
-    cables, status = panel.add_tab("Cables"), panel.add_tab("Status")
+    plots, status = panel.add_tab("Plots"), panel.add_tab("Status")
     panel.dock_left()
     panel.set_width(_WIDTH)
-    return Layout(server, server.gui.add_folder("Arm"), cables, status, faults, words)
+    return Layout(server, server.gui.add_folder("Arm"), plots, status, faults, words)
+
+
+def set_theme(server: viser.ViserServer, dark: bool) -> None:
+    """Make the page dark or light."""
+    server.gui.configure_theme(
+        show_logo=False, show_share_button=False, control_width="medium", dark_mode=dark,
+    )  # fmt: skip

@@ -57,14 +57,16 @@ class LinkPoses:
         return known
 
     def poses(self, angles: Array) -> Array:
-        """Poses (n_links, 4, 4) [m] in the base link at ``angles`` (n_joints,) [rad]."""
-        steps = self._origins.copy()
-        turns = Rotation.from_rotvec(angles[:, None] * self._axes).as_matrix()
-        steps[self._turns, :3, :3] = steps[self._turns, :3, :3] @ turns
-        poses = np.empty((len(self.links), 4, 4))
-        poses[0] = np.eye(4)
-        for i, (parent, step) in enumerate(zip(self._parents, steps, strict=True), start=1):
-            np.matmul(poses[parent], step, out=poses[i])
+        """Poses (..., n_links, 4, 4) [m] in the base link at ``angles`` (..., n_joints) [rad]."""
+        instants = angles.shape[:-1]
+        steps = np.broadcast_to(self._origins, (*instants, *self._origins.shape)).copy()
+        turns = Rotation.from_rotvec((angles[..., None] * self._axes).reshape(-1, 3)).as_matrix()
+        turned = turns.reshape(*instants, len(self._turns), 3, 3)
+        steps[..., self._turns, :3, :3] = steps[..., self._turns, :3, :3] @ turned
+        poses = np.empty((*instants, len(self.links), 4, 4))
+        poses[..., 0, :, :] = np.eye(4)
+        for i, parent in enumerate(self._parents):
+            poses[..., i + 1, :, :] = poses[..., parent, :, :] @ steps[..., i, :, :]
         return poses
 
 

@@ -21,6 +21,8 @@ from websockets.http11 import Request, Response
 from continuum.burst_log import BurstLog
 from continuum.errors import ContinuumError
 from continuum.viewer.browser_messages import LONGEST, BrowserMessageError, check_browser_message
+from continuum.viewer.layout import NAME
+from continuum.viewer.page_title import titled
 
 PATIENCE = 10.0
 """A browser that gives no sign of life for so long is sent away [s]; one that lives comes again by itself."""
@@ -50,7 +52,7 @@ class NoOriginGuardError(ContinuumError):
 
 
 @contextmanager
-def kept_guard(host: str, words: Collection[str], faults: BurstLog) -> Iterator[None]:
+def kept_guard(host: str, words: Collection[str], faults: BurstLog, title: str = NAME) -> Iterator[None]:
     """Let a server of pages that is started meanwhile let in only who shall, and only what a page sends.
 
     The server by itself would take orders from a page of any site that is open in a browser of this host, would let a
@@ -62,6 +64,7 @@ def kept_guard(host: str, words: Collection[str], faults: BurstLog) -> Iterator[
         host: address that the page is served on.
         words: that a browser may say; asked for whenever it speaks.
         faults: where it is noted who and what was refused.
+        title: title of the page in the browser.
 
     Raises:
         NoDoorError: the server that was started serves in another way.
@@ -69,6 +72,7 @@ def kept_guard(host: str, words: Collection[str], faults: BurstLog) -> Iterator[
     known_hosts = {host, "localhost", socket.gethostname(), f"{socket.gethostname()}.local"}
     serve = websocket_server.serve
     served = threading.Event()
+    put_title = titled(title)
 
     class Connection(ServerConnection):
         """Gives messages that a page sends; others are noted."""
@@ -91,7 +95,7 @@ def kept_guard(host: str, words: Collection[str], faults: BurstLog) -> Iterator[
             if is_stranger(origin, served_as, known_hosts):
                 _note(faults, REFUSED_SITE, f"{origin} asks for {served_as}")
                 return connection.respond(HTTPStatus.FORBIDDEN, "This is a page of another site.\n")
-            return process_request(connection, request)
+            return put_title(process_request(connection, request))
 
         async def handle(connection: ServerConnection) -> None:
             asyncio.get_running_loop().set_exception_handler(functools.partial(_note_error, faults))

@@ -6,30 +6,34 @@ import io
 import sys
 import threading
 import time
+from collections.abc import Mapping
 from contextlib import redirect_stdout
 from dataclasses import replace
 
-import numpy as np
 import viser
 
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.burst_log import BurstLog
+from continuum.cable_colours import Colour
 from continuum.viewer.address import HOST, PORT, check_address, url
 from continuum.viewer.arm_scene import ArmLinks, ArmScene
 from continuum.viewer.description import arm_description
-from continuum.viewer.layout import layout_of
+from continuum.viewer.layout import NAME, layout_of
 from continuum.viewer.origin_guard import kept_guard
-from continuum.viewer.plots import CablePlots
+from continuum.viewer.overlay_colours import GHOST, SOLID, overlay_colour
+from continuum.viewer.plots import LivePlots
+from continuum.viewer.readout import Readout
 from continuum.viewer.seen import Seen, Source
+from continuum.viewer.stage import Stage
 from continuum.viewer.status_table import StatusTable
 from continuum.viewer.trail import Trail
+from continuum.viewer.view_controls import ViewControls
 
 FRAME_RATE = 30.0
 """Most frames a second."""
 
 _TARGET_COLOUR = (0.55, 0.55, 0.60)
-_TIP_COLOUR = (0.95, 0.45, 0.10)
 
 
 class Page:
@@ -41,6 +45,8 @@ class Page:
         host: address that the page is served on; the default is reached from this host alone.
         port: 0 for any that is free.
         faults: where it is noted what browsers must not say; on stderr by default.
+        title: title of the page in the browser.
+        hanging: whether the base is shown at the top at first.
 
     Attributes:
         frames: drawn so far.
@@ -50,8 +56,9 @@ class Page:
     """
 
     def __init__(
-        self, arm: Arm, source: Source, host: str = HOST, port: int = PORT, faults: BurstLog | None = None
-    ) -> None:
+        self, arm: Arm, source: Source, host: str = HOST, port: int = PORT, faults: BurstLog | None = None,
+        title: str = NAME, hanging: bool = False,
+    ) -> None:  # fmt: skip
         check_address(host, port)
         self.frames = 0
         self._source = source
@@ -59,18 +66,21 @@ class Page:
         self._description = arm_description(arm)
         self._faults = faults or BurstLog(lambda line: print(line, file=sys.stderr), time.monotonic, "dropped, ")
         words: set[str] = set()
-        with redirect_stdout(io.StringIO()), kept_guard(host, words, self._faults):  # it has a banner of its own
-            self._server = viser.ViserServer(host=host, port=port, label="continuum", verbose=False)
+        with redirect_stdout(io.StringIO()), kept_guard(host, words, self._faults, title):  # it has a banner of its own
+            self._server = viser.ViserServer(host=host, port=port, label=NAME, verbose=False)
         self._host = host
         layout = layout_of(self._server, self._faults, words)
-        self._set_up_view()
+        stage = Stage(self._server, arm)
         source.add_controls(layout)
         self._scene = ArmScene(self._server, arm, self._description)
-        self._ghost: ArmLinks | None = None
-        self._plots = CablePlots(layout, arm)
+        self._ghosts: dict[str, ArmLinks] = {}
+        self._plots: LivePlots | None = None
+        self._layout = layout
+        self._readout = Readout(layout, stage.scale_in_words)
+        self._view = ViewControls(layout, stage, hanging)
         self._statuses = StatusTable(layout)
         step, thickness = 0.002 * arm.length, 0.003 * arm.length
-        self._tip_trail = Trail(self._server, "/trail_of_tip", _TIP_COLOUR, step, thickness)
+        self._tip_trail = Trail(self._server, "/trail_of_tip", SOLID, step, thickness)
         self._target_trail = Trail(self._server, "/trail_of_target", _TARGET_COLOUR, step, thickness)
         self._target = self._server.scene.add_icosphere(
             "/wanted", 0.015 * arm.length, (90, 90, 100), cast_shadow=False, visible=False
@@ -100,10 +110,12 @@ class Page:
         self.frames += 1
         seen = self._source.newest()
         with self._server.atomic():
+            self._view.apply()
+            self._scene.set_dark(self._view.dark)
+            self._scene.set_vectors(self._view.vectors)
             self._draw_arms(seen)
             self._draw_target(seen.target)
-            drawn = seen.has_posture and not seen.lengths
-            self._plots.show(replace(seen, lengths=self._scene.cable_lengths()) if drawn else seen)
+            self._draw_plots(seen)
             self._statuses.show(seen.statuses)
 
     def close(self) -> None:
@@ -115,33 +127,32 @@ class Page:
         self._scene.links.pale = not seen.has_posture
         if self._scene.show(seen.simulated or seen.joints):
             self._tip_trail.follow(self._scene.tip)
-        if seen.simulated and seen.joints:
-            if self._ghost is None:
-                self._ghost = ArmLinks(self._server, "/ghost", self._description, ghost=True)
-            self._ghost.show(seen.joints)
-        if self._ghost is not None:
-            self._ghost.visible = bool(seen.simulated and seen.joints)
+        self._readout.show(self._scene.tip if seen.has_posture else None)
+        self._draw_ghost("/ghost", GHOST, seen.joints if seen.simulated else {})
+        for i, joints in enumerate(seen.overlays):
+            self._draw_ghost(f"/overlay_{i + 1}", overlay_colour(i), joints)
+
+    def _draw_ghost(self, name: str, colour: Colour, joints: Mapping[str, float]) -> None:
+        """Draw a translucent arm, which is made when there is something to show."""
+        if joints and name not in self._ghosts:
+            self._ghosts[name] = ArmLinks(self._server, name, self._description, colour)
+        if name in self._ghosts:
+            self._ghosts[name].visible = bool(joints)
+        if joints:
+            self._ghosts[name].show(joints)
+
+    def _draw_plots(self, seen: Seen) -> None:
+        if seen.plots is not None:
+            seen.plots.show(seen.time, self._view.dark)
+            return
+        if self._plots is None:
+            self._plots = LivePlots(self._layout, self._arm)
+        drawn = seen.has_posture and not seen.lengths
+        shown = replace(seen, lengths=self._scene.cable_lengths()) if drawn else seen
+        self._plots.show(shown, self._view.dark)
 
     def _draw_target(self, target: Array | None) -> None:
         self._target.visible = target is not None
         if target is not None:
             self._target.position = target
             self._target_trail.follow(target)
-
-    def _set_up_view(self) -> None:
-        length = self._arm.length
-        scene, camera = self._server.scene, self._server.initial_camera
-        scene.set_up_direction("+z")
-        camera.up = (0.0, 0.0, 1.0)
-        camera.position = (1.7 * length, 1.1 * length, 1.0 * length)
-        camera.fov = 0.75
-        camera.look_at = (0.0, 0.0, 0.47 * length)
-        scene.configure_environment_map(environment_intensity=0.4)
-        scene.configure_default_lights(cast_shadow=False)
-        camera.near = 0.01 * length
-        plane = -0.4 * self._arm.sections[0].b
-        cell = float(10.0 ** np.floor(np.log10(0.4 * length)))
-        scene.add_grid(
-            "/ground", width=2.4 * length, height=2.4 * length, cell_size=cell, section_size=5 * cell,
-            position=(0.0, 0.0, plane), shadow_opacity=0.0,
-        )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import viser
@@ -25,6 +26,7 @@ _WORDS = {
 }
 _FREE = "Drag the target, or move a slider."
 _BOUND = "Choose above what you move first."
+_GO, _STRAIGHTEN = "Go to target", "Straighten"
 _FAR = 10.0
 """A target further away than so many lengths of the arm was not dragged there."""
 
@@ -65,7 +67,16 @@ class PostureControls:
                     theta = gui.add_slider("theta [deg]", 0.0, end, 0.1, 0.0, hint="bend of the section")
                     phi = gui.add_slider("phi [deg]", -180.0, 180.0, 0.1, 0.0, hint="towards which it bends")
                     self._sliders.append(_Sliders(phi, theta))
+            with gui.add_folder("Target"):
+                self._typed: list[viser.GuiNumberHandle[float]] = [
+                    gui.add_number(f"{axis} [mm]", float(1e3 * part), step=0.1)
+                    for axis, part in zip("xyz", self.target, strict=True)
+                ]
+                self._buttons = gui.add_button_group("", (_GO, _STRAIGHTEN), hint="The arm goes there at once.")
             self._answer = gui.add_markdown(_FREE)
+        layout.words.update((_GO, _STRAIGHTEN))
+        self._pressed = ""
+        self._buttons.on_click(self._press)
         self._gizmo = layout.server.scene.add_transform_controls(
             "/target", scale=0.14 * arm.length, disable_rotations=True, depth_test=False, position=self.target
         )
@@ -76,18 +87,30 @@ class PostureControls:
         if to_user is not self._gizmo.visible:
             self._gizmo.visible = to_user
             self._answer.content = _FREE if to_user else _BOUND
+            self._buttons.visible = to_user
+            for number in self._typed:
+                number.disabled = not to_user
+        if not to_user:
+            self._pressed = ""  # what was pressed before is not done later
         for sliders in self._sliders:
             sliders.phi.disabled = sliders.theta.disabled = not to_user
 
     def follow(self) -> bool:
         """Take in what the user moved; True if anything was."""
+        pressed, self._pressed = self._pressed, ""
         place, angles = np.array(self._gizmo.position, dtype=float), self._read()
+        if pressed == _GO:
+            place = 1e-3 * np.array([number.value for number in self._typed])
+        elif pressed == _STRAIGHTEN:
+            angles = np.zeros_like(angles)
+            for sliders in self._sliders:
+                sliders.phi.value = sliders.theta.value = 0.0  # type: ignore[misc]
         if not np.abs(place).max() < _FAR * self._arm.length:  # also of what is no number
             self._faults.note("target of a browser", f"{place} m; allowed: up to {_FAR:g} lengths of the arm away")
             self._place(self.target)
             return False
         if np.abs(place - self.target).max() > _MOVED:
-            self.target = place
+            self._place(place)
             result = self._solver.solve(Target(place), start=self.w)
             self.w = result.configuration
             self._write()
@@ -111,6 +134,11 @@ class PostureControls:
     def _place(self, point: Array) -> None:
         self.target = point
         self._gizmo.position = point
+        for number, part in zip(self._typed, point, strict=True):
+            number.value = round(float(1e3 * part), 1)  # type: ignore[misc]
+
+    def _press(self, event: viser.GuiEvent[Any]) -> None:
+        self._pressed = event.target.value
 
     def _read(self) -> Array:
         """Phi and theta as the sliders show them, within limits whatever a browser says, (n_sections, 2) [deg]."""

@@ -25,6 +25,13 @@ class Status:
     message: str
 
 
+class Plots(Protocol):
+    """Plots of a source that knows its time from beginning to end."""
+
+    def show(self, now: float, dark: bool = False) -> None:
+        """Show the instant ``now`` [s], on a dark or a light page."""
+
+
 @dataclass(frozen=True)
 class Seen:
     """One instant; what is not known is empty.
@@ -32,21 +39,25 @@ class Seen:
     Attributes:
         time: of the instant, by any clock [s].
         joints: joint angles by name [rad]. The arm is drawn by them.
+        overlays: joint angles of other motions of the arm [rad]; each is drawn as a ghost.
         simulated: those of a simulated arm beside a measured one [rad]. Where there are any, the arm is drawn by
             these, and ``joints`` as its ghost.
         lengths: of cables by name [m]; where nobody says them, those of the cables as they are drawn are plotted.
         tensions: of cables by name [N].
         target: where the tip shall be, (3,) [m] in ``base_link``.
         statuses: of sensors, link, nodes.
+        plots: what plots the instant, if that is not the page's plots over the last seconds.
     """
 
     time: float = 0.0
     joints: Mapping[str, float] = field(default_factory=dict)
     simulated: Mapping[str, float] = field(default_factory=dict)
+    overlays: tuple[Mapping[str, float], ...] = ()
     lengths: Mapping[str, float] = field(default_factory=dict)
     tensions: Mapping[str, float] = field(default_factory=dict)
     target: Array | None = None
     statuses: tuple[Status, ...] = ()
+    plots: Plots | None = None
 
     @property
     def has_posture(self) -> bool:

@@ -1,0 +1,111 @@
+"""A small plot of lines over time, with a legend, and a cursor at the shown instant."""
+
+from __future__ import annotations
+
+import numpy as np
+import viser
+from viser import uplot
+
+from continuum.arrays import Array
+from continuum.viewer.layout import Layout
+from continuum.viewer.plot_data import PlotData
+from continuum.viewer.screen_colours import css
+
+_PADDING = (8, 16, 0, 0)
+"""Above, right, below, left, so that the uppermost number is whole [pixels]."""
+
+_LABEL, _TIME, _TICK = 16, 24, 4
+"""Heights of the time axis' label and of its numbers, and length of a tick [pixels]."""
+
+_NUMBERS = 54
+"""Width of the numbers beside the other axis: as `-1000` needs [pixels]."""
+
+_BETWEEN = 20
+"""Least height from one number of that axis to the next, so that a low plot has several [pixels]."""
+
+_CURSOR = "rgb(128, 128, 128)"
+_BELOW, _ABOVE = -1.0, 2.0
+"""The cursor is a line from below its axis, which reaches from 0 to 1, to above it."""
+
+
+class LinePlot:
+    """One plot; it is absent while it has no line. The page's plots draw nothing where a single number is missing.
+
+    Args:
+        layout: page.
+        title: title of the plot.
+        order: place among the plots, whenever it is made.
+        height: height of its area with the time axis [pixels].
+        time_label: label of the time axis.
+        end: end of a time axis that begins at 0 [s]; by default, the axis fits the data.
+    """
+
+    def __init__(
+        self, layout: Layout, title: str, order: float, height: int, time_label: str, end: float | None = None
+    ) -> None:
+        self._layout, self._title, self._order, self._height = layout, title, order, height
+        self._time_label, self._end = time_label, end
+        self._made_of: tuple[object, ...] = ()
+        self._shown: tuple[PlotData, float | None] | None = None
+        self.plot: viser.GuiUplotHandle | None = None
+
+    def show(self, data: PlotData | None, now: float | None = None, dark: bool = False) -> None:
+        """Draw the lines, with a cursor at ``now`` [s] if given; what is drawn already is not sent again."""
+        if data is None or not data.lines:
+            self.remove()
+            return
+        made_of = (data.lines, dark, now is None)
+        if made_of != self._made_of:
+            self.remove()
+            self._made_of = made_of
+            self.plot = self._made(data, dark, now is not None)
+        known = self._shown is not None and self._shown[0] is data and self._shown[1] == now
+        if self.plot is not None and not known:
+            self._shown = (data, now)
+            self.plot.data = (data.times, *data.values) if now is None else with_cursor(data, now)
+            self.plot.visible = len(data.times) > 1  # one point is no line, and its axes would mean nothing
+
+    def remove(self) -> None:
+        """Take the plot off the page; it comes back with the next data."""
+        if self.plot is not None:
+            self.plot.remove()
+        self.plot, self._made_of, self._shown = None, (), None
+
+    def _made(self, data: PlotData, dark: bool, cursor: bool) -> viser.GuiUplotHandle:
+        no_points = uplot.Series_Points(show=False)
+        series = [
+            uplot.Series(label=line.label, stroke=css(line.colour, dark), width=2, points=no_points)
+            for line in data.lines
+        ]
+        scales = {"x": uplot.Scale(time=False, auto=True)}
+        if self._end is not None:
+            scales["x"] = uplot.Scale(time=False, range=(0.0, self._end))
+        if cursor:
+            series.append(uplot.Series(label="cursor", scale="cursor", stroke=_CURSOR, width=1, points=no_points))
+            scales["cursor"] = uplot.Scale(auto=False, range=(0.0, 1.0))
+        ticks = uplot.Axis_Ticks(size=_TICK)
+        with self._layout.plots:
+            return self._layout.server.gui.add_uplot(
+                tuple(np.zeros(1) for _ in range(1 + len(series))),
+                (uplot.Series(label="t [s]"), *series),
+                title=self._title,
+                height=self._height,
+                padding=_PADDING,
+                axes=(
+                    uplot.Axis(label=self._time_label, labelSize=_LABEL, size=_TIME, ticks=ticks),
+                    uplot.Axis(size=_NUMBERS, space=_BETWEEN, ticks=ticks),
+                ),
+                legend=uplot.Legend(show=True, live=False),
+                scales=scales,
+                order=self._order,
+            )
+
+
+def with_cursor(data: PlotData, now: float) -> tuple[Array, ...]:
+    """Return times, lines and a cursor that is upright at ``now`` [s], each (n_times + 3,); the lines do not change."""
+    times, values = data.times, data.values
+    row = int(np.searchsorted(times, now))
+    between = np.array([[np.interp(now, times, line)] * 3 for line in values]).reshape(len(values), 3)
+    cursor = np.full(len(times) + 3, _BELOW)
+    cursor[row + 1] = _ABOVE
+    return (np.insert(times, row, [now] * 3), *np.insert(values, [row] * 3, between, axis=1), cursor)

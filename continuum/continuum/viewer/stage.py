@@ -1,0 +1,107 @@
+"""What surrounds the arm: camera, lights, and a grid in the plane of its base."""
+
+from __future__ import annotations
+
+import numpy as np
+import viser
+
+from continuum.arm import Arm
+from continuum.arrays import Array
+
+_OFFSET = np.array([1.7, 1.1, 0.53])
+"""From the point looked at to the camera, in lengths of the arm; the last is upwards."""
+
+_HEIGHT = 0.47
+"""Of the point looked at above the base, in lengths of the arm."""
+
+_FIELD = 0.75
+"""Vertical field of view [rad]."""
+
+_NARROW = 640
+"""Width below which the panels are a sheet over the lower half of the page [pixels]; viser's own breakpoint is near."""
+
+_FURTHER, _LOWER = 2.4, 1.1
+"""On a narrow page, the camera is further away by this factor, and lower by so many lengths of the arm."""
+
+_LIGHT_GRID = ((200, 200, 200), (140, 140, 140))
+_DARK_GRID = ((58, 58, 58), (100, 100, 100))
+"""Colours of all lines, and of every fifth."""
+
+_EVERY = 5
+
+
+class Stage:
+    """Camera, lights and grid of one page.
+
+    Args:
+        server: server of the page.
+        arm: arm.
+
+    Attributes:
+        cell: spacing of the grid [m].
+    """
+
+    def __init__(self, server: viser.ViserServer, arm: Arm) -> None:
+        self._server, self._length = server, arm.length
+        self._hanging, self._dark = False, False
+        scene, camera = server.scene, server.initial_camera
+        scene.configure_environment_map(environment_intensity=0.4)
+        scene.configure_default_lights(cast_shadow=False)
+        camera.fov = _FIELD
+        camera.near = 0.01 * arm.length
+        self._set_first_view()
+        self.cell = float(10.0 ** np.floor(np.log10(0.4 * arm.length)))
+        self._grid = scene.add_grid(
+            "/ground", width=2.4 * arm.length, height=2.4 * arm.length, cell_size=self.cell,
+            section_size=_EVERY * self.cell, position=(0.0, 0.0, -0.4 * arm.sections[0].b), shadow_opacity=0.0,
+        )  # fmt: skip
+        server.on_client_connect(self._meet)
+
+    @property
+    def scale_in_words(self) -> str:
+        """Spacing of the grid's lines."""
+        return f"{1e3 * self.cell:g} mm, thick lines {1e3 * _EVERY * self.cell:g} mm"
+
+    def set_dark(self, dark: bool) -> None:
+        """Colour the grid for a dark or a light page."""
+        if dark is not self._dark:
+            self._dark = dark
+            self._grid.cell_color, self._grid.section_color = _DARK_GRID if dark else _LIGHT_GRID
+
+    def set_hanging(self, hanging: bool) -> None:
+        """Show the base at the top, or at the bottom; the view of all browsers is reset."""
+        if hanging is not self._hanging:
+            self._hanging = hanging
+            self._set_first_view()
+            for client in self._server.get_clients().values():
+                self.reset(client)
+
+    def reset(self, client: viser.ClientHandle) -> None:
+        """Show a browser the arm from where it is seen at first."""
+        position, look_at, up = self._view(narrow=client.camera.image_width < _NARROW)
+        with client.atomic():
+            client.camera.up_direction = up
+            client.camera.position = position
+            client.camera.look_at = look_at
+            client.camera.fov = _FIELD
+
+    def _meet(self, client: viser.ClientHandle) -> None:
+        if client.camera.image_width < _NARROW:
+            self.reset(client)
+
+    def _set_first_view(self) -> None:
+        self._server.scene.set_up_direction("-z" if self._hanging else "+z")
+        camera = self._server.initial_camera
+        position, look_at, up = self._view(narrow=False)
+        camera.up = tuple(up)
+        camera.position = tuple(position)
+        camera.look_at = tuple(look_at)
+
+    def _view(self, narrow: bool) -> tuple[Array, Array, Array]:
+        """Return camera, point looked at [m] and direction of up, each (3,), in the base frame."""
+        up = np.array([0.0, 0.0, -1.0 if self._hanging else 1.0])
+        look_at = np.array([0.0, 0.0, _HEIGHT * self._length])
+        offset = self._length * np.array([_OFFSET[0], _OFFSET[1], _OFFSET[2] * up[2]])
+        if narrow:
+            look_at, offset = look_at - _LOWER * self._length * up, _FURTHER * offset
+        return look_at + offset, look_at, up
