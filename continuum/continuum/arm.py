@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -12,11 +12,15 @@ from continuum import joint_names
 from continuum.did_you_mean import did_you_mean
 from continuum.errors import FileError, InvalidValueError
 from continuum.parameter_file import read_parameter_file
+from continuum.parameter_keys import common_name, given_values, known_keys
 from continuum.parameter_spec import ParameterSpec
 from continuum.shipped_files import ARMS, find_file
 
 FOUR_CABLES = [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]
 """Azimuths of four cables, a quarter turn apart, as on the prototype [rad]."""
+
+DYNAMICS = "dynamics"
+"""Block of a section for simulations alone: `continuum.dynamics.section_model` reads it."""
 
 SECTIONS_PARAMETER = ParameterSpec("sections", str, "names of the sections from the base", is_list=True)
 
@@ -38,12 +42,17 @@ SECTION_PARAMETERS: tuple[ParameterSpec, ...] = (
         "bend_limit", float, "largest total bend of the section", "rad", 0.0, 100.0, lower_open=True,
         default=math.pi,
     ),
-    ParameterSpec("link_mass", float, "mass of one link (Table 1)", "kg", 0.0, 1e3, lower_open=True, default=0.22257),
+    ParameterSpec("link_mass", float, "mass of one link", "kg", 0.0, 1e3, lower_open=True, default=0.22257),
     ParameterSpec(
-        "link_inertia", float, "inertia of one link about its centre of mass, across the axis (Table 1)", "kg m2",
+        "link_inertia", float, "inertia of one link about its centre of mass, across the axis", "kg m2",
         0.0, 1e3, lower_open=True, default=79398e-9,
     ),
 )  # fmt: skip
+
+# The defaults of link_mass and link_inertia are those of the prototype, thesis Table 1.
+
+SECTION_UNITS = {spec.name: spec.unit for spec in SECTION_PARAMETERS}
+"""SI unit of each parameter of a section, by its name."""
 
 
 def _default(name: str) -> Any:
@@ -183,34 +192,48 @@ class Arm:
 def arm_from_mapping(mapping: Mapping[str, object]) -> Arm:
     """Build an arm from ``{"sections": [name, ...], name: {"n_joints": ..., "b": ..., "a": ..., ...}, ...}``.
 
+    ``half_spacing``, ``hole_radius``, ``mass`` and ``inertia`` are other names of ``b``, ``a``, ``link_mass`` and
+    ``link_inertia``, and a key may end in ``_deg``, ``_mm`` or ``_g``. The block ``dynamics`` of a section is not read.
+
     Raises:
-        InvalidValueError: a parameter is missing, unknown or out of range; the message names it.
+        InvalidValueError: a parameter is missing, unknown, given twice or out of range; the message names it.
     """
     names = [str(name) for name in SECTIONS_PARAMETER.check_list(mapping.get("sections"), "arm.")]
-    _refuse_unknown("arm", mapping, ["sections", *names])
+    refuse_unknown("arm", mapping, ["sections", *names])
     return Arm(tuple(_section_from_mapping(name, mapping.get(name)) for name in names))
 
 
-def _section_from_mapping(name: str, values: object) -> Section:
-    known = [spec.name for spec in SECTION_PARAMETERS]
-    if not isinstance(values, Mapping):
-        raise InvalidValueError(f"arm.{name}", values, f"a block with {', '.join(known)}")
-    _refuse_unknown(f"arm.{name}", values, known)
+def _section_from_mapping(name: str, block: object) -> Section:
+    known = [*SECTION_UNITS, DYNAMICS]
+    if not isinstance(block, Mapping):
+        raise InvalidValueError(f"arm.{name}", block, f"a block with {', '.join(known)}")
+    given = given_values(block, SECTION_UNITS, f"arm.{name}.")
+    values = {key: value for key, value in given.values.items() if key != DYNAMICS}
+    refuse_unknown(f"arm.{name}", values, known, known_keys(SECTION_UNITS))
+    if not isinstance(block.get(DYNAMICS, {}), Mapping):
+        raise InvalidValueError(f"arm.{name}.{DYNAMICS}", block[DYNAMICS], "a block of parameters by name")
     for spec in SECTION_PARAMETERS:
         if spec.default is None and spec.name not in values:
-            raise InvalidValueError(f"arm.{name}.{spec.name}", None, spec.allowed)
+            other = f", also by the name {common_name(spec.name)}" if common_name(spec.name) != spec.name else ""
+            raise InvalidValueError(f"arm.{name}.{spec.name}", None, spec.allowed + other)
     try:
-        return Section(name=name, **values)
+        return Section(name=name, **values)  # type: ignore[arg-type]  # what they are is checked there
     except InvalidValueError as error:
         left_out = error.name in {f"{name}.{spec.name}" for spec in SECTION_PARAMETERS if spec.name not in values}
         hint = "; it was left out, and this is its default: set it" if left_out else ""
-        raise InvalidValueError(f"arm.{error.name}", error.value, error.allowed + hint) from None
+        in_file = InvalidValueError(f"arm.{error.name}", error.value, error.allowed + hint)
+        raise given.as_written(in_file, f"arm.{name}.") from None
 
 
-def _refuse_unknown(where: str, mapping: Mapping[str, object], known: list[str]) -> None:
+def refuse_unknown(where: str, mapping: Mapping[str, object], known: Sequence[str], others: Sequence[str] = ()) -> None:
+    """Refuse a block with a key that is neither among ``known`` nor among ``others``, further forms of these.
+
+    Raises:
+        InvalidValueError: there is one; the message has the name that it is near to.
+    """
     for name in mapping:
-        if name not in known:
-            hint = did_you_mean(str(name), known) or f"; known: {', '.join(known)}"
+        if name not in known and name not in others:
+            hint = did_you_mean(str(name), [*known, *others]) or f"; known: {', '.join(known)}"
             raise InvalidValueError(f"{where}.{name}", mapping[name], f"no parameter of this name{hint}")
 
 
@@ -232,15 +255,29 @@ def load_arm(path: str | Path) -> Arm:
         FileError: the file cannot be read or holds no arm.
         InvalidValueError: the arm in it is not valid.
     """
-    block = read_parameter_file(find_file(path, ARMS))
-    arm = block.get("arm", block)
-    if "n_joints" in block and "parameters" in block:
+    block = arm_block(path, read_parameter_file(find_file(path, ARMS)))
+    try:
+        return arm_from_mapping(block)
+    except InvalidValueError as error:
+        raise InvalidValueError(f"{path}: {error.name}", error.value, error.allowed) from None
+
+
+def arm_block(path: str | Path, content: Mapping[str, object]) -> Mapping[str, object]:
+    """The block of a file from which `arm_from_mapping` builds the arm.
+
+    Raises:
+        FileError: there is none; ``path`` names the file.
+    """
+    arm = content.get("arm", content)
+    if "n_joints" in content and "parameters" in content:
         raise FileError(
             path, "is a model file, of `simulate` and `diagnose`; expected an arm file, with a block `arm:`"
         )
     if not isinstance(arm, Mapping) or "sections" not in arm:
         raise FileError(path, "holds no arm; expected a block `arm:` with `sections: [...]` in it")
-    try:
-        return arm_from_mapping(arm)
-    except InvalidValueError as error:
-        raise InvalidValueError(f"{path}: {error.name}", error.value, error.allowed) from None
+    return arm
+
+
+def prototype_section() -> Section:
+    """The section of the prototype."""
+    return load_arm(ARMS / "prototype.yaml").sections[0]

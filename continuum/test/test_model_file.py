@@ -114,7 +114,7 @@ Change = Callable[[dict], object]  # type: ignore[type-arg]
 BAD: dict[str, tuple[Change, str]] = {
     "unknown block": (lambda b: b.update(parameter={}), "parameter"),
     "unknown parameter": (lambda b: b["parameters"].update(masss={"value": 1.0, "unit": "kg"}), "parameters.masss"),
-    "wrong unit": (lambda b: b["parameters"]["mass"].update(unit="g"), "parameters.mass.unit"),
+    "wrong unit": (lambda b: b["parameters"]["mass"].update(unit="lb"), "parameters.mass.unit"),
     "no value": (lambda b: b["parameters"]["mass"].pop("value"), "parameters.mass"),
     "missing parameter": (lambda b: b["parameters"].pop("mass"), "parameters.mass"),
     "too few values": (lambda b: b["parameters"]["mass"].update(value=[0.1, 0.2]), "parameters.mass"),

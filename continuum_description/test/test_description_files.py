@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import yaml
+from ament_index_python.packages import get_package_prefix
 
 from continuum.arm import SECTION_PARAMETERS, load_arm
 from continuum.dynamics.model_file import load_model
@@ -48,21 +49,24 @@ def launch_root() -> ElementTree.Element:
     return ElementTree.parse(SHARE / "launch" / "display.launch.xml").getroot()
 
 
-def performed(text: str, arm: Path, share: Path) -> str:
+def performed(text: str, arm: Path, prefix: Path) -> str:
     """The launch substitutions of the file, performed as launch does: text put in place, nothing quoted."""
-    return re.sub(r"\$\(find-pkg-share \w+\)", str(share), text).replace("$(var arm)", str(arm))
+    return re.sub(r"\$\(exec-in-pkg (\w+) (\w+)\)", rf"{prefix}/lib/\2/\1", text).replace("$(var arm)", str(arm))
 
 
-def test_launch_file_describes_the_arm_it_is_given_where_paths_have_spaces(tmp_path: Path) -> None:
-    share = tmp_path / "an install" / "share"
-    share.parent.mkdir()
-    share.symlink_to(SHARE)
+@pytest.mark.parametrize("rename", [{}, {" b:": " half_spacing:", " a:": " hole_radius:"}], ids=["short", "long"])
+def test_launch_file_describes_the_arm_it_is_given_where_paths_have_spaces(tmp_path: Path, rename: dict) -> None:
+    prefix = tmp_path / "an install"
+    prefix.symlink_to(get_package_prefix("continuum_description"))
     arm = tmp_path / "an arm.yaml"
-    arm.write_text((SHARE / "config" / "published_sections.yaml").read_text())
+    content = (SHARE / "config" / "published_sections.yaml").read_text()
+    for short, long in rename.items():
+        content = content.replace(short, long)
+    arm.write_text(content)
     parameter = launch_root().find("node[@exec='robot_state_publisher']/param[@name='robot_description']")
     command = re.fullmatch(r"\$\(command '(.*)'\)", parameter.get("value"))[1]
     result = subprocess.run(
-        shlex.split(performed(command, arm, share)), capture_output=True, text=True, timeout=120, check=False
+        shlex.split(performed(command, arm, prefix)), capture_output=True, text=True, timeout=120, check=False
     )
     assert (result.returncode, result.stderr) == (0, "")
     links = {link.get("name") for link in ElementTree.fromstring(result.stdout).iter("link")}

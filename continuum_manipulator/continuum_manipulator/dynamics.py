@@ -51,7 +51,7 @@ class DynamicsNode(CheckedNode):
 
     NAME = "dynamics"
     PARAMETERS = (
-        ParameterSpec("model", str, "model file, or arm file with a block dynamics, or the name of one of the library's",
+        ParameterSpec("model", str, "model file, arm file with a block dynamics, or the name of one of the library's",
                       default="lamecc_prototype.yaml"),
         ParameterSpec("section", str, "name of the section, with which those of joints and cables begin",
                       default="section_1"),

@@ -18,6 +18,7 @@ _NEXT_STEPS = """\
 what you can do next:
   continuum info ARM.yaml                 lengths, cables, bend limits of an arm
   continuum solve ARM.yaml 0.15 0 0.20    bring the tip to a point
+  continuum new-arm my_arm.yaml           write the file of your arm
   continuum model new --out MODEL.yaml    write the model file of a planar arm
   continuum view ARM.yaml                 move it in the browser, or a recording
   continuum simulate --release 90 --picture X.png
@@ -105,7 +106,19 @@ def command_parser() -> Parser:
     """The parser of the command with all its subcommands."""
     import argparse
 
-    from continuum.cli import curvature, diagnose, identify, import_dot, info, model, report, simulate, solve, view
+    from continuum.cli import (
+        curvature,
+        diagnose,
+        identify,
+        import_dot,
+        info,
+        model,
+        new_arm,
+        report,
+        simulate,
+        solve,
+        view,
+    )
     from continuum.cli.parser import Parser, ShowVersion
 
     parser = Parser(
@@ -116,6 +129,6 @@ def command_parser() -> Parser:
     )
     parser.add_argument("--version", action=ShowVersion, nargs=0, help="show the version and exit")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command", required=True)
-    for command in (info, solve, model, simulate, import_dot, identify, curvature, diagnose, report, view):
+    for command in (info, solve, new_arm, model, simulate, import_dot, identify, curvature, diagnose, report, view):
         command.add_to(commands)
     return parser

@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
     if slow is not None and not 0 <= slow < math.inf:
         raise InvalidValueError("--sensor-error", slow, "an angle >= 0 [degrees]")
     check_outputs((*options.data, options.model), [options.csv, options.json], [options.picture])
-    model = read_model(options.model)
+    model = read_model(options.model, options.section)
     model.require_cables("continuum curvature")
     recordings = read_recordings(options.data)
     # Here, so that files that are refused need not wait for numba.

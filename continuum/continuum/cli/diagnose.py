@@ -71,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
         raise InvalidValueError("--tolerance", options.tolerance, "an angle > 0 [degrees]")
     _check_effects(options)
     check_outputs((*options.data, options.model), [options.json, options.extended], pages=[options.report])
-    model, recordings = read_model(options.model), read_recordings(options.data)
+    model, recordings = read_model(options.model, options.section), read_recordings(options.data)
     for recording in recordings:
         if recording.n_joints != model.n_joints:
             allowed = f"{model.n_joints}, as {options.model} has; --model names another"

@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
     if options.seed is not None and options.seed < 0:
         raise InvalidValueError("--seed", options.seed, "a whole number >= 0")
     fitted = chosen_runs(options.identify, options.validate, len(options.data))
-    model, recordings = read_model(options.model), read_recordings(options.data)
+    model, recordings = read_model(options.model, options.section), read_recordings(options.data)
     from continuum.discovery.refit import check_recordings  # here, so that what is refused need not wait for numba
 
     check_recordings(recordings, model)

@@ -1,16 +1,18 @@
-"""`continuum info`: what an arm file says."""
+"""`continuum info`: what an arm file says, and what it leaves to defaults."""
 
 from __future__ import annotations
 
 import argparse
 import math
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, cast
 
-from continuum.arm import Arm, arm_to_mapping, load_arm
+from continuum.arm import DYNAMICS, Arm, arm_block, arm_to_mapping, load_arm
 from continuum.cli.completion import completes_files
 from continuum.cli.outputs import print_json
 from continuum.cli.tables import print_table
-from continuum.shipped_files import ARMS
+from continuum.parameter_file import read_parameter_file
+from continuum.shipped_files import ARMS, find_file
 
 
 def add_to(commands: Any) -> None:
@@ -23,17 +25,40 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print a table of the sections, or JSON."""
+    """Print a table of the sections and the defaults that were taken, or JSON."""
+    from continuum.cli.taken_defaults import in_lines, taken_defaults  # here, so that help need not wait for NumPy
+
     arm = load_arm(options.arm)
+    block = arm_block(options.arm, read_parameter_file(find_file(options.arm, ARMS)))
+    models = _models(options.arm, block, arm)
+    taken = taken_defaults(block, arm)
     if options.json:
-        print_json(_plain(arm))
-    else:
-        _show(arm)
+        print_json(_plain(arm) | {"models": list(models), "defaults": [one._asdict() for one in taken]})
+        return 0
+    _show(arm)
+    for name, driven in models.items():
+        print(f"dynamic model of {name}: driven by {driven}")
+    if taken:
+        print("left out, and taken from the defaults:")
+    for line in in_lines(taken, arm):
+        print(line)
     return 0
 
 
+def _models(path: str, block: Mapping[str, object], arm: Arm) -> dict[str, str]:
+    """What drives the dynamic model of each section that has one.
+
+    Raises:
+        InvalidValueError: one of them is not valid.
+    """
+    from continuum.dynamics.model_file import load_model
+
+    names = [one.name for one in arm.sections if DYNAMICS in cast("Mapping[str, object]", block[one.name])]
+    return {name: load_model(find_file(path, ARMS), name).inputs.in_words for name in names}
+
+
 def _plain(arm: Arm) -> dict[str, object]:
-    """All that the file says, with defaults, as an arm file has it; and the lengths that follow."""
+    """All that the file says of the geometry, with defaults, as an arm file has it; and the lengths that follow."""
     return {
         "length": arm.length,
         "section_lengths": {section.name: section.length for section in arm.sections},

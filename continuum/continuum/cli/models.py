@@ -13,16 +13,24 @@ if TYPE_CHECKING:
 
 
 def add_model_option(parser: argparse.ArgumentParser, what: str = "model file") -> None:
-    """Add ``--model``, a path or the name of a model that comes with the library."""
+    """Add ``--model``, a path or the name of a model that comes with the library, and ``--section``."""
     option = parser.add_argument(
         "--model", metavar="MODEL.yaml", default="lamecc_prototype.yaml",
-        help=f"{what}, or one of the library's; default %(default)s",
+        help=f"{what}, or arm file with a block `dynamics`, or one of the library's; default %(default)s",
     )  # fmt: skip
     completes_files(option, MODELS)
+    parser.add_argument(
+        "--section", metavar="NAME",
+        help="section of an arm file, modelled with its base fixed; required where the file has several",
+    )  # fmt: skip
 
 
-def read_model(name: str) -> Model:
+def read_model(name: str, section: str | None = None) -> Model:
     """The model of a file, or of a shipped one by its name.
+
+    Args:
+        name: the file.
+        section: of an arm file; None where it has only one.
 
     Raises:
         FileError: there is no such file or model, or it cannot be read.
@@ -30,4 +38,4 @@ def read_model(name: str) -> Model:
     """
     from continuum.dynamics.model_file import load_model  # here, so that help need not wait for it
 
-    return load_model(name)
+    return load_model(name, section)

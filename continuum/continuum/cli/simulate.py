@@ -88,7 +88,7 @@ def run(options: argparse.Namespace) -> int:
     if options.pulled and "," in options.release:
         raise InvalidValueError("--release", options.release, "with --pulled, one total bend in degrees")
     check_outputs((options.model, options.tensions, options.torques), [options.csv], [options.picture])
-    model = read_model(options.model)
+    model = read_model(options.model, options.section)
     for option in ("tensions", "pulled"):
         if getattr(options, option):
             model.require_cables(f"--{option}")

@@ -12,7 +12,8 @@ from continuum.printable import one_line
 
 _HEAD = """\
 # A planar arm of {joints}, from the base to the tip. A value is one number for all joints, or a list.
-# Units are checked, not converted. Lines that begin with # are left out: take the # away and put in your value.
+# Units are checked; deg, mm and g may take the place of rad, m and kg.
+# Lines that begin with # are left out: take the # away and put in your value.
 """
 
 

@@ -11,7 +11,8 @@
         mass: {value: 0.05, unit: kg, source: diagnosis of run_3.csv}
 
 ``inputs`` are ``cables`` or ``joint_torques``; without the line they are cables, unless the arm is told to have none: a
-chain with neither ``half_spacing`` nor ``hole_radius`` is driven by torques.
+chain with neither ``half_spacing`` nor ``hole_radius`` is driven by torques. ``b``, ``a``, ``link_mass`` and
+``link_inertia``, the names of arm files, are taken too. Angles may be given in deg, lengths in mm and masses in g.
 """
 
 from __future__ import annotations
@@ -27,32 +28,49 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import ActiveEffect, InputKind, Model
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
-from continuum.errors import FileError, InvalidValueError
+from continuum.dynamics.section_model import is_arm_file, section_model
+from continuum.errors import InvalidValueError
 from continuum.parameter_file import read_parameter_file
+from continuum.parameter_keys import convertible, given_values, in_si, units_for
 from continuum.shipped_files import MODELS, find_file
 from continuum.whole_file import write_whole
 
+_UNITS = {name: parameter.unit for name, parameter in PARAMETERS.items()}
 _ENTRY = "a mapping of value, unit and source"
 _PARAMETERS, _EFFECTS = "a block of parameters by name", "a block of effects by name"
 
 
-def load_model(path: str | Path) -> Model:
+def load_model(path: str | Path, section: str | None = None) -> Model:
     """The model that a file describes; a bare name that is no file here is a model that comes with the library.
 
+    Args:
+        path: a model file, or an arm file with a block ``dynamics``.
+        section: of an arm file, the section that is meant; None where it has only one. A model file has none.
+
     Raises:
-        FileError: the file cannot be read, is no YAML mapping, or describes an arm's geometry.
+        FileError: the file cannot be read, is no YAML mapping, or describes an arm's geometry alone.
         InvalidValueError: a name, value or unit that is not allowed, or a required parameter that is missing; the
             message begins with the file's name.
     """
-    block = read_parameter_file(find_file(path, MODELS))
-    if "arm" in block or "sections" in block:
-        raise FileError(
-            path, "is an arm file, of `info` and `solve`; a model file has n_joints, inputs, parameters and effects"
-        )
+    content = read_parameter_file(find_file(path, MODELS))
     try:
-        return model_from_mapping(block)
+        return model_of_section(path, content, section) if is_arm_file(content) else model_from_mapping(content)
     except InvalidValueError as error:
         raise InvalidValueError(f"{path}: {error.name}", error.value, error.allowed) from None
+
+
+def model_of_section(path: str | Path, content: Mapping[str, object], section: str | None) -> Model:
+    """As :func:`load_model`, of an arm file's contents; ``path`` names the file in errors.
+
+    Raises:
+        FileError: no section has a block ``dynamics``.
+        InvalidValueError: a value that is not allowed, or one that is required and missing.
+    """
+    found = section_model(path, content, section)
+    try:
+        return model_from_mapping(found.mapping)
+    except InvalidValueError as error:
+        raise found.in_arm_file(error) from None
 
 
 def model_from_mapping(block: Mapping[str, object]) -> Model:
@@ -65,7 +83,11 @@ def model_from_mapping(block: Mapping[str, object]) -> Model:
     n = block.get("n_joints")
     if not isinstance(n, int) or isinstance(n, bool) or not 1 <= n <= 1000:
         raise InvalidValueError("n_joints", n, "a whole number from 1 to 1000")
-    values, sources = _values(_mapping(block, "parameters"), PARAMETERS, n, "parameters.")
+    own = given_values(_mapping(block, "parameters"), _UNITS, "parameters.", with_units=False)
+    try:
+        values, sources = _values(own.values, PARAMETERS, n, "parameters.")
+    except InvalidValueError as error:
+        raise own.as_written(error, "parameters.") from None
     effects = []
     named = _mapping(block, "effects", allowed=_EFFECTS)
     for name in named:
@@ -126,9 +148,12 @@ def _values(
             continue
         entry = _mapping(block, name, prefix, _ENTRY)
         _only(entry, ("value", "unit", "source"), f"{prefix}{name}.")
-        if entry.get("unit") != parameter.unit:
-            raise InvalidValueError(f"{prefix}{name}.unit", entry.get("unit"), repr(parameter.unit))
-        values[name] = parameter.array(entry.get("value"), n, prefix + name)
+        value, unit = entry.get("value"), entry.get("unit")
+        if convertible(unit, parameter.unit):
+            value = in_si(value, str(unit))
+        elif unit != parameter.unit:
+            raise InvalidValueError(f"{prefix}{name}.unit", unit, " or ".join(map(repr, units_for(parameter.unit))))
+        values[name] = parameter.array(value, n, prefix + name)
         sources[name] = str(entry.get("source", "not stated"))
     return values, sources
 
