@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import argparse
 
+from rclpy.node import Node
+
 from ros2_standin.interface_types import service_class
 from ros2_standin.message_fields import fill_message
 from ros2_standin.session import add_discovery_arguments, open_session, positive_float
 from ros2_standin.topic_graph import is_hidden
 from ros2_standin.topic_pub import message_values
+
+
+def services(node: Node, hidden: bool = False) -> list[tuple[str, list[str]]]:
+    """Names and types of all services that are known now, sorted."""
+    return sorted((name, types) for name, types in node.get_service_names_and_types() if hidden or not is_hidden(name))
 
 
 def list_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,11 +32,7 @@ def list_verb(args: argparse.Namespace) -> None:
     """Print all services."""
     with open_session(args) as session:
         session.discover()
-        known = sorted(
-            (name, types)
-            for name, types in session.node.get_service_names_and_types()
-            if args.include_hidden_services or not is_hidden(name)
-        )
+        known = services(session.node, args.include_hidden_services)
         if args.count_services:
             print(len(known))
             return
@@ -72,11 +75,8 @@ def find_verb(args: argparse.Namespace) -> None:
     """Print the services of one type."""
     with open_session(args) as session:
         session.discover()
-        found = sorted(
-            name
-            for name, types in session.node.get_service_names_and_types()
-            if args.service_type in types and (args.include_hidden_services or not is_hidden(name))
-        )
+        known = services(session.node, args.include_hidden_services)
+        found = [name for name, types in known if args.service_type in types]
         for line in [len(found)] if args.count_services else found:
             print(line)
 

@@ -6,10 +6,9 @@ import argparse
 import time
 from collections import deque
 
-from ros2_standin.interface_types import message_class
-from ros2_standin.qos import add_qos_arguments, qos_for_subscribing
+from ros2_standin.qos import add_qos_arguments
 from ros2_standin.session import add_discovery_arguments, open_session, positive_int
-from ros2_standin.topic_graph import the_topic_type, wait_for_topic
+from ros2_standin.topic_hz import raw_messages
 
 _UNITS = ((1 << 20, "MB"), (1 << 10, "KB"), (1, "B"))
 
@@ -60,17 +59,9 @@ def bw_arguments(parser: argparse.ArgumentParser) -> None:
 def bw_verb(args: argparse.Namespace) -> None:
     """Print the bandwidth once a second until interrupted; waits for a topic that is not there yet."""
     with open_session(args) as session:
-        wait_for_topic(session, args.topic_name)
-        message_type = message_class(the_topic_type(session, args.topic_name))
-        qos = qos_for_subscribing(args, session.node, session.node.resolve_topic_name(args.topic_name))
         bandwidth = Bandwidth(args.window)
-        subscription = session.node.create_subscription(
-            message_type, args.topic_name, lambda raw: bandwidth.arrive(time.monotonic(), len(raw)), qos, raw=True
-        )
-        try:
+        with raw_messages(session, args, lambda raw: bandwidth.arrive(time.monotonic(), len(raw))):
             while True:
                 session.spin_for(1.0)
                 if text := bandwidth.text(time.monotonic()):
                     print(text, flush=True)
-        finally:
-            session.node.destroy_subscription(subscription)

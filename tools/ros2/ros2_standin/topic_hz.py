@@ -6,10 +6,12 @@ import argparse
 import math
 import time
 from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 from ros2_standin.interface_types import message_class
 from ros2_standin.qos import add_qos_arguments, qos_for_subscribing
-from ros2_standin.session import add_discovery_arguments, open_session, positive_int
+from ros2_standin.session import Session, add_discovery_arguments, open_session, positive_int
 from ros2_standin.topic_graph import the_topic_type, wait_for_topic
 
 
@@ -44,6 +46,19 @@ class ArrivalRate:
         )
 
 
+@contextmanager
+def raw_messages(session: Session, args: argparse.Namespace, arrive: Callable[[bytes], None]) -> Iterator[None]:
+    """Hand serialized messages of the topic to ``arrive``; waits for a topic that is not there yet."""
+    wait_for_topic(session, args.topic_name)
+    message_type = message_class(the_topic_type(session, args.topic_name))
+    qos = qos_for_subscribing(args, session.node, session.node.resolve_topic_name(args.topic_name))
+    subscription = session.node.create_subscription(message_type, args.topic_name, arrive, qos, raw=True)
+    try:
+        yield
+    finally:
+        session.node.destroy_subscription(subscription)
+
+
 def hz_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of ``hz``."""
     add_discovery_arguments(parser)
@@ -62,9 +77,6 @@ def hz_arguments(parser: argparse.ArgumentParser) -> None:
 def hz_verb(args: argparse.Namespace) -> None:
     """Print the rate once a second until interrupted; waits for a topic that is not there yet."""
     with open_session(args) as session:
-        wait_for_topic(session, args.topic_name)
-        message_type = message_class(the_topic_type(session, args.topic_name))
-        qos = qos_for_subscribing(args, session.node, session.node.resolve_topic_name(args.topic_name))
         rate = ArrivalRate(args.window)
         fresh = False
 
@@ -73,12 +85,9 @@ def hz_verb(args: argparse.Namespace) -> None:
             fresh = True
             rate.arrive(time.monotonic())
 
-        subscription = session.node.create_subscription(message_type, args.topic_name, arrive, qos, raw=True)
-        try:
+        with raw_messages(session, args, arrive):
             while True:
                 fresh = False
                 session.spin_for(1.0)
                 if fresh and (text := rate.text()):
                     print(text, flush=True)
-        finally:
-            session.node.destroy_subscription(subscription)
