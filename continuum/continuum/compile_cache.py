@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import io
+import logging
 import os
 import sys
 import threading
@@ -24,7 +25,10 @@ from continuum.errors import FileError
 config: Any = numba.config
 """Numba's, which has no types."""
 
+_log = logging.getLogger("continuum")
+
 _warned = threading.Event()
+_announced = threading.Event()
 
 
 def user_cache_folder() -> Path:
@@ -47,6 +51,13 @@ def warn_not_kept(error: Exception) -> None:
         warnings.warn(text, RuntimeWarning, stacklevel=2)
 
 
+def announce_compilation() -> None:
+    """Log, once in a program, that it compiles: the first call takes half a minute, later programs none of it."""
+    if not _announced.is_set():
+        _announced.set()
+        _log.info("compiling for this machine; this takes up to a minute, once")
+
+
 @dataclass(frozen=True)
 class CompiledFunction:
     """The file that holds numba's cache of one function.
@@ -64,8 +75,8 @@ class CompiledFunction:
     name: str
     key: str
 
-    def unpack(self, folder: Path) -> None:
-        """Fill the empty ``folder`` with what was packed; it stays empty where nothing sound is found.
+    def unpack(self, folder: Path) -> bool:
+        """Fill the empty ``folder`` with what was packed; False if no valid file was found.
 
         Raises:
             OSError: the folder cannot be written.
@@ -75,7 +86,8 @@ class CompiledFunction:
             if packed is not None:
                 with zipfile.ZipFile(io.BytesIO(packed)) as archive:
                     archive.extractall(folder)
-                return
+                return True
+        return False
 
     def pack(self, folder: Path) -> None:
         """Keep everything that is in ``folder``.

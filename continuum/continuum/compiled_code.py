@@ -24,7 +24,7 @@ from typing import Any, BinaryIO, Literal
 
 import numba
 
-from continuum.compile_cache import CompiledFunction, config, warn_not_kept
+from continuum.compile_cache import CompiledFunction, announce_compilation, config, warn_not_kept
 
 compiled = numba.njit(error_model="numpy")
 """Compiles a function that is called from compiled code alone; not cached by itself."""
@@ -108,7 +108,8 @@ class EntryPoint:
                 try:
                     self._folder, held = _temporary_folder()
                     weakref.finalize(self, _let_go, self._folder, held)
-                    self._kept.unpack(self._folder)
+                    if not self._kept.unpack(self._folder):
+                        announce_compilation()
                     self._dispatcher = _with_cache(self._function, self._error_model, self._folder)
                 except (OSError, RuntimeError) as error:  # RuntimeError: numba finds no place for its cache
                     self._start_in_memory(error)

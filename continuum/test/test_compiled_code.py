@@ -238,3 +238,17 @@ def test_a_program_whose_process_another_cannot_see_keeps_its_folder(
     assert said(in_another_program(file, within=contained, TMPDIR=str(temporary))).startswith("True")
     assert list(temporary.iterdir()) == held != []
     assert compiled_by(function, 3) == 2
+
+
+def test_compilation_is_logged_once_and_only_where_nothing_is_cached(
+    make: Callable[[], Any], caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    caplog.set_level("INFO", logger="continuum")
+    counts = []
+    for _ in range(2):
+        monkeypatch.setattr(compile_cache, "_announced", threading.Event())
+        first, second = make(), make()
+        compiled_by(first)
+        compiled_by(second)
+        counts.append(len(caplog.records))
+    assert counts == [1, 1]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import errno
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -96,10 +98,28 @@ def _run(arguments: list[str]) -> int:
     complete(parser)
     options = parser.parse_args(written_out(arguments))
     try:
-        return int(options.run(options))
+        with _log_on_stderr():
+            return int(options.run(options))
     except ContinuumError as error:
         print(f"continuum: {error}", file=sys.stderr)
         return 2
+
+
+@contextmanager
+def _log_on_stderr() -> Iterator[None]:
+    """Print what the library logs, such as that it compiles, a line each."""
+    import logging
+
+    logger, handler = logging.getLogger("continuum"), logging.StreamHandler()
+    handler.setFormatter(logging.Formatter("continuum: %(message)s"))
+    level = logger.level
+    logger.addHandler(handler)
+    logger.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        logger.removeHandler(handler)
+        logger.setLevel(level)
 
 
 def command_parser() -> Parser:
