@@ -1,6 +1,6 @@
 """Kinematics of sections and arms under the thesis's hypothesis of constant curvature (chapters 2.2, 3.1, appendix B).
 
-Where each equation of the thesis stands; each module's own table names the functions:
+The table gives the module that implements each equation of the thesis; each module lists the functions:
 
 =============================  =========================================================
 Eqs. 1, 2, 3, 6, 7, 23, 24     configuration.py
@@ -11,9 +11,9 @@ Eq. 11, J_xq                   cable_twist.py (rates of the cables to the twist 
 chapter 2.2.3                  routing.py (tangle, untangle), fabrikc.py (inverse kinematics)
 =============================  =========================================================
 
-cable_estimate.py estimates configurations from measured lengths; joint_chain.py and discs.py take single joints.
+cable_estimate.py estimates configurations from measured lengths; joint_chain.py and discs.py treat joints one by one.
 
-The maps take arrays with any leading axes, so a whole trajectory is one call.
+The maps accept arrays with any leading axes, so that one call evaluates a whole trajectory.
 
 Public: `inverse_kinematics.InverseKinematics`, `inverse_kinematics.solve`, `ik_target.Target`, `ik_target.Targets`,
 `ik_result.IkStatus`, `fabrikc.solve_fabrikc`, `configuration.allen_from_jones`, `configuration.jones_from_allen`,

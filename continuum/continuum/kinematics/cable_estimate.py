@@ -1,9 +1,9 @@
-"""Configurations of all sections from measured total lengths of the arm's cables: Eq. 9 for noisy lengths of many.
+"""Estimate the configurations of all sections from noisy total cable lengths: Eq. 9 generalised to many cables.
 
-Measured lengths have independent normal errors of one standard deviation, so the most likely configurations are those
-of least squares over all cables. Gauss-Newton starts from the answer of `untangle`; a step that does not lower the sum
-of squares is damped (Levenberg-Marquardt). Cables that pass a section count as much as those that actuate it, unlike in
-`untangle`.
+The measured lengths have independent normal errors with one common standard deviation, so the most likely
+configurations are the least-squares solution over all cables. Gauss-Newton starts from the result of `untangle`; a step
+that does not lower the sum of squares is damped (Levenberg-Marquardt). Unlike in `untangle`, cables that pass through a
+section count as much as those that actuate it.
 """
 
 from __future__ import annotations
@@ -24,28 +24,28 @@ from continuum.kinematics.configuration import bend
 from continuum.kinematics.routing import tangle, tangle_jacobian, untangle
 
 FEWEST_CABLES = 3
-"""Measured cables that a section needs: two fix its configuration, a third tells whether they agree."""
+"""Measured cables that a section needs: two determine its configuration, and a third checks their consistency."""
 
 TOLERANCE = 5.0
 """Largest residual that counts as noise unless another is given, in standard deviations of a length.
 
-A normal error exceeds it once in 1.7 million, and a residual varies less than the error of its length, which the fit
-follows in part.
+A normal error exceeds it once in 1.7 million samples. A residual varies less than the error of its length, because the
+fit absorbs part of that error.
 """
 
 IMPROBABLE = 1e-6
-"""Probability of a larger chi-square below which lengths are inconsistent: one false alarm in two hours at 120 Hz."""
+"""Probability of a larger chi-square below which lengths count as inconsistent: one false alarm in 2 h at 120 Hz."""
 
-_STEP = 1e-4  # the last step changes no length by more, in standard deviations or, where larger, largest residuals
+_STEP = 1e-4  # largest change of a length in the last step, per standard deviation or per largest residual if larger
 _ROUNDING = 1e-9  # of a bend [rad]
-_MOST_ITERATIONS = 50  # noise takes 5 at most; lengths that no posture has may take more than these
+_MOST_ITERATIONS = 50  # noisy lengths need 5 at most; lengths that no posture has may need more than this limit
 
 
 class EstimateStatus(IntEnum):
-    """What became of an estimate."""
+    """Outcome of an estimate."""
 
     CONVERGED = 0
-    """These are the most likely configurations, and the lengths agree with them."""
+    """The configurations are the most likely ones, and the lengths agree with them."""
     INCONSISTENT = 1
     """No residual is beyond the tolerance, but chi-square is larger than noise of this size explains."""
     BEYOND_TOLERANCE = 2
@@ -53,23 +53,23 @@ class EstimateStatus(IntEnum):
     NO_CONVERGENCE = 3
     """No residual is beyond the tolerance, but a minimum was not reached."""
     UNDETERMINED = 4
-    """A section has fewer than three measured cables, or lengths that do not fix it: there are no configurations."""
+    """A section has fewer than three measured cables, or its lengths do not determine it: no configurations result."""
     BEYOND_LIMIT = 5
     """A section is bent beyond its limit by more than noise explains."""
 
 
 @dataclass(frozen=True)
 class CableEstimate:
-    """Configurations of the sections, their covariance, and what of the lengths they leave unexplained.
+    """Configurations of the sections, their covariance, and the residuals of the lengths.
 
     Attributes:
-        status: what became of it.
+        status: outcome of the estimate.
         w: configurations (n_sections, 2) [rad]; NaN where undetermined. Noise may put them beyond a limit.
         covariance: of u, v of section 1, of section 2, ..., (2 n_sections, 2 n_sections) [rad^2].
         residuals: measured minus estimated total length of each cable (n_cables,) [m]; NaN where not measured.
         chi_square: sum of (residual / sd)^2.
-        degrees_of_freedom: measured cables less two for each section.
-        iterations: steps of the descent.
+        degrees_of_freedom: number of measured cables minus two for each section.
+        iterations: number of least-squares iterations.
     """
 
     status: EstimateStatus
@@ -81,29 +81,29 @@ class CableEstimate:
     iterations: int
 
     def section_covariance(self, index: int) -> Array:
-        """Covariance (2, 2) [rad^2] of u and v of section ``index`` (0 at the base)."""
+        """Return the covariance (2, 2) [rad^2] of u and v of section ``index`` (0 at the base)."""
         of_section = slice(2 * index, 2 * index + 2)
         return self.covariance[of_section, of_section]
 
     def bend_sd(self, index: int) -> float:
-        """Standard deviation [rad] of the bend of section ``index``, along its direction."""
+        """Return the standard deviation [rad] of the bend of section ``index``, along its bending direction."""
         u, v = self.w[index]
         outward = np.array([u, v]) / max(np.hypot(u, v), np.finfo(float).tiny)
         return float(np.sqrt(outward @ self.section_covariance(index) @ outward))
 
 
 def estimate_configuration(totals: ArrayLike, arm: Arm, sd: float, tolerance: float | None = None) -> CableEstimate:
-    """Maximum likelihood estimate of all configurations from measured total lengths.
+    """Return the maximum likelihood estimate of all configurations from measured total lengths.
 
     Args:
-        totals: measured lengths (n_cables,) [m] from the base to each cable's anchor, as `tangle` gives them; NaN where
-            a cable was not measured.
+        totals: measured lengths (n_cables,) [m] from the base to each cable's anchor, in the order of `tangle`; NaN
+            where a cable was not measured.
         arm: the arm.
         sd: standard deviation of a measured length [m].
-        tolerance: largest residual that counts as noise [m]; `TOLERANCE` times ``sd`` without it.
+        tolerance: largest residual that counts as noise [m]; None stands for `TOLERANCE` times ``sd``.
 
     Raises:
-        InvalidValueError: another number of lengths, an infinite one, or a standard deviation that is none.
+        InvalidValueError: the number of lengths is wrong, a length is infinite, or ``sd`` is not positive and finite.
     """
     totals = np.asarray(totals, dtype=float)
     if totals.shape != (len(arm.cable_names),) or np.isinf(totals).any():
@@ -131,7 +131,7 @@ def estimate_configuration(totals: ArrayLike, arm: Arm, sd: float, tolerance: fl
 
 
 def _status(found: CableEstimate, largest: float, tolerance: float, arm: Arm, *, converged: bool) -> EstimateStatus:
-    """What became of an estimate whose ``largest`` residual [m] is to be within the ``tolerance`` [m]."""
+    """Return the outcome of an estimate from its ``largest`` residual [m] and the ``tolerance`` [m]."""
     if not largest <= tolerance:
         return EstimateStatus.BEYOND_TOLERANCE
     if not converged:
@@ -144,9 +144,9 @@ def _status(found: CableEstimate, largest: float, tolerance: float, arm: Arm, *,
 
 
 def _is_beyond_a_limit(found: CableEstimate, arm: Arm) -> bool:
-    """A bend exceeds its section's limit by more than `TOLERANCE` standard deviations and rounding.
+    """Return whether a bend exceeds its section's limit by more than `TOLERANCE` standard deviations plus rounding.
 
-    Estimates are unbiased, not pulled back to a limit: half of those of a posture at the limit are beyond it.
+    Estimates are unbiased and not clipped to a limit: at the limit, half of them lie beyond it.
     """
     excess = bend(found.w) - [section.bend_limit for section in arm.sections]
     sd = np.array([found.bend_sd(i) for i in range(arm.n_sections)])
@@ -155,7 +155,7 @@ def _is_beyond_a_limit(found: CableEstimate, arm: Arm) -> bool:
 
 @lru_cache
 def arm_of_cables(arm: Arm, known: tuple[bool, ...]) -> Arm | None:
-    """The arm with those of its cables alone that are ``known``; None where a section keeps fewer than three."""
+    """Return the arm with only its ``known`` cables; None if a section keeps fewer than three."""
     if all(known):
         return arm
     sections, first = [], 0
@@ -180,10 +180,10 @@ class _Fit(NamedTuple):
 
 
 def _least_squares(totals: Array, arm: Arm, sd: float) -> _Fit:
-    """The minimum of the sum of squares.
+    """Minimise the sum of squared residuals.
 
     Raises:
-        LinAlgError: the lengths do not fix all configurations.
+        LinAlgError: the lengths do not determine all configurations.
     """
     w, damping = untangle(totals, arm), 0.0
     residuals, jacobian = totals - tangle(w, arm), tangle_jacobian(w, arm)

@@ -21,10 +21,10 @@ class CableLine:
 
     Attributes:
         cable: name of the cable.
-        section: 0-based index of the section that it runs through.
-        colour_index: number of the cable among those of its own section, from 0.
-        passing: it belongs to a section further out.
-        points: its holes from base disc to tip disc (n, 3) [m].
+        section: 0-based index of the section that this part of the cable runs through.
+        colour_index: 0-based number of the cable among those that actuate the same section.
+        passing: whether the cable actuates a section further out.
+        points: positions of the cable's holes from base disc to tip disc (n, 3) [m].
     """
 
     cable: str
@@ -35,11 +35,11 @@ class CableLine:
 
 
 def cable_lines(bends: Sequence[Array], arm: Arm) -> list[CableLine]:
-    """All cables in all sections that they run through.
+    """Return the lines of all cables in all sections that they run through.
 
     Args:
-        bends: for each section those of its joints, (n_joints, 2) [rad]; :func:`~continuum.kinematics.discs.even_bends`
-            makes them of a configuration.
+        bends: for each section the bends of its joints, (n_joints, 2) [rad];
+            :func:`~continuum.kinematics.discs.even_bends` computes them from a configuration.
         arm: the arm.
     """
     colours = {name: j for section in arm.sections for j, name in enumerate(section.cable_names)}
@@ -54,15 +54,16 @@ def cable_lines(bends: Sequence[Array], arm: Arm) -> list[CableLine]:
 def curvature_arrows(
     bends: Sequence[Array], arm: Arm, metres_per_radian: float, longest_radius: float
 ) -> list[Array | None]:
-    """For each section the arrow of Allen's w = (u, v, 0), from the centre of curvature: start and end (2, 3) [m].
+    """Return for each section the arrow of Allen's w = (u, v, 0), drawn from the centre of curvature.
 
-    Where joints of a section are bent differently, it is that of a section that is bent as far evenly.
+    An arrow is its start and end point (2, 3) [m]. Where the joints of a section bend by different angles, the arrow is
+    that of an evenly bent section with the same total bend.
 
     Args:
-        bends: for each section those of its joints, (n_joints, 2) [rad].
+        bends: for each section the bends of its joints, (n_joints, 2) [rad].
         arm: the arm.
         metres_per_radian: length of an arrow for each radian of bend.
-        longest_radius: a section that is straighter than this radius of curvature [m] has no arrow: None.
+        longest_radius: a section with a radius of curvature above this one [m] has no arrow: None.
     """
     arrows: list[Array | None] = []
     for section, bent, discs in zip(arm.sections, bends, arm_disc_poses(bends, arm), strict=True):
@@ -72,7 +73,7 @@ def curvature_arrows(
 
 
 def section_arrow(w: Array, section: Section, metres_per_radian: float, longest_radius: float) -> Array | None:
-    """The arrow of one section at ``w`` (2,) [rad] in its own base frame, (2, 3) [m]; else as `curvature_arrows`."""
+    """Return the arrow of one section at ``w`` (2,) [rad] in the section's base frame; see `curvature_arrows`."""
     theta = bend(w)
     kappa = curvature(theta, section)
     if kappa * longest_radius <= 1.0:

@@ -1,9 +1,9 @@
-"""Thesis Eq. 11 from the cables to the tip: J_xq = J_x,zeta J_zeta,q, for an arm of any number of sections.
+"""Twist of the tip from cable rates, thesis Eq. 11: J_xq = J_x,zeta J_zeta,q, for an arm of any number of sections.
 
 J_x,zeta is the arm's geometric jacobian (Eqs. 20, 21, chained). An arm has more cables than coordinates, so J_q,zeta
-(Eq. 26, summed by `tangle`) has many left inverses. All give the same for rates that a motion of the arm has. For
-measured rates the pseudoinverse is taken: it is the least squares over all cables, whereas `untangle_rates` uses the
-cables that actuate a section and leaves out what those that pass it say of it.
+(Eq. 26, summed by `tangle`) has many left inverses. They all agree on rates that belong to a motion of the arm. For
+measured rates this module uses the pseudoinverse, which is the least-squares solution over all cables;
+`untangle_rates` uses only the cables that actuate a section and ignores those that pass through it.
 """
 
 from __future__ import annotations

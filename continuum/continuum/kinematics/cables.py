@@ -1,6 +1,6 @@
 """Cables through a section: lengths from the configuration and back, the rates between them, and their holes.
 
-Any number of cables at any azimuth. The chord of cable j in one module is
+A section may have any number of cables at any azimuths. The chord of cable j in one module is
 l_j = 2 (b cos x - a cos(phi - alpha_j) sin x) with x = theta / (2 n_j); a section has n_j modules. The printed norm of
 Eq. 8 is this chord's absolute value; it changes sign at `Section.contact_bend`.
 
@@ -34,13 +34,14 @@ from continuum.kinematics.smooth_functions import sinc, sinc_derivative
 
 
 def cable_lengths(w: Array, section: Section, a: Array | None = None, azimuths: Array | None = None) -> Array:
-    """Lengths (..., n_cables) [m] within the section at ``w`` (..., 2) [rad]: Eq. 8, IK_spe.
+    """Return the lengths (..., n_cables) [m] within the section at ``w`` (..., 2) [rad]: Eq. 8, IK_spe.
 
     Args:
         w: configurations of the section.
         section: the section that the cables run through.
-        a: radius of each cable's holes, (n_cables,) [m]; the section's own without it.
-        azimuths: azimuth of each cable in the section's frame, (n_cables,) [rad]; the section's own without it.
+        a: radius of each cable's holes, (n_cables,) [m]; by default that of the section's actuating cables.
+        azimuths: azimuth of each cable in the section's frame, (n_cables,) [rad]; by default those of the section's
+            actuating cables.
     """
     return chords(w, section.b, section.n_joints, *cable_holes(section, a, azimuths))
 
@@ -60,7 +61,7 @@ def bend_towards(w: Array, azimuths: Array) -> Array:
 
 
 def cable_holes(section: Section, a: Array | None, azimuths: Array | None) -> tuple[Array, Array]:
-    """Radii [m] and azimuths [rad] of the cables' holes, (n_cables,): those given, or the section's own."""
+    """Radii [m] and azimuths [rad] of the cables' holes, (n_cables,): the given ones, or by default the section's."""
     azimuths = np.asarray(section.cable_azimuths if azimuths is None else azimuths, dtype=float)
     return np.broadcast_to(section.a if a is None else np.asarray(a, dtype=float), azimuths.shape), azimuths
 
@@ -68,7 +69,7 @@ def cable_holes(section: Section, a: Array | None, azimuths: Array | None) -> tu
 def configuration_from_cables(lengths: Array, section: Section) -> Array:
     """Configuration ``w`` (..., 2) [rad] from the lengths (..., n_cables) [m] of the section's actuating cables: Eq. 9.
 
-    Lengths that no configuration has are projected: least squares over all cables.
+    Inconsistent lengths are projected onto the nearest consistent ones by least squares over all cables.
     """
     return section.n_joints * configuration_from_point(lengths @ _point_of_lengths(section).T)
 
@@ -83,7 +84,7 @@ def configuration_cable_jacobian(lengths: Array, section: Section) -> Array:
 def _point_of_lengths(section: Section) -> Array:
     """Matrix (3, n_cables) that gives (X, Y, C / b), the direction of one module's chord, from the cables' lengths.
 
-    It is kept, since a stream of messages asks for it again and again.
+    The result is cached, because streams of messages need it repeatedly.
     """
     azimuths = np.asarray(section.cable_azimuths)
     measured = np.stack(

@@ -1,9 +1,9 @@
-"""The whole arm: sections one after the other, each turned by its twist.
+"""Kinematics of the whole arm: a chain of sections, each rotated by its twist.
 
 ================================  ===================================================
 arm_pose, section_tip_poses       Eq. 10, FK_cart
 section_bases                     Eq. 10 up to the base of each section, twist included; section_base_rotations
-next_tip, along_the_arm           Eq. 10, one section and one after the other
+next_tip, along_the_arm           Eq. 10, for one section and for all in order
 arm_jacobian                      Eq. 11, J_x,zeta: Eq. 20 of every section, carried to the arm's tip
 section_columns                   Eq. 11, the columns of one section
 ================================  ===================================================
@@ -92,15 +92,15 @@ def section_columns(
 ) -> tuple[TipVelocity, TipVelocity]:
     """Eq. 11: velocity of the arm's tip per rate of a section's u, and per rate of its v, in ``base_link``.
 
-    A section moves the tip by its own tip's motion and by turning all that comes after it.
+    A section moves the arm's tip by the translation of the section's tip and by rotating all that follows it.
 
     Args:
         base: rotation of the section's base, twist included.
         lever: from the section's tip to the arm's tip [m].
-        u: of the section [rad].
-        v: of the section [rad].
-        b: of the section [m].
-        n_joints: of the section.
+        u: first coordinate of the section [rad].
+        v: second coordinate of the section [rad].
+        b: distance disc to joint of the section [m].
+        n_joints: number of joints of the section.
     """
     linear_u, linear_v = position_jacobian(u, v, b, n_joints)
     angular_u, angular_v = rotation_jacobian(u, v)

@@ -33,7 +33,7 @@ def bend(w: Array) -> Array:
 def jones_from_allen(w: Array) -> tuple[Array, Array]:
     """Azimuth phi in (-pi, pi] and bend theta >= 0 [rad] of ``w`` (..., 2) [rad]: Eqs. 1 and 2.
 
-    phi = atan2(-u, v); it is 0 in the straight posture, where every azimuth would do.
+    phi = atan2(-u, v); it is 0 in the straight posture, where the azimuth is arbitrary.
     """
     u, v = w[..., 0], w[..., 1]
     return np.arctan2(0.0 - u, 0.0 + v), bend(w)
@@ -76,8 +76,9 @@ def allen_rates(phi: Array, theta: Array, phi_rate: Array, theta_rate: Array) ->
 def jones_rates(w: Array, w_rate: Array) -> tuple[Array, Array]:
     """Rates of phi and theta [rad/s], each (...), from ``w`` (..., 2) [rad] and its rate [rad/s]: Eq. 23, solved.
 
-    In the straight posture the section starts to bend towards the rate: theta grows by its norm and phi, which
-    :func:`jones_from_allen` says is 0 there, is not moving. The limit of phi's rate does not exist there.
+    In the straight posture the section starts to bend in the direction of the rate: theta grows at the norm of the
+    rate. The limit of phi's rate does not exist there; 0 is returned, to match the constant phi = 0 of
+    :func:`jones_from_allen`.
     """
     phi, theta = jones_from_allen(w)
     straight = theta == 0.0
@@ -92,7 +93,7 @@ def arc_rates(theta: Array, theta_rate: Array, section: Section) -> tuple[Array,
     """Eq. 24: rates of curvature [1/(m s)] and arc length [m/s], each (...); ``theta`` [rad], ``theta_rate`` [rad/s].
 
     d kappa / d theta = (kappa^2 b + 1 / b) / (2 n_j);
-    d s / d theta = b (cos x sin x - x) / sin^2 x with x = theta / (2 n_j), written so that x = 0 is no exception.
+    d s / d theta = b (cos x sin x - x) / sin^2 x with x = theta / (2 n_j), in a form that is regular at x = 0.
     """
     x = np.asarray(theta, dtype=float) / (2 * section.n_joints)
     kappa = curvature(np.asarray(theta, dtype=float), section)

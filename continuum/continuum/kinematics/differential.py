@@ -28,13 +28,14 @@ __all__ = ["DIRECTION", "POSE", "POSITION", "DifferentialKinematics", "TipRate",
 
 @dataclass(frozen=True)
 class TipRate:
-    """Rates of the configurations, and what they do to the tip.
+    """Rates of the configurations, and the tip velocity that they cause.
 
     Attributes:
-        rate: (n_sections, 2) [rad/s].
-        velocity: of the tip (3,) [m/s]; differs from the wanted one near singular postures and at bend limits.
+        rate: rate of the configuration (n_sections, 2) [rad/s].
+        velocity: velocity of the tip (3,) [m/s]; differs from the requested one near singular postures and at bend
+            limits.
         spin: angular velocity of the tip (3,) [rad/s].
-        held: whether a section at its bend limit would have been bent further.
+        held: whether a section was held at its bend limit instead of bending further.
     """
 
     rate: Array
@@ -44,11 +45,12 @@ class TipRate:
 
 
 class DifferentialKinematics:
-    """Rates for one arm.
+    """Differential kinematics of one arm.
 
     Args:
         arm: the arm.
-        kind: what of the tip's velocity counts: POSITION, DIRECTION (all but its turn about its own axis) or POSE.
+        kind: components of the tip's velocity that are controlled: POSITION, DIRECTION (all but the rotation about the
+            tip's z axis) or POSE.
     """
 
     def __init__(self, arm: Arm, kind: int = POSITION) -> None:
@@ -68,10 +70,10 @@ class DifferentialKinematics:
         wish: ArrayLike | None = None,
         ahead: float = 0.0,
     ) -> TipRate:
-        """Rate at ``w`` (n_sections, 2) [rad] that moves the tip by ``velocity`` (3,) [m/s] and ``spin`` (3,) [rad/s].
+        """Return the rate at ``w`` (n_sections, 2) [rad] for a tip ``velocity`` (3,) [m/s] and ``spin`` (3,) [rad/s].
 
-        ``wish`` (n_sections, 2) [rad/s] is followed where the tip's velocity leaves the arm free. A section that
-        would reach its bend limit within ``ahead`` [s] is held as one that stands there.
+        ``wish`` (n_sections, 2) [rad/s] is projected onto the null space of the task. A section that would reach its
+        bend limit within ``ahead`` [s] is held as if it were at the limit.
 
         Raises:
             InvalidValueError: wrong shape or not finite.
@@ -87,9 +89,10 @@ class DifferentialKinematics:
         return TipRate(rate.reshape(w.shape), moved[:3], moved[3:], held)
 
     def _by_eq_22(self, w: Array, velocity: Array, ahead: float) -> TipRate:
-        """Eq. 22 for an arm of one section, which is free in nothing: it reads the velocity across the line to the tip.
+        """Apply Eq. 22 to an arm of one section, which has no redundancy.
 
-        Damped near the point where the tip would come back to the base.
+        Only the velocity component across the line from the base to the tip has an effect. The rate is damped near the
+        posture in which the tip returns to the base.
         """
         section, jacobian = self.arm.sections[0], arm_jacobian(w, self.arm)
         tip = section_position(w[0], section)
@@ -109,7 +112,7 @@ class DifferentialKinematics:
         return TipRate(rate[None], moved[:3], moved[3:], held)
 
     def advance(self, w: ArrayLike, rate: ArrayLike, dt: float) -> Array:
-        """Configuration (n_sections, 2) [rad] after ``rate`` [rad/s] for ``dt`` [s], no section beyond its limit.
+        """Return the configuration (n_sections, 2) [rad] after ``rate`` [rad/s] for ``dt`` [s], within the bend limits.
 
         Raises:
             InvalidValueError: wrong shape or not finite.
@@ -122,5 +125,5 @@ class DifferentialKinematics:
 
 
 def least_bending(w: Array, gain: float) -> Array:
-    """Rate (n_sections, 2) [rad/s] down the gradient of |w|^2 / 2, for a gain [1/s]: the arm unbends where it may."""
+    """Return the unbending rate (n_sections, 2) [rad/s], down the gradient of |w|^2 / 2 with a gain [1/s]."""
     return -gain * np.asarray(w)

@@ -1,7 +1,8 @@
-"""Where the discs stand when the joints of a section are bent by different angles, as those of a real arm are.
+"""Poses of the discs when the joints of a section bend by different angles, as those of a real arm do.
 
-A joint's bend is Allen's (u, v) of that joint alone. Bends of one section lie in one plane, and their sum is the
-section's configuration; evenly bent, each is its n_joints-th part and the discs stand on the arc of Eq. 4.
+The bend of a joint is Allen's (u, v) of that joint alone. The bends of one section lie in one plane, and their sum is
+the section's configuration. In an evenly bent section each bend is the sum divided by n_joints, and the discs lie on
+the arc of Eq. 4.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from continuum.kinematics.section import section_pose
 
 
 def even_bends(w: Array, section: Section) -> Array:
-    """Bends (..., n_joints, 2) [rad] of the joints of a section at ``w`` (..., 2) [rad], all alike."""
+    """Return equal bends (..., n_joints, 2) [rad] of the joints of a section at ``w`` (..., 2) [rad]."""
     return np.repeat(w[..., None, :] / section.n_joints, section.n_joints, axis=-2)
 
 
@@ -38,10 +39,10 @@ def disc_poses(bends: Array, section: Section) -> Array:
 
 
 def arm_disc_poses(bends: Sequence[Array], arm: Arm) -> list[Array]:
-    """For each section the poses (n_joints + 1, 4, 4) [m] of its discs in ``base_link``.
+    """Return for each section the poses (n_joints + 1, 4, 4) [m] of its discs in ``base_link``.
 
     Args:
-        bends: for each section those of its joints, (n_joints, 2) [rad].
+        bends: for each section the bends of its joints, (n_joints, 2) [rad].
         arm: the arm.
     """
     found: list[Array] = []

@@ -1,9 +1,9 @@
 """FABRIKc: heuristic inverse kinematics of constant-curvature sections (Zhang et al. 2018, after FABRIK).
 
-Every bent section is replaced by two straight legs of equal length, tangent to the section at its base and at its tip;
-they meet in a virtual joint. Going backward from the target and forward from the base in turn, every virtual joint is
-put on the line to its neighbour, until the tip stays at the target. Here the leg follows the section's polygon of rigid
-links, so the answer is exact for inextensible sections: leg = chord / (2 cos(theta / 2)).
+Two straight legs of equal length, tangent to the section at its base and at its tip, replace every bent section; they
+meet in a virtual joint. Alternating passes, backward from the target and forward from the base, place every virtual
+joint on the line to its neighbour until the tip stays at the target. This implementation derives the leg from the
+section's polygon of rigid links, leg = chord / (2 cos(theta / 2)), so the answer is exact for inextensible sections.
 """
 
 from __future__ import annotations
@@ -36,18 +36,19 @@ def solve_fabrikc(
     tolerance: float = 1e-6,
     max_iterations: int = 100,
 ) -> IkResult:
-    """Configuration that brings the arm's tip to ``position`` (3,) [m], its z axis along ``direction`` (3,) if given.
+    """Find a configuration with the tip at ``position`` (3,) [m] and its z axis along ``direction`` (3,) if given.
 
     Args:
         arm: the arm.
         position: target of the tip in ``base_link`` [m].
-        direction: where the tip's z axis shall point; None leaves it free.
-        start: configuration (n_sections, 2) [rad] to start from; the straight arm without it.
+        direction: target direction of the tip's z axis; None leaves it free.
+        start: configuration (n_sections, 2) [rad] to start from; None starts from the straight arm.
         tolerance: largest distance [m], and largest angle [rad], that counts as solved.
-        max_iterations: pairs of a backward and a forward pass.
+        max_iterations: largest number of pairs of a backward and a forward pass.
 
     Raises:
-        InvalidValueError: malformed target or start. A hard target is no error: see the result's status.
+        InvalidValueError: the target or the start is malformed. An unreachable target is not an error; the result's
+            status reports it.
     """
     target, tolerance = Target(position, direction), checked_tolerance(tolerance)
     w = configuration_of(checked_arm(arm), start).reshape(-1)
@@ -68,7 +69,7 @@ def solve_fabrikc(
 def fabrikc(
     arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, max_iterations: int
 ) -> tuple[int, float, float]:
-    """Iterate from ``w`` (2 n_sections,) [rad], which becomes the best configuration seen.
+    """Iterate from ``w`` (2 n_sections,) [rad] and overwrite it with the best configuration found.
 
     Returns:
         Iterations, distance [m] and angle [rad] of that configuration.
@@ -102,7 +103,7 @@ def leg_length(theta: float, b: float, n_joints: int) -> float:
 
 @merged
 def _backward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Array) -> None:
-    """From the target to the base: moves the virtual joints (n_sections, 3) [m] so that they end at the target."""
+    """Move the virtual joints (n_sections, 3) [m], from the target to the base, so that they end at the target."""
     end = target.position.copy()
     tangent = tangents[-1].copy() if target.n_rows == POSITION else target.rotation[:, 2].copy()
     bends = _bends(tangents)
@@ -117,7 +118,7 @@ def _backward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Arr
 
 @merged
 def _forward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Array) -> None:
-    """From the base to the tip: moves virtual joints and tip tangents, each (n_sections, 3), to an arm on its base."""
+    """Move virtual joints and tip tangents, each (n_sections, 3), from the base to the tip, to an arm on its base."""
     bends = _bends(tangents)
     base, tangent = np.zeros(3), _base_axis()
     for i in range(len(joints)):
@@ -132,7 +133,7 @@ def _forward(arm: ArmArrays, target: TargetArrays, joints: Array, tangents: Arra
 
 @merged
 def _place_joints(arm: ArmArrays, tangents: Array, joints: Array) -> None:
-    """Fill the virtual joints (n_sections, 3) [m] of the arm whose sections end with the tangents (n_sections, 3)."""
+    """Fill ``joints`` (n_sections, 3) [m] with the virtual joints of the arm with tip tangents (n_sections, 3)."""
     bends = _bends(tangents)
     base, tangent = np.zeros(3), _base_axis()
     for i in range(len(joints)):
@@ -143,7 +144,7 @@ def _place_joints(arm: ArmArrays, tangents: Array, joints: Array) -> None:
 
 @compiled
 def _bends(tangents: Array) -> Array:
-    """Bend of every section [rad], as far as its legs can follow, from the tip tangents (n_sections, 3)."""
+    """Return every section's bend [rad], at most `LARGEST_BEND`, from the tip tangents (n_sections, 3)."""
     bends = np.empty(len(tangents))
     before = _base_axis()
     for i in range(len(tangents)):
@@ -154,7 +155,7 @@ def _bends(tangents: Array) -> Array:
 
 @compiled
 def _bend_within(free: Array, fixed: Array, bend_limit: float) -> tuple[Array, float]:
-    """The unit vector ``free``, turned towards ``fixed`` if the section cannot bend so far, and the bend [rad]."""
+    """Return the unit vector ``free``, rotated towards ``fixed`` if the bend exceeds its limit, and the bend [rad]."""
     limit = min(bend_limit, LARGEST_BEND)
     theta = _angle(fixed, free)
     if theta <= limit:
@@ -165,7 +166,7 @@ def _bend_within(free: Array, fixed: Array, bend_limit: float) -> tuple[Array, f
 
 @compiled
 def configuration_from_tangents(arm: ArmArrays, tangents: Array, w: Array) -> None:
-    """Fill ``w`` (2 n_sections,) [rad] of the arm whose sections end with the tangents (n_sections, 3)."""
+    """Fill ``w`` (2 n_sections,) [rad] with the configuration of the arm with tip tangents (n_sections, 3)."""
     rotation = IDENTITY
     for i in range(len(arm.b)):
         r = turned_about_z(rotation, arm.cos_twist[i], arm.sin_twist[i])
@@ -175,7 +176,7 @@ def configuration_from_tangents(arm: ArmArrays, tangents: Array, w: Array) -> No
             r[1] * t[0] + r[4] * t[1] + r[7] * t[2],
             r[2] * t[0] + r[5] * t[1] + r[8] * t[2],
         )
-        w[2 * i], w[2 * i + 1] = 0.5 * u, 0.5 * v  # a tip is seen at half the angle at which it points
+        w[2 * i], w[2 * i + 1] = 0.5 * u, 0.5 * v  # the line to a tip makes half the angle of the tip's tangent
         rotation = product(r, rotation_entries(w[2 * i], w[2 * i + 1]))
 
 

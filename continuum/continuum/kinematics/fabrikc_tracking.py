@@ -1,4 +1,4 @@
-"""Following a moving target by FABRIKc, the thesis's algorithm, from the configuration before."""
+"""Track a moving target by FABRIKc, the thesis's algorithm, from the previous configuration."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from continuum.kinematics.tracking import Tracker
 
 
 class FabrikcTracker(Tracker):
-    """Answers as those of `Tracker`, by FABRIKc alone: no restarts, no search for the nearest pose.
+    """A `Tracker` that uses FABRIKc alone, without restarts or a search for the nearest pose.
 
-    Every pose is solved from the configuration before it, moved on by the last rates. Rates are those of the Jacobian;
-    where FABRIKc ends away from the target, they move the tip as the target moves.
+    Every pose is solved from the previous configuration, extrapolated with the last rates. The rates come from the
+    Jacobian; where FABRIKc ends away from the target, they move the tip at the target's velocity.
 
     Args:
         arm: the arm.
-        use_direction: follow the direction of the tip's z axis too, not the position alone.
+        use_direction: whether to track the direction of the tip's z axis as well as the position.
         tolerance: largest distance [m], and largest angle [rad], that counts as solved.
-        max_iterations: pairs of a backward and a forward pass.
+        max_iterations: largest number of pairs of a backward and a forward pass.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""What an inverse kinematics solver answers: a typed result with a status, never an exception for a hard target."""
+"""Results of the inverse kinematics solvers: an unreachable target gives a status, never an exception."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from continuum.arrays import Array
 
 
 class IkStatus(enum.IntEnum):
-    """How a target was answered. The numbers are those of the message ``continuum_msgs/IkStatus``."""
+    """Outcome of a solution attempt. The values are those of the message ``continuum_msgs/IkStatus``."""
 
     SOLVED = 0
     LIMIT_REACHED = 1
@@ -26,11 +26,11 @@ class IkResult(NamedTuple):
 
     Attributes:
         configuration: Allen coordinates (n_sections, 2) [rad].
-        status: SOLVED within the tolerance; otherwise why not, and the configuration is the nearest that was found.
-        iterations: iterations spent.
+        status: SOLVED within the tolerance; otherwise the reason, and the configuration is the nearest one found.
+        iterations: number of iterations.
         distance: from the tip to the target position [m].
-        angle: from the tip's z axis to the target direction, or from its frame to the target's [rad]; 0 where that is
-            free.
+        angle: from the tip's z axis to the target direction, or from the tip frame to the target frame [rad]; 0 where
+            the target sets neither.
     """
 
     configuration: Array
@@ -46,7 +46,7 @@ class IkResult(NamedTuple):
 
 @dataclass(frozen=True)
 class IkBatch:
-    """Answers to many targets; row k of every array is what :class:`IkResult` says of target k.
+    """Results for many targets; row k of every array holds the :class:`IkResult` of target k.
 
     Attributes:
         configurations: (n_targets, n_sections, 2) [rad].
@@ -76,6 +76,6 @@ class IkBatch:
 
     @property
     def solved(self) -> NDArray[np.bool_]:
-        """Which targets were solved, (n_targets,)."""
+        """Mask of the targets that were solved, (n_targets,)."""
         solved: NDArray[np.bool_] = self.statuses == IkStatus.SOLVED
         return solved

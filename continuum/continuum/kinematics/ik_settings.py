@@ -1,4 +1,4 @@
-"""Settings of the solvers, checked."""
+"""Checks of the solvers' settings."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from continuum.arm import Arm
 from continuum.errors import InvalidValueError
 
 SMALLEST_TOLERANCE = 1e-14
-"""What rounding allows, [m] and [rad]."""
+"""Smallest tolerance that rounding allows [m] and [rad]."""
 
 
 def checked_arm(arm: object) -> Arm:
-    """An arm.
+    """Return ``arm`` if it is an `Arm`.
 
     Raises:
-        InvalidValueError: it is none.
+        InvalidValueError: ``arm`` is not an `Arm`.
     """
     if not isinstance(arm, Arm):
         raise InvalidValueError("arm", arm, "an Arm; continuum.arm.load_arm reads one from a file")
@@ -23,10 +23,10 @@ def checked_arm(arm: object) -> Arm:
 
 
 def checked_tolerance(tolerance: object) -> float:
-    """A tolerance [m] and [rad].
+    """Return ``tolerance`` [m] and [rad] as a float.
 
     Raises:
-        InvalidValueError: it is none.
+        InvalidValueError: it is not a finite number, or below `SMALLEST_TOLERANCE`.
     """
     if not isinstance(tolerance, float | int | np.floating | np.integer) or isinstance(tolerance, bool):
         raise InvalidValueError("tolerance", tolerance, f"a finite number >= {SMALLEST_TOLERANCE:g}")
@@ -36,10 +36,10 @@ def checked_tolerance(tolerance: object) -> float:
 
 
 def checked_count(name: str, count: object, most: int = 100_000) -> int:
-    """A whole number from 0 to ``most``.
+    """Return ``count`` if it is a whole number from 0 to ``most``.
 
     Raises:
-        InvalidValueError: it is none.
+        InvalidValueError: it is not such a number.
     """
     if not isinstance(count, int | np.integer) or isinstance(count, bool) or not 0 <= count <= most:
         raise InvalidValueError(name, count, f"a whole number from 0 to {most}")

@@ -1,4 +1,4 @@
-"""Where the tip of an arm shall be: position, position and direction, or full pose; one target or many."""
+"""Targets of the arm's tip: position, position and direction, or full pose; one target or many."""
 
 from __future__ import annotations
 
@@ -21,15 +21,16 @@ _KINDS = {3: POSITION, 6: DIRECTION, 12: POSE}
 
 
 class Targets:
-    """Targets of one kind. They hold copies of what was given, and do not change.
+    """Targets of one kind. They copy their arguments and are immutable.
 
     Args:
         positions: (n, 3) [m] in ``base_link``.
-        directions: where the tip's z axis shall point, (n, 3), of any length but zero; None where it is free.
-        rotations: of the tip frame in ``base_link``, (n, 3, 3), or None. Excludes ``directions``.
+        directions: directions of the tip's z axis, (n, 3), of any nonzero length; None leaves it free.
+        rotations: rotations of the tip frame in ``base_link``, (n, 3, 3), or None. Excludes ``directions``.
 
     Raises:
-        InvalidValueError: wrong shape, not finite, a direction of length zero, no rotation, or both given.
+        InvalidValueError: an argument has the wrong shape or is not finite, a direction has length zero, a matrix is
+            not a rotation, or both directions and rotations are given.
     """
 
     __slots__ = ("_rows",)
@@ -53,7 +54,7 @@ class Targets:
 
     @property
     def rows(self) -> Array:
-        """What is wanted, (n, 3), (n, 6) or (n, 12): positions, and behind them directions or rotations row by row."""
+        """Targets as rows (n, 3), (n, 6) or (n, 12): positions, followed by directions or rotations row by row."""
         return self._rows
 
     @property
@@ -63,17 +64,17 @@ class Targets:
 
     @property
     def positions(self) -> Array:
-        """(n, 3) [m]."""
+        """Positions (n, 3) [m]."""
         return self._rows[:, :3]
 
     @property
     def directions(self) -> Array | None:
-        """Unit vectors (n, 3), or None where no direction was asked for."""
+        """Unit vectors (n, 3), or None if the targets set no direction."""
         return self._rows[:, 3:] if self.kind == DIRECTION else None
 
     @property
     def rotations(self) -> Array | None:
-        """(n, 3, 3), or None where no rotation was asked for."""
+        """Rotation matrices (n, 3, 3), or None if the targets set no rotation."""
         return self._rows[:, 3:].reshape(-1, 3, 3) if self.kind == POSE else None
 
 
@@ -82,8 +83,8 @@ class Target(Targets):
 
     Args:
         position: (3,) [m] in ``base_link``.
-        direction: where the tip's z axis shall point, (3,); None where it is free.
-        rotation: of the tip frame in ``base_link``, (3, 3), or None. Excludes ``direction``.
+        direction: direction of the tip's z axis, (3,); None leaves it free.
+        rotation: rotation of the tip frame in ``base_link``, (3, 3), or None. Excludes ``direction``.
 
     Raises:
         InvalidValueError: as for :class:`Targets`.
@@ -105,13 +106,13 @@ class Target(Targets):
 
     @property
     def position(self) -> Array:
-        """(3,) [m]."""
+        """Position (3,) [m]."""
         position: Array = self._rows[0, :3]
         return position
 
     @property
     def direction(self) -> Array | None:
-        """Unit vector (3,), or None where it is free."""
+        """Unit vector (3,), or None if the target sets no direction."""
         return self._rows[0, 3:] if self.kind == DIRECTION else None
 
 
@@ -126,7 +127,7 @@ def configuration_of(arm: Arm, start: ArrayLike | None) -> Array:
 
 def _refuse_both(directions: object, rotations: object) -> None:
     if directions is not None and rotations is not None:
-        raise InvalidValueError("directions", directions, "none beside rotations, which have them already")
+        raise InvalidValueError("directions", directions, "None with rotations, which set the directions too")
 
 
 def _side_by_side(points: Array, more: Array) -> Array:
@@ -141,18 +142,18 @@ def _unit_vectors(directions: Array) -> Array:
 
 
 def _unit_vector(x: float, y: float, z: float) -> tuple[float, float, float]:
-    """The vector divided by its length; a unit vector stays what it is to the last digit."""
+    """Return the vector divided by its length; a unit vector is returned unchanged, to the last digit."""
     largest = max(abs(x), abs(y), abs(z))
     if largest == 0.0:
         raise InvalidValueError("direction", [x, y, z], "three finite numbers, not all zero")
-    if not 1e-100 < largest < 1e100:  # where squares leave the range of floats
+    if not 1e-100 < largest < 1e100:  # squares would leave the range of floats
         x, y, z = x / largest, y / largest, z / largest
     length = math.hypot(x, y, z)
     return (x, y, z) if abs(length - 1.0) < _ROUNDING else (x / length, y / length, z / length)
 
 
 def _orthonormal(rotations: Array) -> Array:
-    """``rotations`` (..., 3, 3), which must be such."""
+    """Return ``rotations`` (..., 3, 3) after checking that they are rotation matrices."""
     worst = np.abs(np.swapaxes(rotations, -1, -2) @ rotations - np.eye(3)).max(axis=(-2, -1))
     wrong = (worst > 1e-6) | (np.linalg.det(rotations) < 0.0)
     if np.any(wrong):

@@ -1,7 +1,7 @@
-"""Inverse kinematics that arrives: FABRIKc for the start, Gauss-Newton to machine precision, restarts, nearest pose.
+"""Inverse kinematics: FABRIKc for the start, Gauss-Newton to machine precision, restarts, nearest pose.
 
-Position alone, position and direction of the tip, or its full pose, for any number of sections; bend limits kept. A
-target out of reach is answered by the nearest pose and its distance.
+A target sets the tip's position, its position and direction, or its full pose, for any number of sections. Solutions
+respect the bend limits. For a target out of reach the result is the nearest pose and its distance.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from continuum.kinematics.ik_target import Target, Targets, configuration_of
 from continuum.number_checks import finite_of_shape
 
 OBJECTIVES = {"first": FIRST, "near_start": NEAR_START, "least_bending": LEAST_BENDING}
-"""What a redundant arm does with its freedom: take the first answer found, the one near it
-that is nearest to the start, or the least bent of several neighbourhoods."""
+"""Use of a redundant arm's freedom: return the first solution found, the solution in its neighbourhood that is nearest
+to the start, or the least bent solution of several neighbourhoods."""
 
 _STATUSES = tuple(IkStatus)  # in the order of their numbers
 
@@ -35,11 +35,13 @@ class InverseKinematics:
         arm: the arm.
         tolerance: largest distance [m], and largest angle [rad], that counts as solved.
         objective: one of OBJECTIVES.
-        n_restarts: postures tried after the start before a target is given up.
-        skip: postures of the sequence that are passed over; somebody else has tried them.
+        n_restarts: number of further start postures that are tried before a target counts as out of reach.
+        skip: number of start postures that are left out at the beginning of the sequence, because they have been
+            tried already.
 
     Raises:
-        InvalidValueError: no arm, unknown objective, a tolerance below rounding, or a number of restarts that is none.
+        InvalidValueError: ``arm`` is not an arm, the objective is unknown, the tolerance is below rounding, or
+            ``n_restarts`` or ``skip`` is not a count.
     """
 
     def __init__(
@@ -60,27 +62,28 @@ class InverseKinematics:
 
         Args:
             target: position, and direction or rotation unless they are free.
-            start: configuration (n_sections, 2) [rad] near which the answer is wanted; without it, any.
+            start: configuration (n_sections, 2) [rad] near which to search first; None has no preference.
 
         Raises:
-            InvalidValueError: malformed start, or not one target. A hard target is no error: see the result's status.
+            InvalidValueError: the start is malformed, or ``target`` is not a single target. An unreachable target is
+                not an error; the result's status reports it.
         """
         if not isinstance(target, Target):
-            raise InvalidValueError("target", target, "a Target; for many there is solve_many")
+            raise InvalidValueError("target", target, "a Target; use solve_many for several targets")
         w = configuration_of(self.arm, start)
         numbers = self._run(target, w.reshape(1, -1), COLD if start is None else WARM)
         status, iterations, distance, angle = numbers[0].tolist()
         return IkResult(w, _STATUSES[int(status)], int(iterations), distance, angle)
 
     def solve_many(self, targets: Targets, starts: ArrayLike | None = None) -> IkBatch:
-        """Answer each target by itself.
+        """Answer each target independently.
 
         Args:
-            targets: n_targets of them.
-            starts: configurations (n_targets, n_sections, 2) [rad] near which the answers are wanted; without, any.
+            targets: the targets, n_targets in number.
+            starts: configurations (n_targets, n_sections, 2) [rad] near which to search first; None has no preference.
 
         Raises:
-            InvalidValueError: malformed starts, or no Targets.
+            InvalidValueError: the starts are malformed, or ``targets`` is not a `Targets`.
         """
         _check(targets)
         shape = (len(targets), self.arm.n_sections, 2)
@@ -88,13 +91,13 @@ class InverseKinematics:
         return self._answer_all(targets, w, COLD if starts is None else WARM)
 
     def follow(self, targets: Targets, start: ArrayLike | None = None) -> IkBatch:
-        """Answer the targets of a trajectory, each from the answer to the one before it.
+        """Answer the targets of a trajectory, each starting from the previous solution.
 
-        ``least_bending`` looks for the least bent answer to the first target alone, and from there on for what bends
-        less without a jump.
+        The objective ``least_bending`` searches all neighbourhoods for the first target only; from there on it reduces
+        the bend without a jump.
 
         Raises:
-            InvalidValueError: malformed start, or no Targets.
+            InvalidValueError: the start is malformed, or ``targets`` is not a `Targets`.
         """
         _check(targets)
         w = np.zeros((len(targets), self.arm.n_sections, 2))
@@ -133,14 +136,14 @@ def solve(
     start: ArrayLike | None = None,
     tolerance: float = 1e-6,
 ) -> IkResult:
-    """Configuration that brings the tip to ``position`` (3,) [m], its z axis along ``direction`` (3,) if given.
+    """Find a configuration with the tip at ``position`` (3,) [m] and its z axis along ``direction`` (3,) if given.
 
-    Of several answers it is the one nearest to ``start``; without a start to the straight arm, which is little bent: to
-    three sections' targets it bends the arm by 91 degrees in total on average, where the first answer found bends it by
-    183, the least bent one by 92, and it takes 0.08 ms where these take 0.01 and 1.2 (medians). For many targets make
-    one :class:`InverseKinematics` and use it again.
+    Of several solutions it returns one near ``start``; without a start, one near the straight arm, which bends little.
+    For targets of three sections this solution bends the arm by 91 degrees in total on average and takes 0.08 ms
+    (median); the first solution found bends it by 183 degrees and takes 0.01 ms, the least bent one by 92 degrees and
+    1.2 ms. For many targets, create one :class:`InverseKinematics` and reuse it.
 
     Raises:
-        InvalidValueError: malformed target or start.
+        InvalidValueError: the target or the start is malformed.
     """
     return InverseKinematics(arm, tolerance, "near_start").solve(Target(position, direction), start)

@@ -1,7 +1,7 @@
-"""Rotations and homogeneous transforms, as far as the chain of sections needs them.
+"""The rotations and homogeneous transforms that the chain of sections needs.
 
-A matrix is also handled as the tuple of its entries, row by row: each entry may be a float or an array, so that one
-formula serves whole trajectories and the compiled solver.
+A matrix may also be the tuple of its entries, row by row. Each entry may be a float or an array, so that one formula
+serves both whole trajectories and the compiled solver.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ IDENTITY: Entries9 = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def rotated(r: Entries9, p: Entries3) -> Entries3:
-    """The vector ``p`` turned by the matrix ``r``."""
+    """The vector ``p`` rotated by the matrix ``r``."""
     return (
         r[0] * p[0] + r[1] * p[1] + r[2] * p[2],
         r[3] * p[0] + r[4] * p[1] + r[5] * p[2],
@@ -45,7 +45,7 @@ def product(r: Entries9, m: Entries9) -> Entries9:
 
 
 def transposed(r: Entries9) -> Entries9:
-    """The transpose, for a rotation its inverse."""
+    """The transpose, which for a rotation is the inverse."""
     return (r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8])
 
 

@@ -1,7 +1,8 @@
 """Coupling of the sections by their cables (thesis 2.2.3; tangle and untangle of Jones and Walker 2006).
 
-Cables of a distal section pass through every section before it at their own radius and azimuth, straight along the
-arm: seen from a proximal section their azimuth is turned by the twists between. Pulling one section so moves the rest.
+Cables of a distal section pass through every proximal section at their own radius and azimuth, straight along the arm.
+Seen from a proximal section, their azimuth is rotated by the twists in between. Pulling one section therefore moves the
+others.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from continuum.kinematics.cables import (
 
 @dataclass(frozen=True)
 class Routing:
-    """Cables through one section: its own actuating cables first, then those that pass, by section.
+    """Cables through one section: its actuating cables first, then those of the sections further out, in their order.
 
     Attributes:
         names: names of the cables.
@@ -39,7 +40,7 @@ class Routing:
 
 
 def cables_through(arm: Arm, index: int) -> Routing:
-    """The cables that run through section ``index`` (0 at the base) of the arm."""
+    """Return the cables that run through section ``index`` (0 at the base) of the arm."""
     names: list[str] = []
     radii: list[Array] = []
     azimuths: list[Array] = []
@@ -53,20 +54,20 @@ def cables_through(arm: Arm, index: int) -> Routing:
 
 
 def section_lengths(w: Array, arm: Arm, index: int) -> Array:
-    """Lengths (..., n_cables through it) [m] within section ``index`` at its configuration ``w`` (..., 2) [rad]."""
+    """Return the lengths (..., n_cables) [m] of all cables within section ``index`` at ``w`` (..., 2) [rad]."""
     routing = cables_through(arm, index)
     return cable_lengths(w, arm.sections[index], routing.a, routing.azimuths)
 
 
 def section_length_rates(w: Array, w_rate: Array, arm: Arm, index: int) -> Array:
-    """Rates (..., n_cables through it) [m/s] within section ``index`` at ``w`` [rad] moving at ``w_rate`` [rad/s]."""
+    """Return the length rates (..., n_cables) [m/s] within section ``index`` at ``w`` [rad] and ``w_rate`` [rad/s]."""
     routing = cables_through(arm, index)
     return _apply(cable_jacobian(w, arm.sections[index], routing.a, routing.azimuths), w_rate)
 
 
 @dataclass(frozen=True)
 class ArmRouting:
-    """All cables in all sections, (n_sections, n_cables); a cable that ends before a section is zero there.
+    """All cables in all sections, (n_sections, n_cables); zero where a cable ends before the section.
 
     Attributes:
         b: distance disc to joint [m].
@@ -83,7 +84,7 @@ class ArmRouting:
 
 @lru_cache
 def arm_routing(arm: Arm) -> ArmRouting:
-    """The routing of a whole arm; kept, since a stream of messages asks for it again and again."""
+    """Return the routing of a whole arm; cached, because streams of messages need it repeatedly."""
     b, a, azimuths = np.zeros((3, arm.n_sections, len(arm.cable_names)))
     for i, section in enumerate(arm.sections):
         routing = cables_through(arm, i)
@@ -93,14 +94,14 @@ def arm_routing(arm: Arm) -> ArmRouting:
 
 
 def tangle(w: Array, arm: Arm) -> Array:
-    """Total lengths (..., n_cables of the arm) [m], base to anchor, at ``w`` (..., n_sections, 2) [rad]."""
+    """Return all total cable lengths (..., n_cables) [m], base to anchor, at ``w`` (..., n_sections, 2) [rad]."""
     routing = arm_routing(arm)
     totals: Array = chords(w, routing.b, routing.n_joints, routing.a, routing.azimuths).sum(axis=-2)
     return totals
 
 
 def tangle_jacobian(w: Array, arm: Arm) -> Array:
-    """Slopes of the total lengths, (..., n_cables of the arm, 2 n_sections) [m/rad], at ``w`` (..., n_sections, 2).
+    """Return the jacobian of the total lengths, (..., n_cables, 2 n_sections) [m/rad], at ``w`` (..., n_sections, 2).
 
     Columns: u, v of section 1, of section 2, ... A cable that ends before a section does not depend on it.
     """
@@ -110,15 +111,16 @@ def tangle_jacobian(w: Array, arm: Arm) -> Array:
 
 
 def tangle_rates(w: Array, w_rate: Array, arm: Arm) -> Array:
-    """Rates of the total lengths (..., n_cables of the arm) [m/s], at ``w`` [rad] moving at ``w_rate`` [rad/s]."""
+    """Return the rates of the total lengths (..., n_cables) [m/s] at ``w`` [rad] and ``w_rate`` [rad/s]."""
     return _apply(tangle_jacobian(w, arm), w_rate.reshape(*w_rate.shape[:-2], -1))
 
 
 def untangle(totals: Array, arm: Arm) -> Array:
-    """Configurations (..., n_sections, 2) [rad] from the total lengths (..., n_cables of the arm) [m].
+    """Return the configurations (..., n_sections, 2) [rad] from all total cable lengths (..., n_cables) [m].
 
-    The first section's cables belong to it alone and give its configuration; that gives what the others spend in it;
-    taken off, the second section's cables are its own; and so on to the tip.
+    The cables of the first section run through it alone and give its configuration. That configuration gives the
+    lengths of the other cables within the section; they are subtracted, and the procedure continues with the second
+    section and so on to the tip.
     """
     routing = arm_routing(arm)
     left = np.array(totals, dtype=float)
@@ -132,7 +134,7 @@ def untangle(totals: Array, arm: Arm) -> Array:
 
 
 def untangle_rates(totals: Array, total_rates: Array, arm: Arm) -> Array:
-    """Rates (..., n_sections, 2) [rad/s] of the configurations, from total lengths [m] and their rates [m/s]."""
+    """Return the configuration rates (..., n_sections, 2) [rad/s] from total lengths [m] and their rates [m/s]."""
     left, left_rates = np.array(totals, dtype=float), np.array(total_rates, dtype=float)
     rates = []
     for i, section in enumerate(arm.sections):

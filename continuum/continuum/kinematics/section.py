@@ -33,7 +33,7 @@ from continuum.kinematics.smooth_functions import Real, one_minus_sinc, sinc, si
 def chord_length(theta: Real, b: float, n_joints: int) -> Real:
     """Chord [m] of Eq. 4: from base disc to tip disc, signed along theta / 2, at bend ``theta`` [rad]; ``b`` [m]."""
     total: Real = 2 * b * np.cos(0.5 * theta)  # the two half links at the ends
-    for k in range(1, (n_joints + 1) // 2):  # pairs of links, as far to one side of the chord as to the other
+    for k in range(1, (n_joints + 1) // 2):  # pairs of links at equal angles on either side of the chord
         total = total + 4 * b * np.cos((0.5 - k / n_joints) * theta)
     if n_joints % 2 == 0:
         total = total + 2 * b  # the link in the middle, along the chord
@@ -98,8 +98,8 @@ def configuration_from_point(point: Array) -> Array:
     """Configuration ``w`` (..., 2) [rad] of a section whose tip lies in the direction of ``point`` (..., 3) [m]: Eq. 5.
 
     For an inextensible section this is a projection: only the direction of the point is used.
-    theta = 2 atan2(hypot(x, y), z), phi = atan2(y, x). Below the base plane theta goes beyond 180 degrees. Straight
-    down (x = y = 0, z < 0) every azimuth is right; w is (0, 0) there, and for the zero point, which has no direction.
+    theta = 2 atan2(hypot(x, y), z), phi = atan2(y, x). Below the base plane theta exceeds 180 degrees. Straight down
+    (x = y = 0, z < 0) the azimuth is arbitrary; w is (0, 0) there and at the origin, which has no direction.
     """
     return np.stack(configuration_entries(point[..., 0], point[..., 1], point[..., 2]), axis=-1)
 
@@ -161,7 +161,7 @@ _SERIES = (-4 / 3, 8 / 5, -12 / 7, 16 / 9, -20 / 11, 24 / 13)
 def jones_from_point_jacobian(point: Array) -> Array:
     """d(phi, theta) / d(x, y, z), (..., 2, 3) [rad/m], at ``point`` (..., 3) [m]: Eq. 22 as printed.
 
-    Not finite on the z axis, where phi is not defined; :func:`configuration_from_point_jacobian` is.
+    Not finite on the z axis, where phi is not defined; :func:`configuration_from_point_jacobian` is finite for z > 0.
     """
     x, y, z = point[..., 0], point[..., 1], point[..., 2]
     radius, distance_squared = np.hypot(x, y), np.sum(point * point, axis=-1)
@@ -175,8 +175,8 @@ def jones_from_point_jacobian(point: Array) -> Array:
 def configuration_from_point_jacobian(point: Array) -> Array:
     """d(u, v) / d(x, y, z), (..., 2, 3) [rad/m], at ``point`` (..., 3) [m]: Eq. 22, regular in the straight posture.
 
-    With r = hypot(x, y) and f = theta / r: (u, v) = f (-y, x), so the slope of f over r is all that needs care.
-    Not finite straight down (x = y = 0, z <= 0), where the configuration itself jumps.
+    With r = hypot(x, y) and f = theta / r: (u, v) = f (-y, x), so only the derivative of f by r needs care.
+    Not finite straight down (x = y = 0, z <= 0), where the configuration is discontinuous.
     """
     x, y, z = point[..., 0], point[..., 1], point[..., 2]
     radius, distance_squared = np.hypot(x, y), np.sum(point * point, axis=-1)

@@ -1,7 +1,7 @@
-"""Even functions of an angle that stay exact at zero, where their usual quotients are 0/0.
+"""Even functions of an angle that are exact at zero, where their usual quotients are 0/0.
 
-The straight posture is an ordinary input everywhere because section and cable maps are written with these. They take
-arrays and plain floats alike and know no branches, so that the compiled solver can use them as they stand.
+Section and cable maps use them, so that the straight posture needs no special case. They accept arrays and floats and
+have no branches, so that the compiled solver can use them unchanged.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from continuum.arrays import Array
 
 Real = TypeVar("Real", float, Array)
 
-_SMALL = 0.5  # below it, a series; the first term left out is below 1e-17 of the sum there
+_SMALL = 0.5  # below it a series is used; its first omitted term is below 1e-17 of the sum
 
 
 def sinc(x: Real) -> Real:

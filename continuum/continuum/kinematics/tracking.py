@@ -1,8 +1,8 @@
-"""Following a moving target: every pose solved from the one before it, with rates that belong to it.
+"""Track a moving target: solve every pose from the previous one, with consistent rates.
 
-A redundant arm has many answers for one pose. So that the published rates and the published configurations belong
-together, both come from one differential equation: the rate of :mod:`differential`, with the redundancy used to unbend.
-Poses then correct what integration has lost, by steps that leave the null space alone.
+A redundant arm has many solutions for one pose. For consistent rates and configurations, both come from one
+differential equation: the rate of :mod:`differential`, which uses the redundancy to unbend. Solving for the pose then
+corrects the integration error by steps outside the null space.
 """
 
 from __future__ import annotations
@@ -21,33 +21,33 @@ from continuum.kinematics.inverse_kinematics import InverseKinematics
 from continuum.number_checks import finite_number
 
 _NO_SPIN = np.zeros(3)
-_BEHIND = 1e-3  # part of the wanted velocity that the tip may lack and still count as following
+_BEHIND = 1e-3  # largest velocity error that counts as following, as a fraction of the requested speed
 _AT_REST = 1e-12  # [m/s], rounding
-_RESTARTS = 64  # of a search that a moving arm waits for
-_RESTARTS_IN_MOTION = 16  # so that a pose out of reach takes about a millisecond; the next one tries the next postures
+_RESTARTS = 64  # of a search from a known configuration that does not continue a motion
+_RESTARTS_IN_MOTION = 16  # a pose out of reach takes about a millisecond; the next one tries the next postures
 _N_TURNS = 16  # until the first postures are tried again
-_SHIFT = 1e-4  # part of the arm's length by which a target is moved for the rate of the nearest posture
+_SHIFT = 1e-4  # displacement of a target for the rate of the nearest posture, as a fraction of the arm's length
 
 
 @dataclass(frozen=True)
 class Tracked:
-    """Answer to one target: the solution, and its rate (n_sections, 2) [rad/s], or None where no velocity was given."""
+    """Answer to one target: the solution, and its rate (n_sections, 2) [rad/s] or None if no velocity was given."""
 
     result: IkResult
     rate: Array | None
 
 
 class Tracker:
-    """Follows poses or twists of the tip.
+    """Track poses or twists of the tip.
 
     Args:
         arm: the arm.
-        use_direction: follow the direction of the tip's z axis too, not the position alone.
+        use_direction: whether to track the direction of the tip's z axis as well as the position.
         tolerance: largest distance [m], and largest angle [rad], that counts as solved.
-        unbend_gain: how fast the redundancy is used to bend less [1/s].
+        unbend_gain: gain of the unbending motion in the null space [1/s].
 
     Attributes:
-        configuration: the present configuration (n_sections, 2) [rad]; straight at first.
+        configuration: the current configuration (n_sections, 2) [rad]; initially straight.
     """
 
     def __init__(
@@ -66,7 +66,7 @@ class Tracker:
         ]
         self._nearest = InverseKinematics(arm, tolerance, "near_start", n_restarts=0)
         self._n_out_of_reach = 0  # poses since the last one that was reached
-        self._rates: list[Array] = []  # of the last instants, newest last; empty where no motion is continued
+        self._rates: list[Array] = []  # of the last instants, newest last; empty without a motion to continue
 
     def pose(
         self,
@@ -76,18 +76,18 @@ class Tracker:
         angular_velocity: Array | None = None,
         dt: float | None = None,
     ) -> Tracked:
-        """Answer a pose of the tip, and its velocity if it is known.
+        """Solve for a pose of the tip, and for its velocity if it is known.
 
         Args:
             position: (3,) [m] in ``base_link``.
-            direction: (3,), of the tip's z axis; ignored unless ``use_direction``.
-            velocity: (3,) [m/s] of the target; without it, no rate is told. Where the target is out of reach, the rate
+            direction: direction of the tip's z axis (3,); ignored unless ``use_direction``.
+            velocity: velocity of the target (3,) [m/s]; None returns no rate. If the target is out of reach, the rate
                 is that of the nearest posture.
-            angular_velocity: (3,) [rad/s] of the target, for its direction.
-            dt: time since the pose before [s]; None where this pose does not continue it.
+            angular_velocity: angular velocity of the target's direction (3,) [rad/s].
+            dt: time since the previous pose [s]; None if this pose does not continue it.
 
         Raises:
-            InvalidValueError: malformed target.
+            InvalidValueError: the target is malformed.
         """
         target = Target(position, direction if self.use_direction else None)
         result = self._solve(target, dt)
@@ -105,17 +105,17 @@ class Tracker:
     def twist(self, velocity: Array, angular_velocity: Array | None, dt: float) -> Tracked:
         """Move the tip by a twist, (3,) [m/s] and (3,) [rad/s], for ``dt`` [s] (midpoint rule).
 
-        Where the arm cannot follow, at a bend limit or stretched out, the status says so; the distance is what the tip
-        falls behind by this step.
+        If the arm cannot follow, at a bend limit or stretched out, the status reports it. The distance is the
+        distance by which the tip falls behind in this step.
 
         Raises:
-            InvalidValueError: what is given is not finite or of another shape.
+            InvalidValueError: an argument is not finite or has the wrong shape.
         """
         start, dt = self.configuration, finite_number("dt", dt, "a finite number of seconds")
         first = self._rate(velocity, angular_velocity)
         self.configuration = self._differential.advance(start, first.rate, 0.5 * dt)
         middle = self._rate(velocity, angular_velocity)
-        reaches_limit = middle.held and not first.held  # go all the way to it, not to where the middle is not held
+        reaches_limit = middle.held and not first.held  # the first rate goes all the way to the limit
         self.configuration = self._differential.advance(start, (first if reaches_limit else middle).rate, dt)
         self._rates = []
         now = self._rate(velocity, angular_velocity)
@@ -134,7 +134,7 @@ class Tracker:
         return result
 
     def _continued(self, target: Target, dt: float) -> IkResult | None:
-        """The answer that continues the motion; None where there is no motion."""
+        """Return the solution that continues the motion; None if there is no motion."""
         if not self._rates and self._n_out_of_reach == 0:
             return None
         predicted = self._predict(dt) if self._rates else self.configuration
@@ -144,13 +144,13 @@ class Tracker:
         return result
 
     def _predict(self, dt: float) -> Array:
-        """Configuration after ``dt`` [s] from the last two rates (Adams and Bashforth, second order)."""
+        """Predict the configuration after ``dt`` [s] from the last two rates (Adams-Bashforth, second order)."""
         newest = self._rates[-1]
         derivative = 0.5 * (newest - self._rates[-2]) if len(self._rates) > 1 else 0.0
         return self.configuration + dt * (newest + derivative)
 
     def _rate_of_nearest(self, target: Target, velocity: Array, angular_velocity: Array | None) -> Array:
-        """How the posture nearest to a target out of reach moves with it: central difference of two such postures."""
+        """Return the rate of the posture nearest to a moving target out of reach, by a central difference."""
         spin = _NO_SPIN if angular_velocity is None or target.direction is None else np.asarray(angular_velocity)
         speed = float(np.linalg.norm(velocity)) + self._arm.length * float(np.linalg.norm(spin))
         if speed == 0.0:
@@ -163,11 +163,11 @@ class Tracker:
         return (ahead - behind) / (2 * dt)
 
     def _rate_within_limits(self, velocity: Array, angular_velocity: Array | None, dt: float) -> TipRate:
-        """The rate that holds sections which would reach their limits within ``dt`` [s], where the tip follows so."""
+        """Return the rate that holds sections about to reach a limit within ``dt`` [s], if the tip still follows."""
         held = self._rate(velocity, angular_velocity, dt)
         free = self._rate(velocity, angular_velocity) if held.held else held
         lacks = np.linalg.norm(held.velocity - free.velocity)
-        if self.use_direction:  # a turn about the tip's own axis is free
+        if self.use_direction:  # the rotation about the tip's z axis is free
             axis = arm_pose(self.configuration, self._arm)[:3, 2]
             lacks += self._arm.length * np.linalg.norm(np.cross(held.spin - free.spin, axis))
         return held if lacks <= _BEHIND * np.linalg.norm(velocity) + _AT_REST else free
@@ -179,6 +179,6 @@ class Tracker:
 
 
 def _moved(target: Target, dt: float, velocity: Array, spin: Array) -> Target:
-    """A target after ``dt`` [s] at a velocity (3,) [m/s] and a spin (3,) [rad/s]."""
+    """Return the target after ``dt`` [s] at a velocity (3,) [m/s] and an angular velocity (3,) [rad/s]."""
     direction = None if target.direction is None else target.direction + dt * np.cross(spin, target.direction)
     return Target(target.position + dt * np.asarray(velocity), direction)

@@ -1,4 +1,5 @@
 """The inverse kinematics solver, compiled by numba.
 
-No equation of the arm stands here: :mod:`equations` hands the library's own to the compiler, and the loops call them.
+This package contains no equation of the arm: :mod:`equations` registers those of the library with the compiler, and
+the loops of the solver call them.
 """

@@ -1,4 +1,4 @@
-"""An arm as compiled code sees it."""
+"""Representation of an arm in compiled code."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from continuum.arm import Arm
 from continuum.arrays import Array
 
 BEND_LIMIT, CONTACT = 4, 5
-"""Rows of an arm's table that hold bends [rad]: the sections' limits, and where their discs' holes nearly meet."""
+"""Rows of an arm's table with bends [rad]: the sections' bend limits, and the bends where disc holes nearly meet."""
 
 
 class ArmArrays(NamedTuple):
@@ -21,8 +21,8 @@ class ArmArrays(NamedTuple):
     Attributes:
         b: distance disc to joint [m].
         n_joints: number of joints.
-        cos_twist: of the turn from the section before.
-        sin_twist: of the same.
+        cos_twist: cosine of the twist against the previous section.
+        sin_twist: sine of the same twist.
         bend_limit: largest bend [rad].
     """
 
@@ -34,7 +34,7 @@ class ArmArrays(NamedTuple):
 
 
 def arm_table(arm: Arm) -> Array:
-    """The arm in one array (6, n_sections), which a call hands over sooner than many.
+    """Return the arm as one array (6, n_sections), which is faster to pass in a call than several arrays.
 
     Rows are the attributes of :class:`ArmArrays`, with both kinds of limits.
     """
@@ -54,11 +54,11 @@ def arm_table(arm: Arm) -> Array:
 
 @register_jitable
 def arrays_of(table: Array, limits: Array) -> ArmArrays:
-    """The arrays of an arm's table, with the ``limits`` of one of its rows: BEND_LIMIT or CONTACT."""
+    """Return the arrays of an arm's table, with ``limits`` from its row BEND_LIMIT or CONTACT."""
     return ArmArrays(table[0], table[1].astype(np.int64), table[2], table[3], limits)
 
 
 def arm_arrays(arm: Arm, with_limits: bool = True) -> ArmArrays:
-    """The arrays of ``arm``; without its limits, sections may bend until the holes of neighbouring discs meet."""
+    """Return the arrays of ``arm``; without limits, sections may bend until the holes of neighbouring discs meet."""
     table = arm_table(arm)
     return arrays_of(table, table[BEND_LIMIT if with_limits else CONTACT])

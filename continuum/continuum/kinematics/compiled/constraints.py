@@ -1,7 +1,8 @@
-"""What holds an answer in its place: the target's conditions and the bend limits that are pressed upon.
+"""Constraints on a solution: the conditions of the target and the active bend limits.
 
-A normal is the gradient of a condition by the coordinates. At an answer that is nearest to a reference, the way to the
-reference is a sum of normals, with multipliers that press on the limits and never pull (Karush, Kuhn and Tucker).
+A normal is the gradient of a condition with respect to the coordinates. At the solution nearest to a reference, the
+vector to the reference is a sum of normals. The multipliers of the bend limits push against the limits and never pull
+(Karush, Kuhn and Tucker).
 """
 
 from __future__ import annotations
@@ -19,26 +20,26 @@ from continuum.kinematics.compiled.limits import AT_LIMIT, pull_within
 from continuum.kinematics.compiled.task import TargetArrays, evaluate, squared
 
 LIMIT_ROWS = 6
-"""Row of the first section's bend limit among the normals; those of the target come before it."""
+"""Row of the first section's bend limit among the normals; the target's normals precede it."""
 
-_DEPENDENT = 1e-10  # part of a normal that must be new for it to count
-_AT_ONCE = 1e-2  # part of a step
-_EXACT = 1e-13  # distance [m] and angle [rad] that is aimed at: slack in the target would pass for a gain
+_DEPENDENT = 1e-10  # smallest linearly independent fraction of a normal that counts
+_AT_ONCE = 1e-2  # a limit within this fraction of a step is met at once
+_EXACT = 1e-13  # target accuracy of distance [m] and angle [rad]: a larger error would count as a gain
 _MOST_RESTORATIONS = 10
-_OUTWARD = 1e-12  # push beyond a limit that counts [rad]
+_OUTWARD = 1e-12  # smallest push beyond a limit that counts [rad]
 
 
 class Conditions(NamedTuple):
-    """What the functions below fill and read.
+    """Work space that the functions below fill and read.
 
     Attributes:
-        held: whether a section is held at its limit, (n_sections,).
-        error: of the tip to the target, (n_rows,) [m].
-        normals: (6 + n_sections, 2 n_sections): the target's, then the limits'. Rows of conditions that the target does
-            not set, and of limits that are not held, are zero.
-        multipliers: of the normals, (6 + n_sections,).
+        held: whether each section is held at its limit, (n_sections,).
+        error: error of the tip to the target, (n_rows,) [m].
+        normals: (6 + n_sections, 2 n_sections): those of the target, then those of the limits. Rows of conditions that
+            the target does not set, and of limits that are not held, are zero.
+        multipliers: multipliers of the normals, (6 + n_sections,).
         basis: (2 n_sections, 2 n_sections), orthonormal rows; the first ones span the normals.
-        source: for each of those, the normal that it came from, (2 n_sections,).
+        source: row of the normal from which each of the first basis rows was made, (2 n_sections,).
     """
 
     held: NDArray[np.bool_]
@@ -51,7 +52,7 @@ class Conditions(NamedTuple):
 
 @compiled
 def no_conditions(n_sections: int, n_rows: int) -> Conditions:
-    """Room for the conditions of an arm and a target; nothing is held."""
+    """Allocate the conditions of an arm and a target; no section is held."""
     size, n_normals = 2 * n_sections, LIMIT_ROWS + n_sections
     return Conditions(
         np.zeros(n_sections, np.bool_),
@@ -65,7 +66,7 @@ def no_conditions(n_sections: int, n_rows: int) -> Conditions:
 
 @compiled
 def fill_normals(arm: ArmArrays, target: TargetArrays, w: Array, conditions: Conditions) -> tuple[float, float]:
-    """Fill error and normals at ``w`` (2 n_sections,) [rad], with those of the limits that are held.
+    """Fill the error and the normals, including those of held limits, at ``w`` (2 n_sections,) [rad].
 
     Returns:
         Distance [m] and angle [rad] from the tip to the target.
@@ -83,13 +84,13 @@ def fill_normals(arm: ArmArrays, target: TargetArrays, w: Array, conditions: Con
 
 @merged
 def press(arm: ArmArrays, target: TargetArrays, w: Array, gradient: Array, conditions: Conditions) -> int:
-    """Choose the limits that hold ``w`` against the descent of ``gradient`` (2 n_sections,), and how much each presses.
+    """Find the limits that are active against a descent along ``gradient`` (2 n_sections,), and their multipliers.
 
-    Fills all of ``conditions``: the multipliers make the sum of the normals the nearest to the gradient, and rows that
-    span all that remains free complete the basis.
+    Fills all of ``conditions``: the multipliers bring the sum of the normals nearest to the gradient, and the remaining
+    basis rows span the free directions.
 
     Returns:
-        How many rows of the basis span the normals.
+        Number of basis rows that span the normals.
     """
     conditions.held[:] = False
     rank = 0
@@ -102,7 +103,7 @@ def press(arm: ArmArrays, target: TargetArrays, w: Array, gradient: Array, condi
 
 @compiled
 def press_on_held(arm: ArmArrays, target: TargetArrays, w: Array, gradient: Array, conditions: Conditions) -> int:
-    """The same for limits that are chosen already, be it that they pull."""
+    """As `press`, for limits that are chosen already, even if some of them pull."""
     fill_normals(arm, target, w, conditions)
     rank = _span(conditions)
     _fill_multipliers(gradient, rank, conditions)
@@ -112,7 +113,7 @@ def press_on_held(arm: ArmArrays, target: TargetArrays, w: Array, gradient: Arra
 
 @merged
 def _change_held(arm: ArmArrays, w: Array, gradient: Array, rank: int, conditions: Conditions) -> bool:
-    """Let go the limit that pulls most or else hold the one that is pushed most; False if there is none of either."""
+    """Release the limit that pulls most, or else hold the one that is pushed most; return False if neither exists."""
     held, multipliers, basis = conditions.held, conditions.multipliers, conditions.basis
     push = -gradient
     for i in range(rank):
@@ -140,9 +141,9 @@ def _change_held(arm: ArmArrays, w: Array, gradient: Array, rank: int, condition
 
 @compiled
 def way_to_limits(arm: ArmArrays, w: Array, step: Array, held: NDArray[np.bool_]) -> tuple[float, bool]:
-    """Part of ``step`` (2 n_sections,) [rad], at most 1, that can be gone until a section meets its limit.
+    """Return the fraction of ``step`` (2 n_sections,) [rad], at most 1, at which a section reaches its limit.
 
-    A section that stands at its limit already and would leave it at once is held from now on, and the flag says so.
+    A section that is at its limit already and would exceed it at once becomes held; the returned flag reports this.
     """
     part, changed = 1.0, False
     for i in range(len(held)):
@@ -154,7 +155,7 @@ def way_to_limits(arm: ArmArrays, w: Array, step: Array, held: NDArray[np.bool_]
         slack = max(limit * limit - theta_squared, 0.0)
         square = x * x + y * y
         root = math.sqrt(along * along + square * slack)
-        # Of the two ways to write the root of the quadratic equation, that which does not cancel.
+        # The form of the quadratic equation's root that has no cancellation.
         reach = slack / (root + along) if along > 0.0 else (root - along) / square if square > 0.0 else np.inf
         if reach < _AT_ONCE and theta_squared >= (AT_LIMIT * limit) ** 2:
             held[i] = changed = True
@@ -164,9 +165,10 @@ def way_to_limits(arm: ArmArrays, w: Array, step: Array, held: NDArray[np.bool_]
 
 @compiled
 def restore(arm: ArmArrays, target: TargetArrays, w: Array, conditions: Conditions) -> tuple[float, float]:
-    """Bring ``w`` (2 n_sections,) [rad] in place onto the target and the held limits, by shortest Newton steps.
+    """Move ``w`` (2 n_sections,) [rad] in place onto the target and the held limits, by shortest Newton steps.
 
-    Sections that it brings beyond their limit are held too. Of ``conditions`` it reads what is held, and spends all.
+    Sections that a step moves beyond their limit become held. The function reads ``conditions.held`` and overwrites all
+    of ``conditions``.
 
     Returns:
         Distance [m] and angle [rad] from the tip to the target.
@@ -185,7 +187,7 @@ def restore(arm: ArmArrays, target: TargetArrays, w: Array, conditions: Conditio
         if largest <= _EXACT or k == _MOST_RESTORATIONS:
             break
         rank = _span(conditions)
-        for i in range(rank):  # by substitution: a normal has no part in basis rows that came after it
+        for i in range(rank):  # by substitution: a normal is orthogonal to later basis rows
             row = normals[source[i]]
             parts[i] = short[source[i]]
             for j in range(i):
@@ -202,7 +204,7 @@ def restore(arm: ArmArrays, target: TargetArrays, w: Array, conditions: Conditio
 
 @compiled
 def _span(conditions: Conditions) -> int:
-    """Fill the first rows of the basis from the normals; their number."""
+    """Fill the first rows of the basis from the normals and return their number."""
     normals, basis, source = conditions.normals, conditions.basis, conditions.source
     rank = 0
     for row in range(len(normals)):
@@ -220,16 +222,17 @@ def _complete(basis: Array, rank: int) -> None:
     for k in range(size):
         if rank < size:
             axis[k] = 1.0
-            if _append(basis, rank, axis, 0.5 / math.sqrt(size)):  # small enough for k axes to give all that is missing
+            if _append(basis, rank, axis, 0.5 / math.sqrt(size)):  # so small that the axes give all missing rows
                 rank += 1
             axis[k] = 0.0
 
 
 @compiled
 def _append(basis: Array, count: int, row: Array, least: float) -> bool:
-    """Put what ``row`` adds to the first ``count`` rows of ``basis`` behind them; False if less than ``least`` is new.
+    """Append the component of ``row`` that is orthogonal to the first ``count`` rows of ``basis``, normalised.
 
-    Gram and Schmidt's method, once more where much was taken away, which leaves right angles to rounding.
+    Return False if that component is less than ``least`` of ``row``. Uses the Gram-Schmidt method with
+    reorthogonalisation, so that the rows are orthogonal to rounding.
     """
     length = math.sqrt(squared(row))
     if count == len(basis) or length == 0.0:
@@ -252,7 +255,7 @@ def _append(basis: Array, count: int, row: Array, least: float) -> bool:
 
 @merged
 def _fill_multipliers(gradient: Array, rank: int, conditions: Conditions) -> None:
-    """Fill the multipliers by substitution from the last: a normal has no part in basis rows that came after it."""
+    """Fill the multipliers by back substitution: a normal is orthogonal to later basis rows."""
     normals, multipliers = conditions.normals, conditions.multipliers
     basis, source = conditions.basis, conditions.source
     multipliers[:] = 0.0

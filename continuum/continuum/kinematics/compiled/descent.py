@@ -1,4 +1,4 @@
-"""Gauss-Newton with Levenberg's damping on the analytic Jacobian, bend limits kept: one search from one start."""
+"""Descent from one start: Gauss-Newton with Levenberg's damping on the analytic Jacobian, within the bend limits."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from continuum.kinematics.compiled.task import TargetArrays, fill_task_jacobian,
 
 _LARGEST_STEP = 1.0  # of any coordinate in one iteration [rad]
 _ROUNDING = 1e-16  # keeps the normal equations definite where the Jacobian has lost rank [m2]
-_SLOW = 0.98  # a squared error that shrinks by less ...
-_N_SLOW = 4  # ... so many times in a row ends the search
-_N_REFUSED = 8  # and so do so many steps in a row that bring nothing
+_SLOW = 0.98  # slow progress: an iteration leaves more than this fraction of the squared error
+_N_SLOW = 4  # consecutive iterations with slow progress that end the search
+_N_REFUSED = 8  # consecutive rejected steps that end the search
 
 
 @merged

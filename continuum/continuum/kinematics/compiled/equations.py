@@ -1,4 +1,4 @@
-"""The library's equations, made known to numba, and how the solver's loops around them are compiled."""
+"""Registration of the library's equations with numba, and the decorators that compile the solver's loops."""
 
 from __future__ import annotations
 
@@ -40,16 +40,16 @@ for _equation in _EQUATIONS:
 __all__ = ["argument", "compiled", "entry_point", "inlined", "merged"]
 
 inlined = numba.njit(error_model="numpy", forceinline=True)
-"""As `compiled`, for small functions called all the time: handing over an arm's arrays takes as long as their work."""
+"""As `compiled`, for small functions with many calls: passing an arm's arrays would take as long as their work."""
 
 merged = numba.njit(error_model="numpy", inline="always")
-"""As `compiled`, for functions with one caller: they become a part of it, which spares compiling them apart."""
+"""As `compiled`, for functions with one caller: they are inlined there and not compiled separately."""
 
 
 def argument(value: Any) -> Any:
-    """A constant to hand to compiled functions; numba would compile one more version for a plain number alone."""
+    """Return a constant for calls of compiled functions; numba would compile another version for a plain number."""
     return np.asarray(value)[()]
 
 
 entry_point = compiled_code.entry_point(Path(kinematics.__path__[0]))
-"""Decorates the function that Python calls; its code may come from all files of the kinematics."""
+"""Decorator of functions that Python calls; their code may come from all files of the kinematics."""

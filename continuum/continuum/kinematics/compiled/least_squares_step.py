@@ -1,4 +1,4 @@
-"""Damped least-squares step for a wide or a tall Jacobian, by Cholesky's factors of the smaller normal equations."""
+"""Damped least-squares step for a wide or tall Jacobian, by Cholesky factorisation of the smaller normal equations."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from continuum.kinematics.compiled.equations import compiled
 def least_squares_step(jacobian: Array, error: Array, damping: float, normal: Array, step: Array) -> bool:
     """Fill ``step`` (k,) with (J^T J + damping I)^-1 J^T e; False where the matrix is not positive definite.
 
-    With fewer rows than columns the same step is J^T (J J^T + damping I)^-1 e, the shortest that does it.
+    With fewer rows than columns it solves the equivalent J^T (J J^T + damping I)^-1 e.
 
     Args:
         jacobian: (at least m, k); its first m rows count.
@@ -59,7 +59,7 @@ def _fill_transposed_product(rows: Array, x: Array, y: Array) -> None:
 
 @compiled
 def solve_positive_definite(matrix: Array, x: Array) -> bool:
-    """Solve ``matrix`` y = ``x`` in place; reads the lower triangle, which it overwrites. False if not definite."""
+    """Solve ``matrix`` y = ``x`` in place, overwriting the lower triangle; return False if it is not definite."""
     n = len(x)
     for j in range(n):
         pivot = matrix[j, j]

@@ -1,4 +1,4 @@
-"""Bend limits inside the compiled search: sections at their limit slide along it or come back, but go no further."""
+"""Bend limits in the compiled search: sections at their limit slide along it or move back, but do not exceed it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ AT_LIMIT = 1.0 - 1e-9
 
 @compiled
 def pull_within(arm: ArmArrays, w: Array) -> None:
-    """Bring every section that is bent too far back to its limit."""
+    """Reduce the bend of every section beyond its limit to that limit."""
     for i in range(len(arm.b)):
         theta = math.hypot(w[2 * i], w[2 * i + 1])
         if theta > arm.bend_limit[i]:
@@ -27,7 +27,7 @@ def pull_within(arm: ArmArrays, w: Array) -> None:
 
 @compiled
 def is_within(w: Array, limits: Array) -> bool:
-    """Whether no section of ``w`` (2 n_sections,) [rad] is bent more than ``limits`` (n_sections,) [rad]."""
+    """Return whether all sections of ``w`` (2 n_sections,) [rad] are within ``limits`` (n_sections,) [rad]."""
     inside = True
     for i in range(len(limits)):
         inside = inside and math.hypot(w[2 * i], w[2 * i + 1]) <= limits[i]
@@ -38,10 +38,10 @@ def is_within(w: Array, limits: Array) -> bool:
 def hold_outward(
     arm: ArmArrays, w: Array, step: Array, held: NDArray[np.bool_], jacobian: Array, n_rows: int, reach: float
 ) -> bool:
-    """Take out of ``jacobian`` what would bend a section beyond its limit; True if that changed anything.
+    """Remove from ``jacobian`` the components that bend a section beyond its limit; return whether anything changed.
 
-    A section is held where it stands at its limit, or would stand there after ``reach`` times ``step``, and ``step``
-    goes outward; ``held`` (n_sections,) remembers it.
+    A section becomes held in ``held`` (n_sections,) if ``step`` points outward and the section is at its limit or would
+    reach it after ``reach`` times ``step``.
     """
     changed = False
     for i in range(len(arm.b)):
@@ -59,7 +59,7 @@ def hold_outward(
 
 @compiled
 def stop_radial(w: Array, held: NDArray[np.bool_], rate: Array) -> None:
-    """Take out of ``rate`` (2 n_sections,) what would bend or unbend the held sections."""
+    """Remove from ``rate`` (2 n_sections,) the components that bend or unbend the held sections."""
     for i in range(len(held)):
         if held[i]:
             theta = math.hypot(w[2 * i], w[2 * i + 1])
@@ -68,7 +68,7 @@ def stop_radial(w: Array, held: NDArray[np.bool_], rate: Array) -> None:
 
 @compiled
 def _stop_radial_pair(u: float, v: float, row: Array, i: int) -> None:
-    """Take out of section ``i``'s pair in ``row`` its part along the unit vector (u, v)."""
+    """Remove the component along the unit vector (u, v) from section ``i``'s pair in ``row``."""
     radial = row[2 * i] * u + row[2 * i + 1] * v
     row[2 * i] -= radial * u
     row[2 * i + 1] -= radial * v

@@ -1,8 +1,8 @@
-"""Nearest pose to a target out of reach: Newton's method on half the squared error, bend limits kept.
+"""Nearest pose to a target out of reach: Newton's method on half the squared error, within the bend limits.
 
-Where the error does not vanish its curvature matters, which Gauss-Newton leaves out. The gradient J^T e is exact; its
-central differences give the Hessian. A section at its limit keeps its bend and moves along the limit by its azimuth,
-until the descent points inward.
+Where the error does not vanish, the second derivatives that Gauss-Newton neglects matter. The gradient J^T e is exact,
+and its central differences give the Hessian. A section at its limit keeps its bend and moves along the limit by its
+azimuth until the descent points inward.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ from continuum.kinematics.compiled.task import TargetArrays, evaluate, squared
 _DIFFERENCE = 1e-5  # step of the differences [rad]
 _LARGEST_STEP = 0.5  # of any coordinate in one iteration [rad]
 _MAX_ITERATIONS = 100
-_NEARER = 1e-6  # part by which a squared error must be less to count as less
-_ALIKE, _NEIGHBOURS = 1e-2, 0.2  # part of a squared error, and distance [rad], by which ends of descents count as one
-_EQUAL = 1e-6  # part of a squared error by which they do wherever they are, as where an arm is free to turn
-_ROUNDING = 1e-13  # part of a squared error that rounding may hide
-_STATIONARY = 1e-10  # gradient of the half squared error, in weights per rad, that ends the search
+_NEARER = 1e-6  # smallest relative reduction of a squared error that counts
+_ALIKE, _NEIGHBOURS = 1e-2, 0.2  # relative difference of squared errors and distance [rad] of ends that count as one
+_EQUAL = 1e-6  # relative difference of squared errors below which ends count as one at any distance
+_ROUNDING = 1e-13  # relative change of a squared error that rounding may hide
+_STATIONARY = 1e-10  # gradient of half the squared error, in weights per rad, that ends the search
 
 
 @merged
 def descend_to_nearest(arm: ArmArrays, target: TargetArrays, w: Array) -> tuple[int, bool]:
-    """Move ``w`` (2 n_sections,) [rad] in place to a local minimum of the error; iterations, and whether it is one."""
+    """Move ``w`` (2 n_sections,) [rad] in place towards a local minimum; return iterations and whether it is one."""
     size = len(w)
     error, jacobian = np.empty(target.n_rows), np.empty((6, size))
     on_limit = np.zeros(len(arm.b), np.bool_)
@@ -61,7 +61,7 @@ def descend_to_nearest(arm: ArmArrays, target: TargetArrays, w: Array) -> tuple[
             if not improved:
                 damping = max(4.0 * damping, 1e-3 * target.weight**2)
         if not improved:
-            # Rounding hides what is left to gain: a minimum if the slope promises no more than that.
+            # Rounding hides the remaining gain: a minimum if the slope predicts no larger one.
             stiffest = np.max(np.abs(np.diag(hessian))) if len(hessian) > 0 else 0.0
             return iteration, np.max(np.abs(reduced)) ** 2 <= _ROUNDING * cost * stiffest
         w[:] = trial
@@ -84,7 +84,7 @@ def _cost_and_gradient(
 
 @merged
 def _choose_held(arm: ArmArrays, w: Array, gradient: Array, on_limit: NDArray[np.bool_]) -> None:
-    """Hold the sections that stand at their limit and would gain by bending further."""
+    """Hold the sections at their limit for which bending further would reduce the cost."""
     for i in range(len(on_limit)):
         u, v = w[2 * i], w[2 * i + 1]
         at_limit = math.hypot(u, v) >= AT_LIMIT * arm.bend_limit[i]
@@ -93,7 +93,7 @@ def _choose_held(arm: ArmArrays, w: Array, gradient: Array, on_limit: NDArray[np
 
 @compiled
 def _directions(w: Array, on_limit: NDArray[np.bool_]) -> Array:
-    """Directions (n_free, 2 n_sections) in which ``w`` may move: u, v of a free section, along the limit of a held."""
+    """Directions (n_free, 2 n_sections) of motion: u and v of free sections, along the limit of held ones."""
     n_held = np.sum(on_limit)
     basis = np.zeros((len(w) - n_held, len(w)))
     row = 0
@@ -109,7 +109,7 @@ def _directions(w: Array, on_limit: NDArray[np.bool_]) -> Array:
 
 @compiled
 def _move(w: Array, step: Array, on_limit: NDArray[np.bool_]) -> None:
-    """Move ``w`` in place by ``step`` (n_free,) [rad]; a held section turns by it."""
+    """Move ``w`` in place by ``step`` (n_free,) [rad]; a held section moves along its limit."""
     largest = np.max(np.abs(step))
     scale = 1.0 if largest < _LARGEST_STEP else _LARGEST_STEP / largest
     row = 0
@@ -152,10 +152,10 @@ def _hessian(
 
 @merged
 def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tries: int) -> tuple[int, bool]:
-    """The nearest pose that descents find from the first of ``ends`` and the ``n_tries`` best; fills ``w``.
+    """Fill ``w`` with the nearest pose that descents find from the first of ``ends`` and the ``n_tries`` best.
 
-    Of ends that are alike one is tried. The first, that of a warm start, wins over others that are no nearer: a moving
-    arm stays where it is.
+    Of similar ends only one is tried. The first end, from a warm start, wins over others that are no nearer, so that a
+    moving arm does not jump.
 
     Returns:
         Iterations, and whether the answer is a minimum.
@@ -184,7 +184,7 @@ def nearest_of(arm: ArmArrays, target: TargetArrays, ends: Array, w: Array, n_tr
 
 @merged
 def _is_like(end: Array, other: Array) -> bool:
-    """Whether two ends of descents, each a squared error and a configuration, lead to one pose or to its like."""
+    """Return whether two ends of descents, each a squared error and a configuration, lead to an equivalent pose."""
     difference = abs(end[0] - other[0])
     way = 0.0
     for k in range(1, len(end)):

@@ -1,7 +1,7 @@
-"""Rates of the configurations for a velocity of the tip (thesis Eqs. 11 and 22), damped, with the null space used.
+"""Damped rates of the configurations for a velocity of the tip (thesis Eqs. 11 and 22), with a null-space motion.
 
-rate = J+ v + (I - J+ J) wish. Damping grows smoothly from nothing as a singular value of J falls below a fiftieth of
-the largest (Nakamura and Hanafusa 1986). Sections at their bend limit are not bent further.
+rate = J+ v + (I - J+ J) wish. Damping grows smoothly from zero as a singular value of J falls below a fiftieth of the
+largest (Nakamura and Hanafusa 1986). Sections at their bend limit do not bend further.
 """
 
 from __future__ import annotations
@@ -18,24 +18,24 @@ from continuum.kinematics.compiled.task import turn_into_tip_frame
 from continuum.kinematics.compiled.tip import tip_and_jacobian
 from continuum.kinematics.rigid import rotated, transposed
 
-_NEAR_SINGULAR = 0.02  # of the largest singular value, below which damping sets in
+_NEAR_SINGULAR = 0.02  # fraction of the largest singular value below which damping starts
 
 
 @merged
 def tip_rate(
     arm: ArmArrays, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array, ahead: float
 ) -> tuple[Array, Array, bool]:
-    """Rate (2 n_sections,) [rad/s] at ``w`` [rad], the tip's velocity (6,) that it gives, whether a limit held it.
+    """Return the rate (2 n_sections,) [rad/s] at ``w``, the tip velocity (6,) it causes, and whether a limit held it.
 
     Args:
         arm: the arm.
-        kind: how much of the velocity counts: POSITION, DIRECTION (all but the turn about the tip's z axis) or POSE.
-        weight: what one radian counts [m].
+        kind: controlled components: POSITION, DIRECTION (all but the rotation about the tip's z axis) or POSE.
+        weight: length that one radian is weighted with [m].
         w: configuration (2 n_sections,) [rad].
-        velocity: of the tip (3,) [m/s] in ``base_link``.
+        velocity: velocity of the tip (3,) [m/s] in ``base_link``.
         spin: angular velocity of the tip (3,) [rad/s] in ``base_link``.
-        wish: rate (2 n_sections,) [rad/s] that is followed where the velocity leaves freedom.
-        ahead: time [s] within which a section that reaches its limit is held.
+        wish: rate (2 n_sections,) [rad/s] that is projected onto the null space.
+        ahead: a section that would reach its limit within this time [s] is held.
     """
     geometric = np.empty((6, len(w)))
     rotation, _ = tip_and_jacobian(arm, w, geometric)
@@ -73,5 +73,5 @@ def _damped_rate(jacobian: Array, task: Array, free: Array) -> Array:
 def run_tip_rate(
     table: Array, kind: int, weight: float, w: Array, velocity: Array, spin: Array, wish: Array, ahead: float
 ) -> Any:
-    """As `tip_rate`, of an arm's table."""
+    """As `tip_rate`, for an arm's table."""
     return tip_rate(arrays_of(table, table[BEND_LIMIT]), kind, weight, w, velocity, spin, wish, ahead)

@@ -1,9 +1,9 @@
-"""Use of the redundancy: of all answers to a target near one, that which is nearest to a reference configuration.
+"""Use of the redundancy: move a solution to the nearby solution that is nearest to a reference configuration.
 
-The reference is the configuration that the search began with, or the straight arm, whose neighbour bends least. The
-search is Newton's method on the Lagrangian |w - reference|^2 / 2 - multipliers . conditions, in the directions that
-leave the conditions alone; each step is corrected onto the target. Where the Lagrangian curves downward it is damped,
-in the end to a step down the gradient.
+The reference is the configuration that the search started from, or the straight arm, which gives the least bend. The
+search is Newton's method on the Lagrangian |w - reference|^2 / 2 - multipliers . conditions, in the directions that do
+not change the conditions; each step is corrected onto the target. Where the Hessian is not positive definite, damping
+is added until the step approaches one down the gradient.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ from continuum.kinematics.compiled.least_squares_step import solve_positive_defi
 from continuum.kinematics.compiled.task import TargetArrays, squared
 
 _MAX_ITERATIONS = 100
-_STATIONARY = 1e-9  # way to the reference that is left free [rad]
+_STATIONARY = 1e-9  # free component of the vector to the reference that ends the search [rad]
 _LARGEST_DAMPING = 1e6
 _LARGEST_STEP = 0.5  # of any coordinate in one iteration [rad]
-_SMALL_STEP = 1e-4  # below which the gain drowns in what corrections leave [rad]
-_SLACK = 1e-11  # what they leave of the squared distance to the reference [rad2]
+_SMALL_STEP = 1e-4  # below this step the residual error of the corrections hides the gain [rad]
+_SLACK = 1e-11  # residual error of the corrections in the squared distance to the reference [rad2]
 _DIFFERENCE = 1e-7  # step of the differences [rad]
 
 
 @compiled
 def slide_towards(arm: ArmArrays, target: TargetArrays, w: Array, reference: Array, tolerance: float) -> int:
-    """Move ``w`` (2 n_sections,) [rad], which solves the target, in place towards ``reference``; iterations."""
+    """Move the solution ``w`` (2 n_sections,) [rad] in place towards ``reference``; return the iterations."""
     size = len(w)
     if target.n_rows >= size:
         return 0
@@ -87,7 +87,7 @@ def _descent_along(rows: Array, gradient: Array) -> Array:
 
 @merged
 def _newton_step(hessian: Array, descent: Array, damping: float, rows: Array, change: Array) -> bool:
-    """Fill ``change`` (2 n_sections,) with Newton's step along ``rows``; False if the damped Hessian is indefinite."""
+    """Fill ``change`` (2 n_sections,) with a Newton step along ``rows``; False if the damped Hessian is indefinite."""
     step, damped = descent.copy(), hessian.copy()
     for k in range(len(step)):
         damped[k, k] += damping
@@ -102,7 +102,7 @@ def _newton_step(hessian: Array, descent: Array, damping: float, rows: Array, ch
 
 @merged
 def _stepped(w: Array, part: float, change: Array) -> tuple[Array, float]:
-    """``w`` moved by ``part`` of ``change``, or less if that is much; and the largest change of a coordinate [rad]."""
+    """Return ``w`` moved by ``part`` of ``change`` or a limited step, and the largest change of a coordinate [rad]."""
     largest = np.max(np.abs(change))
     part = min(part, _LARGEST_STEP / max(largest, _LARGEST_STEP))
     return w + part * change, part * largest
@@ -112,7 +112,7 @@ def _stepped(w: Array, part: float, change: Array) -> tuple[Array, float]:
 def _hessian(
     arm: ArmArrays, target: TargetArrays, w: Array, reference: Array, rank: int, conditions: Conditions
 ) -> Array:
-    """Hessian of the Lagrangian along the free rows of the basis, by differences of its gradient. Spends normals."""
+    """Hessian of the Lagrangian along the free basis rows, by differences of its gradient; overwrites the normals."""
     free = conditions.basis[rank:]
     hessian = np.empty((len(free), len(free)))
     here = _lagrangian_gradient(w, reference, conditions)

@@ -1,4 +1,4 @@
-"""Search for a configuration that solves a target: descents from several starts until one arrives."""
+"""Search for a configuration that solves a target: descents from several starts until one converges."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ _DAMPING = 1e-3  # at the start of a descent
 
 
 def start_postures(n_sections: int, count: int) -> Array:
-    """Postures (count, 2 n_sections) to start from, in parts of the bend limit: a low-discrepancy sequence, no chance.
+    """Return start postures (count, 2 n_sections) in fractions of the bend limit, from a low-discrepancy sequence.
 
-    Roberts's generalisation of the golden ratio: with g the root of g^(d+1) = g + 1, coordinate j moves on by g^-j.
-    In every third posture all sections stand at their limit, and in every third about half of them: an answer in such a
-    corner of what is allowed is hardly found from elsewhere.
+    The sequence is deterministic, after Roberts's generalisation of the golden ratio: with g the root of
+    g^(d+1) = g + 1, coordinate j advances by g^-j. In every third posture all sections are at their limit, and in
+    another third about half of them are: searches from elsewhere rarely find a solution at several limits.
     """
     d = 2 * n_sections
     g = 2.0
@@ -42,7 +42,7 @@ def start_postures(n_sections: int, count: int) -> Array:
 
 @merged
 def _point_at(arm: ArmArrays, position: Array, w: Array) -> None:
-    """Closed form for an arm of one section: Eq. 5, seen from the section's base."""
+    """Solve an arm of one section in closed form: Eq. 5 in the frame of the section's base."""
     c, s = arm.cos_twist[0], arm.sin_twist[0]
     x, y = c * position[0] + s * position[1], c * position[1] - s * position[0]
     w[0], w[1] = configuration_entries(x, y, position[2])
@@ -50,7 +50,7 @@ def _point_at(arm: ArmArrays, position: Array, w: Array) -> None:
 
 @compiled
 def n_ends(postures: Array) -> int:
-    """How many descents there may be."""
+    """Return the largest number of descents."""
     return 2 + MOST_CANDIDATES + len(postures)
 
 
@@ -65,15 +65,15 @@ def search(
     searched: Array,
     ends: Array,
 ) -> tuple[int, float, float, bool]:
-    """Solve from ``w`` (2 n_sections,) [rad], then from the start postures in turn; ``w`` is the answer.
+    """Solve from ``w`` (2 n_sections,) [rad], then from the start postures in turn, and overwrite ``w``.
 
-    One pass of FABRIKc before a descent puts it on the right side of the arm's folds; for a single section Eq. 5 is the
-    answer. A warm start, which is near the answer, is tried without either first.
+    One pass of FABRIKc before a descent selects the right branch of solutions; for a single section Eq. 5 is the
+    solution. A warm start, which is near the solution, is first tried without either.
 
-    ``searched`` (n_sections,) are bends [rad] within which a search has failed; zero, if this is the first.
+    ``searched`` (n_sections,) are bends [rad] within which an earlier search has failed; zero in the first search.
 
-    ``ends`` (n_ends(postures), 1 + 2 n_sections) receives where the descents ended that did not arrive, each row the
-    squared error [m2] and the configuration; it tells the search for the nearest pose where to begin.
+    ``ends`` (n_ends(postures), 1 + 2 n_sections) receives the ends of the descents that did not converge, each row the
+    squared error [m2] and the configuration; the search for the nearest pose starts from them.
 
     Returns:
         Iterations of all descents, distance [m], angle [rad], and whether the target is solved.
@@ -110,7 +110,7 @@ def search(
 
 @merged
 def _stand(arm: ArmArrays, posture: Array, searched: Array, beyond: int, w: Array) -> None:
-    """Fill ``w`` with a ``posture``; section ``beyond`` bends more than was ``searched`` already."""
+    """Fill ``w`` with a ``posture`` in which section ``beyond`` bends more than its ``searched`` bend."""
     for i in range(len(searched)):
         part = math.hypot(posture[2 * i], posture[2 * i + 1])
         least = searched[i] if i == beyond else 0.0

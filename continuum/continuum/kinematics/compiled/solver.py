@@ -15,16 +15,16 @@ from continuum.kinematics.compiled.task import FAR, TargetArrays, distance_to, e
 from continuum.kinematics.ik_result import IkStatus
 
 FIRST, NEAR_START, LEAST_BENDING, LESS_BENDING = 0, 1, 2, 3
-"""What the redundancy is used for; the last is the least bending near the start alone."""
+"""Objectives of the redundancy; the last reduces the bend only within the neighbourhood of the start."""
 COLD, WARM, FOLLOW = 0, 1, 2
-"""Starts: away from the answer; near the answer; each target from the answer to the one before."""
+"""Starts: far from the solution; near the solution; for each target, the solution of the previous one."""
 
 _SOLVED, _LIMIT_REACHED = int(IkStatus.SOLVED), int(IkStatus.LIMIT_REACHED)
 _UNREACHABLE, _NO_CONVERGENCE = int(IkStatus.UNREACHABLE), int(IkStatus.NO_CONVERGENCE)
 _COLD, _WARM = argument(False), argument(True)
-_N_NEIGHBOURHOODS = 12  # in which the least bent answer is looked for
-_N_NEAREST = 4  # descents from which the nearest pose is looked for, ...
-_RESTARTS_PER_NEAREST = 16  # ... and one more for so many
+_N_NEIGHBOURHOODS = 12  # neighbourhoods in the search for the least bent solution
+_N_NEAREST = 4  # ends of descents from which the search for the nearest pose starts ...
+_RESTARTS_PER_NEAREST = 16  # ... and one more for this many restarts
 
 
 @merged
@@ -38,7 +38,7 @@ def answer(
     objective: int,
     postures: Array,
 ) -> tuple[int, int, float, float]:
-    """Answer one target from ``w`` (2 n_sections,) [rad], which becomes the answer.
+    """Solve for one target from ``w`` (2 n_sections,) [rad], and overwrite ``w`` with the solution.
 
     Returns:
         Status, iterations, distance [m] and angle [rad].
@@ -78,7 +78,7 @@ def answer(
 
 @merged
 def _least_bent(arm: ArmArrays, target: TargetArrays, w: Array, tolerance: float, postures: Array, ends: Array) -> int:
-    """Move ``w``, which solves the target, in place to the least bent answer of several neighbourhoods; iterations."""
+    """Move the solution ``w`` in place to the least bent one of several neighbourhoods; return the iterations."""
     straight, nothing = np.zeros_like(w), np.zeros(len(arm.b))
     iterations = slide_towards(arm, target, w, straight, tolerance)
     if len(arm.b) == 1:
@@ -108,7 +108,7 @@ def run_solver(
     postures: Array,
     numbers: Array,
 ) -> None:
-    """Answer `Targets.rows` from ``w`` (n, 2 n_sections), in place; fill ``numbers`` (n, 4): see `answer`."""
+    """Solve for `Targets.rows` from ``w`` (n, 2 n_sections) in place; fill ``numbers`` (n, 4) as `answer` returns."""
     arm, unlimited = arrays_of(table, table[BEND_LIMIT]), arrays_of(table, table[CONTACT])
     for k in range(len(rows)):
         target = target_of(rows[k], weight)

@@ -1,4 +1,4 @@
-"""Error of the tip to its target, and how the coordinates lessen it: position, position and direction, or full pose."""
+"""Error of the tip to its target, and its Jacobian: position, position and direction, or full pose."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from continuum.kinematics.ik_target import DIRECTION, POSE, POSITION
 from continuum.kinematics.rigid import Entries9
 
 FAR = 1e7
-"""Distance of targets that are brought nearer, in weights: a million lengths of an arm."""
+"""Distance beyond which targets are moved nearer, in weights: a million lengths of an arm."""
 
 
 class TargetArrays(NamedTuple):
-    """A target as compiled code sees it.
+    """Representation of a target in compiled code.
 
     Attributes:
         n_rows: POSITION, DIRECTION or POSE.
-        weight: what one radian counts [m].
+        weight: length that one radian is weighted with [m].
         position: (3,) [m].
-        rotation: (3, 3); its third column alone is used by DIRECTION.
+        rotation: (3, 3); DIRECTION uses its third column only.
     """
 
     n_rows: int
@@ -37,11 +37,11 @@ class TargetArrays(NamedTuple):
 
 @compiled
 def target_of(row: Array, weight: float) -> TargetArrays:
-    """The target that a row of :attr:`Targets.rows` holds.
+    """Return the target in a row of :attr:`Targets.rows`.
 
-    ``weight`` is what one radian counts [m]. Squares of lengths that are very large beside the arm's tell nothing of
-    its posture any more. So a target beyond FAR is brought nearer, along its line from the base; `distance_to` tells
-    how far away it was.
+    ``weight`` is the length that one radian is weighted with [m]. Rounding in the squares of very large distances would
+    hide the effect of the posture. A target beyond FAR is therefore moved nearer, along its line from the base;
+    `distance_to` gives the true distance.
     """
     rotation = np.zeros((3, 3))
     n_rows = POSITION
@@ -60,20 +60,20 @@ def target_of(row: Array, weight: float) -> TargetArrays:
 
 @compiled
 def distance_to(arm: ArmArrays, w: Array, point: Array) -> float:
-    """Distance [m] from the tip at ``w`` (2 n_sections,) [rad] to ``point`` (>= 3,) [m], be it ever so large."""
+    """Return the distance [m], however large, from the tip at ``w`` (2 n_sections,) [rad] to ``point`` (>= 3,) [m]."""
     bases, tips = np.empty((len(arm.b) + 1, 9)), np.empty((len(arm.b), 3))
     _, tip = walk_to_tip(arm, w, bases, tips)
     return math.hypot(math.hypot(point[0] - tip[0], point[1] - tip[1]), point[2] - tip[2])
 
 
 def radian_in_metres(arm: Arm) -> float:
-    """What one radian of the tip's rotation counts beside its position [m]: a tenth of the arm's length."""
+    """Return the length that one radian of the tip's rotation is weighted with [m]: a tenth of the arm's length."""
     return 0.1 * arm.length
 
 
 @compiled
 def evaluate(arm: ArmArrays, target: TargetArrays, w: Array, error: Array, jacobian: Array) -> tuple[float, float]:
-    """Distance [m] and angle [rad] from the tip at ``w`` (2 n_sections,) [rad] to the target.
+    """Return the distance [m] and the angle [rad] from the tip at ``w`` (2 n_sections,) [rad] to the target.
 
     Fills ``error`` (n_rows,) [m] and the first n_rows rows of ``jacobian`` (6, 2 n_sections) [m/rad]: position in
     ``base_link``, then rotation in the tip frame times the weight. The Jacobian's transpose times the error is the
@@ -89,7 +89,7 @@ def evaluate(arm: ArmArrays, target: TargetArrays, w: Array, error: Array, jacob
 def miss(
     arm: ArmArrays, target: TargetArrays, w: Array, error: Array, bases: Array, tips: Array
 ) -> tuple[float, float]:
-    """The same without the Jacobian; fills ``bases`` and ``tips`` on the way to the tip, from which that can be had."""
+    """As `evaluate` without the Jacobian; fills ``bases`` and ``tips``, from which `fill_task_jacobian` computes it."""
     rotation, position = walk_to_tip(arm, w, bases, tips)
     square = 0.0
     for k in range(3):
@@ -105,7 +105,7 @@ def miss(
 def fill_task_jacobian(
     arm: ArmArrays, target: TargetArrays, w: Array, bases: Array, tips: Array, jacobian: Array
 ) -> None:
-    """Fill ``jacobian`` (6, 2 n_sections) as above, from the way to the tip."""
+    """Fill ``jacobian`` (6, 2 n_sections) as `evaluate` does, from the ``bases`` and ``tips`` of `miss`."""
     fill_jacobian(arm, w, bases, tips, jacobian)
     if target.n_rows > POSITION:
         turn_into_tip_frame(nine(bases[-1]), target.n_rows, target.weight, jacobian)
@@ -113,8 +113,8 @@ def fill_task_jacobian(
 
 @inlined
 def _fill_rotation_error(target: TargetArrays, rotation: Entries9, error: Array) -> float:
-    """Rotation vector, in the tip frame, that turns the tip to the target; returns its angle [rad]."""
-    d = np.empty((3, 3))  # the target's axes seen from the tip
+    """Fill the rotation vector, in the tip frame, from the tip to the target; return its angle [rad]."""
+    d = np.empty((3, 3))  # the target's axes in the tip frame
     for i in range(3):
         for j in range(3):
             d[i, j] = (
@@ -130,7 +130,7 @@ def _fill_rotation_error(target: TargetArrays, rotation: Entries9, error: Array)
         cosine = 0.5 * (d[0, 0] + d[1, 1] + d[2, 2] - 1.0)
     sine = math.sqrt(x * x + y * y + z * z)
     angle = math.atan2(sine, cosine)
-    if sine < 1e-12:  # no turn, or half a turn about any axis: take x
+    if sine < 1e-12:  # no rotation, or half a turn about an undetermined axis: use x
         x, y, z, sine = 1.0, 0.0, 0.0, 1.0
     scale = target.weight * angle / sine
     error[3], error[4] = scale * x, scale * y
@@ -141,7 +141,7 @@ def _fill_rotation_error(target: TargetArrays, rotation: Entries9, error: Array)
 
 @inlined
 def turn_into_tip_frame(rotation: Entries9, n_rows: int, weight: float, jacobian: Array) -> None:
-    """Turn the rows 3 to n_rows of ``jacobian`` from ``base_link`` into the tip frame, times the weight."""
+    """Rotate the rows 3 to n_rows of ``jacobian`` from ``base_link`` into the tip frame, and apply the weight."""
     for k in range(jacobian.shape[1]):
         x, y, z = jacobian[3, k], jacobian[4, k], jacobian[5, k]
         for i in range(n_rows - 3):

@@ -13,10 +13,10 @@ from continuum.kinematics.rigid import IDENTITY, Entries3, Entries9, turned_abou
 
 @inlined
 def walk_to_tip(arm: ArmArrays, w: Array, bases: Array, tips: Array) -> tuple[Entries9, Entries3]:
-    """Rotation and position [m] of the tip at ``w`` (2 n_sections,) [rad], in ``base_link``.
+    """Return the rotation and position [m] of the tip at ``w`` (2 n_sections,) [rad], in ``base_link``.
 
-    Fills what is passed on the way: ``bases`` (n_sections + 1, 9), entries of the rotations of the sections' bases,
-    twist included, and of the tip, and ``tips`` (n_sections, 3) [m].
+    Fills ``bases`` (n_sections + 1, 9) with the rotation entries of the sections' bases, twist included, and of the
+    tip, and ``tips`` (n_sections, 3) with the positions of the sections' tips [m].
     """
     rotation, position = IDENTITY, (0.0, 0.0, 0.0)
     for i in range(len(arm.b)):
@@ -33,9 +33,9 @@ def walk_to_tip(arm: ArmArrays, w: Array, bases: Array, tips: Array) -> tuple[En
 
 @inlined
 def fill_jacobian(arm: ArmArrays, w: Array, bases: Array, tips: Array, jacobian: Array) -> None:
-    """Fill ``jacobian`` (6, 2 n_sections): linear [m/rad], then angular [rad/rad], of the tip, in ``base_link``.
+    """Fill ``jacobian`` (6, 2 n_sections) of the tip in ``base_link``: linear [m/rad], then angular [rad/rad].
 
-    ``bases`` and ``tips`` are those of the way to the tip at ``w`` (2 n_sections,) [rad].
+    ``bases`` and ``tips`` are those that `walk_to_tip` fills at ``w`` (2 n_sections,) [rad].
     """
     n = len(tips)
     x, y, z = tips[n - 1, 0], tips[n - 1, 1], tips[n - 1, 2]
@@ -49,13 +49,13 @@ def fill_jacobian(arm: ArmArrays, w: Array, bases: Array, tips: Array, jacobian:
 
 @inlined
 def nine(o: Array) -> Entries9:
-    """Entries of a rotation from an array (9,)."""
+    """Return the entries of a rotation from an array (9,)."""
     return (o[0], o[1], o[2], o[3], o[4], o[5], o[6], o[7], o[8])
 
 
 @compiled
 def tip_and_jacobian(arm: ArmArrays, w: Array, jacobian: Array) -> tuple[Entries9, Entries3]:
-    """Rotation and position [m] of the tip at ``w`` (2 n_sections,) [rad]; fills ``jacobian``, see above."""
+    """Return the rotation and position [m] of the tip at ``w`` (2 n_sections,) [rad], and fill ``jacobian``."""
     bases, tips = np.empty((len(arm.b) + 1, 9)), np.empty((len(arm.b), 3))
     rotation, position = walk_to_tip(arm, w, bases, tips)
     fill_jacobian(arm, w, bases, tips, jacobian)

@@ -1,13 +1,14 @@
-"""All ways in which two sections can bring the tip to a position and a direction, found along one line of numbers.
+"""All solutions of two sections for a position and a direction of the tip, by a search over one variable.
 
-With the two virtual legs of every section (see :mod:`continuum.kinematics.fabrikc`), s_i long, the tip of two sections
-that leave the base along t0, meet along t1 and end along t2 is at
+With the two virtual legs of every section (see :mod:`continuum.kinematics.fabrikc`) of length s_i, the tip of two
+sections with the tangents t0 at the base, t1 where they meet and t2 at the tip is at
 
     p = s_1 t_0 + (s_1 + s_2) t_1 + s_2 t_2.
 
-A bend of the first section gives s_1 and t_0 . t_1; the product of the equation with t_0 then gives s_2, and the
-equation itself t_1. Where that has the length one, the second section may meet it: its bend follows from t_1 . t_2, and
-is more than half a turn where s_2 is negative. The bend is gone through in small steps; the descent does the rest.
+A bend of the first section gives s_1 and t_0 . t_1; the scalar product of the equation with t_0 then gives s_2, and the
+equation itself gives t_1. Where t_1 has unit length there may be a solution: the bend of the second section follows
+from t_1 . t_2 and exceeds half a turn where s_2 is negative. The search steps through the bend of the first section;
+the descent refines its results.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ _N_BISECTIONS = 12
 
 @merged
 def fill_candidates(arm: ArmArrays, target: TargetArrays, candidates: Array) -> int:
-    """Fill ``candidates`` (MOST_CANDIDATES, 4) [rad] with configurations near answers; their number."""
+    """Fill ``candidates`` (MOST_CANDIDATES, 4) [rad] with configurations near solutions; return their number."""
     tangent = np.empty(3)
     largest = min(arm.bend_limit[0], 2.0 * math.pi)
     step = largest / _N_STEPS
@@ -48,7 +49,7 @@ def fill_candidates(arm: ArmArrays, target: TargetArrays, candidates: Array) -> 
                 else:
                     high = found
         elif abs(last) < abs(before) and abs(last) <= abs(excess):
-            found = bend - step  # the length comes near to one, and goes
+            found = bend - step  # the length has its closest approach to one
         before, last = last, excess
         if found >= 0.0 and count < len(candidates):
             _, leg = _excess(arm, target, found, tangent)
@@ -59,7 +60,7 @@ def fill_candidates(arm: ArmArrays, target: TargetArrays, candidates: Array) -> 
 
 @compiled
 def _excess(arm: ArmArrays, target: TargetArrays, bend: float, tangent: Array) -> tuple[float, float]:
-    """How much the square of t_1 is more than one at this ``bend`` [rad] of the first section, and s_2 [m].
+    """Return the excess of |t_1|^2 over one at a ``bend`` [rad] of the first section, and s_2 [m].
 
     Fills ``tangent`` (3,) with t_1.
     """
@@ -88,7 +89,7 @@ def _fill_configuration(
 
 @compiled
 def _bend_the_long_way(w: Array) -> None:
-    """Turn ``w`` (2,) [rad] into the bend that gives the same rotation the other way round."""
+    """Replace ``w`` (2,) [rad] by the bend that gives the same rotation in the opposite direction."""
     theta = math.hypot(w[0], w[1])
     if theta > 0.0:
         w *= (theta - 2.0 * math.pi) / theta
