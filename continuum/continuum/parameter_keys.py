@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 
 from continuum.errors import InvalidValueError
 
@@ -16,10 +17,10 @@ _OTHER_NAME = _SYNONYMS | {long: short for short, long in _SYNONYMS.items()}
 
 _TO_SI: dict[str, tuple[str, Callable[[float], float]]] = {
     "deg": ("rad", math.radians),
-    "mm": ("m", lambda value: value / 1000),
-    "g": ("kg", lambda value: value / 1000),
+    "mm": ("m", lambda value: float(Decimal(repr(value)).scaleb(-3))),
+    "g": ("kg", lambda value: float(Decimal(repr(value)).scaleb(-3))),
 }
-"""Units that are converted: the SI unit of each, and how."""
+"""Units that are converted: the SI unit of each, and how; as decimals, so that 19.3 mm are 0.0193 m to the last bit."""
 
 
 @dataclass(frozen=True)
