@@ -116,7 +116,7 @@ def test_effects_on_cables_are_refused_and_all_others_taken() -> None:
 def test_what_pulls_cables_refuses_a_model_with_torques() -> None:
     model = with_torques(random_model(63, 2))
     for use in (RestingArm, lambda given: LiveArm(given, STILL), lambda given: pulled_posture(given, 0.3)):
-        with pytest.raises(InvalidValueError, match="what drives the model is 'joint_torques'; allowed: cables, which"):
+        with pytest.raises(InvalidValueError, match="input of the model is 'joint_torques'; allowed: cables, which"):
             use(model)  # type: ignore[operator]
 
 

@@ -96,12 +96,12 @@ def test_the_command_writes_the_model(tmp_path: Path, capsys: pytest.CaptureFixt
     [
         (('type="continuous"', 'type="prismatic"'), "prismatic"),
         (('<axis xyz="0 0 1"/>', '<axis xyz="0 0.1 1"/>'), "not parallel"),
-        (('<child link="link_2"/>', '<child link="nowhere"/>'), "between links"),
+        (('<child link="link_2"/>', '<child link="nowhere"/>'), "between undefined links"),
         (("</robot>", "<link/></robot>"), "cannot be read"),
         (("<mass", "<weight"), "without mass"),
         (("<robot", "<"), "cannot be read"),
         (('damping="0', 'damping="x0'), "damping"),
-        (("</robot>", '<link name="other"/></robot>'), "no tree"),
+        (("</robot>", '<link name="other"/></robot>'), "not a tree"),
         (("</robot>", '<link name="tip"/></robot>'), "2 times"),
         (("</robot>", ""), "cannot be read"),
         ((' iyy="', ' jyy="'), "moment of inertia iyy"),
@@ -120,7 +120,7 @@ def test_a_centre_of_mass_next_to_the_line_is_refused(tmp_path: Path) -> None:
     text = planar_arm(1, 1)
     read(text, tmp_path)
     at = text.index('<origin xyz="', text.index('<link name="link_1"')) + len('<origin xyz="')
-    with pytest.raises(FileError, match="beside the line"):
+    with pytest.raises(FileError, match="off the line"):
         read(text[:at] + words([0.3, -0.3, 0.0]) + text[text.index('"', at) :], tmp_path)
 
 

@@ -1,12 +1,12 @@
 """Dynamics of a planar chain that cables or torques drive: Eqs. 12 to 18 of the thesis, corrected and extensible.
 
 ====================  ==================================================================
-expressions.py        why every equation works on numbers and on symbols
+expressions.py        elementwise functions for numbers and symbols alike
 parameters.py         the physical parameters with units and bounds
-planar/               the equations, term by term: its docstring lists them
-effect.py, model.py   what extends Eq. 12; balance.py adds all of it up, and solves it for Eq. 18
-input_signal.py       what drives the arm over time: tensions.py, joint_torques.py
-compiled/             symbols to exact derivatives to machine code
+planar/               the equations, term by term, listed in the docstring of the package
+effect.py, model.py   effects that extend Eq. 12; balance.py sums all terms, and solves for the rates of Eq. 18
+input_signal.py       the inputs that drive the arm over time: tensions.py, joint_torques.py
+compiled/             from symbols to exact derivatives to machine code
 ====================  ==================================================================
 
 Public: `model.Model`, `model.ActiveEffect`, `model_file.load_model`, `model_file.save_model`,

@@ -1,8 +1,8 @@
-"""The equations of a whole model: Eq. 12 with its effects and the effects' own states, and Eq. 18, the same solved.
+"""The equations of a whole model: Eq. 12 with its effects and their states, and Eq. 18, which solves it for the rates.
 
-The sum of Eq. 12 must be zero. It is linear in the rates v = (theta'', z') that Eq. 18 solves it for:
-r = r(v = 0) + (dr/dv) v. For the thesis's own model dr/dv is M; where effects add states or inertia, its columns are
-the balance at unit rates.
+The sum of Eq. 12 must be zero. It is linear in the rates v = (theta'', z'), for which Eq. 18 solves it:
+r = r(v = 0) + (dr/dv) v. For the thesis's model dr/dv is M. With effects that add states or inertia, its columns are
+the balance at unit rates, minus the balance at zero rates.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ StateSpace = Callable[[Array, Array], Array]
 
 
 def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | None = None) -> Numbers:
-    """What is left of Eq. 12 and of the effects' equations, (n + n_states,) [N m, and each effect's own units].
+    """Return the residual of Eq. 12 and of the effects' equations, (n + n_states,) [N m, and the units of each effect].
 
     Args:
-        model: the model, its values floats or symbols.
-        x: state, joint angles, joint rates, effects' states, (2 n + n_states,) [rad, rad/s, ...].
+        model: the model; its values are floats or symbols.
+        x: state: joint angles, joint rates, effects' states, (2 n + n_states,) [rad, rad/s, ...].
         v: joint accelerations and rates of the effects' states, (n + n_states,) [rad/s2, ...].
         u: inputs, (n_inputs,): commanded tension of each cable [N], or torque of each joint's drive [N m].
-        motion: of the joints, where it is known already; made from ``x`` and ``v`` without.
+        motion: motion of the joints if it is known already; by default it is computed from ``x`` and ``v``.
     """
     now, commanded = _instant(model, x, v, u, motion or joint_motion(model, x, v))
     parts = list(_parts(model, x, v))
@@ -49,13 +49,13 @@ def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | N
 
 
 def joint_motion(model: Model, x: Numbers, v: Numbers) -> Motion:
-    """Motion of the joints in a state, on a base at rest."""
+    """Return the motion of the joints in a state, with the base at rest."""
     n, still = model.n_joints, np.zeros(1)
     return Motion(x[:n], x[n : 2 * n], v[:n], still, still, still)
 
 
 def _instant(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion) -> tuple[Instant, list[Numbers]]:
-    """What the torques see, and the tensions that each effect is told before it changes them."""
+    """Return the instant that the torques depend on, and the tensions before each effect changes them."""
     drive, commanded = np.zeros(1), []
     if model.inputs is InputKind.JOINT_TORQUES:
         drive, u = u, np.full(len(SIDES), LET_GO)
@@ -67,7 +67,7 @@ def _instant(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion) -
 
 
 def _parts(model: Model, x: Numbers, v: Numbers) -> Iterator[tuple[ActiveEffect, Numbers, Numbers]]:
-    """Each effect with its states and their rates."""
+    """Yield each effect with its states and their rates."""
     at = model.n_joints
     for active in model.effects:
         end = at + active.effect.n_states(model.n_joints)
@@ -76,7 +76,7 @@ def _parts(model: Model, x: Numbers, v: Numbers) -> Iterator[tuple[ActiveEffect,
 
 
 def numpy_state_space(model: Model) -> StateSpace:
-    """Eq. 18 of a model, evaluated term by term in NumPy as the equations are written."""
+    """Return Eq. 18 of a model, evaluated term by term in NumPy."""
     n, size = model.n_joints, model.n_joints + model.n_states
     unit = np.eye(size)
 

@@ -1,8 +1,8 @@
-"""What a further physical effect is to the dynamic model: a few hooks, each of which by default changes nothing.
+"""Interface of additional physical effects to the dynamic model: a few hooks that by default change nothing.
 
-An effect is one small file that defines one class and is found by the entry point group ``continuum.effects``; adding
-one touches no other file. Every hook is given the effect's own parameter values, ``params``, arrays by name, and where
-it has states of its own, their values; it is traced with symbols like the rest of Eq. 12.
+An effect is one small file that defines one class, found through the entry point group ``continuum.effects``; adding
+one changes no other file. Every hook receives the effect's parameter values ``params``, arrays by name, and the values
+of the effect's states if it has any. Hooks are traced with symbols like the rest of Eq. 12.
 """
 
 from __future__ import annotations
@@ -22,34 +22,35 @@ EffectParams = Mapping[str, Numbers]
 
 
 class Effect:
-    """Base of all effects.
+    """Base class of all effects.
 
     Class attributes:
-        name: as model files and verdicts print it.
-        parameters: the effect's own, by name; at their defaults the effect is absent. An effect with states may need a
-            parameter above zero for its equations to have a solution: its default is then a value too small to see.
-        source: where the equation is from.
-        in_words: what is the matter with the arm, one sentence for a mechanic.
-        in_words_if_more, in_words_if_less: the same where all its sizes are above or below none; empty where that makes
-            no difference.
-        in_words_if_lacking: the same where the model has nothing of its kind; empty where that cannot be.
-        symptom: what it does to the data, one sentence.
-        experiment: what to measure so that it stands out from what resembles it, one sentence.
-        removal: how to take it off the arm for further recordings, one sentence; empty where that cannot be done.
-        beware: what no effect here is and would look the same, one sentence; empty where nothing is known to.
-        alike_in_all_runs: the effect that it is where its values are the same in all recordings; empty where there is
-            none. Such values are that one's to explain.
-        state_sd: how far each of its states may be from `initial_state` when a recording begins, in the state's
-            units; 0 where it is certain.
-        uses_cables: whether it acts on cables: none of an arm that joint torques drive.
-        uses_drives: whether it acts on joints' drives: none of an arm that cables pull.
-        needs_tension: whether only a cable that pulls can show it, or where there are none a torque that drives.
-        within_friction: whether it moves joints that dry friction holds. A filter that takes these as resting is blind
-            to that: open-loop simulations alone show it.
-        shifts_time: whether a little of it looks as if all tensions came later.
-        beginnings: values of some of its parameters that belong to the whole arm; a fit begins at those that promise
-            most. For effects from whose usual beginning no slope leads to what is right.
-        directions: in which combinations of its sizes it occurs, as factors by parameter; every size by itself without.
+        name: name in model files and verdicts.
+        parameters: parameters of the effect by name; at their defaults the effect is absent. An effect with states may
+            need a positive parameter for its equations to have a solution; its default is then negligibly small.
+        source: source of the equation.
+        in_words: the fault of the arm, in one sentence for a mechanic.
+        in_words_if_more, in_words_if_less: the same sentence if all sizes are positive or negative; empty if the sign
+            makes no difference.
+        in_words_if_lacking: the same sentence if the model contains no such effect; empty if this cannot occur.
+        symptom: how the effect shows in the data, in one sentence.
+        experiment: measurement that distinguishes the effect from similar ones, in one sentence.
+        removal: how to remove the effect from the arm for further recordings, in one sentence; empty if impossible.
+        beware: a cause outside these effects that would show the same symptom, in one sentence; empty if none is known.
+        alike_in_all_runs: name of the effect that this one is equivalent to if its values are equal in all recordings;
+            that effect then explains the values. Empty if there is none.
+        state_sd: standard deviation of each state from `initial_state` at the start of a recording, in the units of
+            the state; 0 if the state is certain.
+        uses_cables: whether it acts on cables; such an effect is absent from an arm driven by joint torques.
+        uses_drives: whether it acts on the joints' drives; such an effect is absent from an arm driven by cables.
+        needs_tension: whether only a pulling cable can show it, or a driving torque in an arm without cables.
+        within_friction: whether it moves joints that dry friction holds. A filter that treats these joints as resting
+            cannot detect such motion; only open-loop simulations show it.
+        shifts_time: whether a small amount of it resembles a delay of all tensions.
+        beginnings: start values of some parameters that belong to the whole arm; a fit starts from the most promising
+            ones. For effects whose usual start has no slope towards the solution.
+        directions: combinations of its sizes in which it occurs, as factors by parameter; by default every size varies
+            independently.
     """
 
     name: ClassVar[str]
@@ -74,7 +75,7 @@ class Effect:
     directions: ClassVar[Sequence[Mapping[str, float]]] = ()
 
     def acts_on(self, p: Parameters) -> bool:
-        """Whether it can change anything: factors of what an arm has none of do not."""
+        """Return whether the effect can change the model; a factor on a parameter that is zero cannot."""
         if not self.parameters or type(self).change_parameters is Effect.change_parameters:
             return True
         sizes = {name: np.full(p.n_joints if spec.per_joint else 1, spec.another_value)
@@ -83,61 +84,61 @@ class Effect:
         return any(np.any(after[name] != before[name]) for name in before)
 
     def n_states(self, n_joints: int) -> int:
-        """Number of states that the effect adds."""
+        """Return the number of states that the effect adds."""
         return 0
 
     def change_parameters(self, p: Parameters, params: EffectParams) -> Parameters:
-        """Parameters of Eq. 12 as the effect makes them."""
+        """Return the parameters of Eq. 12 as modified by the effect."""
         return p
 
     def move_base(self, motion: Motion, params: EffectParams, state: Numbers, state_rate: Numbers) -> Motion:
-        """Motion with the base plate turned."""
+        """Return the motion with the base plate rotated."""
         return motion
 
     def pull(self, u: Numbers, params: EffectParams, state: Numbers) -> Numbers:
-        """Tensions of the cables at the base, (n_cables,) [N], of those commanded."""
+        """Return the tensions of the cables at the base, (n_cables,) [N], for the commanded tensions ``u``."""
         return u
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
-        """Added to the left side of Eq. 12, (n,) or (1,) [N m]: a torque that resists."""
+        """Return the torque added to the left side of Eq. 12, (n,) or (1,) [N m]; positive torques resist."""
         return np.zeros(1)
 
     def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
-        """Zero when the effect's states obey their equations, (n_states,); ``now.u`` is what `pull` was given."""
+        """Return the residual of the state equations, (n_states,); ``now.u`` holds the tensions passed to `pull`."""
         return state_rate
 
     def initial_state(self, theta: Array, u: Array, params: EffectParams, p: Parameters) -> Array:
-        """The effect's states in an arm that rests, (n_states,).
+        """Return the effect's states in a resting arm, (n_states,).
 
         Args:
             theta: joint angles, (n,) [rad].
             u: commanded tension of each cable, (n_cables,) [N].
-            params: the effect's parameters, numbers.
-            p: parameters of Eq. 12 as all effects make them, numbers.
+            params: parameters of the effect, as numbers.
+            p: parameters of Eq. 12 as modified by all effects, as numbers.
         """
         return np.zeros(self.n_states(theta.size))
 
     def torque_along(
         self, motion: Array, slip: Array, length: Array, params: EffectParams, p: Parameters
     ) -> Array | None:
-        """`torque` along a measured motion, (rows, n) [N m], of an effect whose states are too stiff for that.
+        """Return `torque` along a measured motion, (rows, n) [N m], for an effect with very stiff states.
 
-        A measured motion errs by more than the width of a stop. Such an effect gives here what its equations tend to
-        as its stops harden; others give None, and their states are integrated.
+        The error of a measured motion exceeds the width of a stop. An effect with stops therefore returns the limit of
+        its equations for rigid stops; other effects return None, and their states are integrated.
 
         Args:
             motion: angles, rates and accelerations, (rows, 3, n) [rad, rad/s, rad/s2].
-            slip: rates that dry friction sees, (rows, n) [rad/s].
-            length: of each row in time, (rows,) [s].
-            params: the effect's parameters, numbers.
-            p: parameters of Eq. 12 as all effects make them, numbers.
+            slip: joint rates in the dry friction terms, (rows, n) [rad/s].
+            length: duration of each row, (rows,) [s].
+            params: parameters of the effect, as numbers.
+            p: parameters of Eq. 12 as modified by all effects, as numbers.
         """
         return None
 
     def measure(self, seen: Reading, params: EffectParams) -> Reading:
-        """What the sensors make of what they see, of every sample by itself; affine in the motion."""
+        """Return the sensors' readings of the motion ``seen``, sample by sample; affine in the motion."""
         return seen
 
     def late(self, params: EffectParams) -> Numbers:
-        """By how much all sensors are late [s]: a reading that says t is of t less this."""
+        """Return the delay of all sensors [s]: a reading stamped t belongs to t minus this delay."""
         return 0.0

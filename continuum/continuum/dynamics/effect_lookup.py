@@ -13,7 +13,7 @@ GROUP = "continuum.effects"
 
 
 def effect_named(name: str) -> Effect:
-    """A new instance of the effect called ``name``.
+    """Return a new instance of the effect called ``name``.
 
     Raises:
         InvalidValueError: no installed package offers an effect of that name.
@@ -28,7 +28,7 @@ def effect_named(name: str) -> Effect:
 
 
 def effect_names() -> list[str]:
-    """Names of all effects that are installed."""
+    """Return the names of all installed effects."""
     return sorted(_offered())
 
 
@@ -38,5 +38,5 @@ def _offered() -> dict[str, EntryPoint]:
 
 @cache
 def _offered_on(_path: tuple[str, ...]) -> dict[str, EntryPoint]:
-    """Of the packages on a path: they are read once, a search asks for effects by the hundred."""
+    """Return the effects of the packages on a path; cached, because a search needs hundreds of effects."""
     return {entry.name: entry for entry in entry_points(group=GROUP)}

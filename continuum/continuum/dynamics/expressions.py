@@ -1,11 +1,11 @@
-"""Elementwise functions that work on numbers and on symbols alike, so that every equation is written once.
+"""Elementwise functions for numbers and symbols alike, so that every equation is written once.
 
-The equations of this package are plain NumPy. Given arrays of floats they give floats; given object arrays of CasADi
-symbols they give expressions, from which exact derivatives and compiled code are made (`compiled/`). NumPy's own sin,
-cos, exp, tanh, abs, sums and products already do both; what decides by a comparison does not, and stands here.
+The equations of this package are plain NumPy. Arrays of floats give floats; object arrays of CasADi symbols give
+expressions, from which `compiled/` derives exact derivatives and compiled code. NumPy's sin, cos, exp, tanh, abs, sums
+and products support both. Functions with comparisons do not, and are defined here.
 
-Parameters and states are arrays, (n,) or (1,), never bare symbols: a bare symbol on the left of an array is taken by
-CasADi for a column of its own.
+Parameters and states are arrays, (n,) or (1,), never bare symbols: CasADi would treat a bare symbol to the left of an
+array as a column.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import casadi
 import numpy as np
 
 type Numbers = Any
-"""An array of floats, or of symbols, which NumPy's own types cannot tell."""
+"""An array of floats or of symbols, which NumPy's types cannot express."""
 
 
 def where_positive(x: Numbers, yes: Any, no: Any) -> Numbers:
@@ -31,12 +31,12 @@ def where_positive(x: Numbers, yes: Any, no: Any) -> Numbers:
 
 
 def positive_part(x: Numbers) -> Numbers:
-    """``x`` where it is positive, else 0: a cable pulls, never pushes."""
+    """``x`` where it is positive, else 0: a cable can pull but not push."""
     return (x + np.abs(x)) / 2
 
 
 def smooth_sign(x: Numbers, sensitivity: Numbers) -> Numbers:
-    """tanh(slope x): the sign of x, smoothed at the origin; ``slope`` in units of 1 / x."""
+    """tanh(sensitivity x): the sign of x, smoothed at the origin; ``sensitivity`` in units of 1 / x."""
     return np.tanh(sensitivity * x)
 
 

@@ -1,4 +1,4 @@
-"""What drives an arm over time: rows of inputs, and what holds between them."""
+"""Inputs that drive an arm over time: rows of values, linear in between or held."""
 
 from __future__ import annotations
 
@@ -15,16 +15,17 @@ from continuum.errors import InvalidValueError
 
 @dataclass(frozen=True)
 class InputSignal:
-    """Linear between its rows, or each row held until the next; held before the first and after the last in any case.
+    """Inputs that are linear between rows or held until the next row, and constant before the first and after the last.
 
     Attributes:
-        times: of the rows, increasing, (rows,) [s].
+        times: times of the rows, increasing, (rows,) [s].
         values: inputs, (rows, n_inputs).
-        held: a row holds until the next one, as a command does; else inputs change linearly, as measured ones.
+        held: whether a row holds until the next one, as a command does; otherwise inputs change linearly, as measured
+            ones do.
 
     Class attributes:
-        kind: what the inputs are.
-        allowed: which values they may have, in words.
+        kind: kind of the inputs.
+        allowed: allowed values, in words.
     """
 
     times: Array
@@ -59,11 +60,11 @@ class InputSignal:
         return np.array([self.at(float(t)) for t in times])
 
     def later(self, delay: float) -> Self:
-        """The same, by ``delay`` [s] later."""
+        """Return the signal delayed by ``delay`` [s]."""
         return replace(self, times=self.times + delay) if delay else self
 
     def rows(self) -> tuple[Array, Array]:
-        """Times (rows,) and values (rows, n_inputs), linear in between; two rows of one time are a jump."""
+        """Times (rows,) and values (rows, n_inputs), linear in between; two rows with equal times are a jump."""
         if not self.held:
             return self.times, self.values
         return np.repeat(self.times, 2)[1:], np.repeat(self.values, 2, axis=0)[:-1]

@@ -20,5 +20,5 @@ class JointTorques(InputSignal):
 
 
 def no_torques(n_joints: int) -> JointTorques:
-    """None at any time."""
+    """Return zero torques at all times."""
     return JointTorques(np.zeros(1), np.zeros((1, n_joints)))

@@ -1,4 +1,4 @@
-"""What a model's sensors read of a simulated motion."""
+"""Readings of a model's sensors during a simulated motion."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from continuum.dynamics.trajectory import Reading, Trajectory
 
 
 def readings(model: Model, trajectory: Trajectory, begun: float | None = None) -> Reading:
-    """Angles and rates after all effects on measuring, one after the other; without any, those of the motion.
+    """Return angles and rates after all measurement effects in order; without such effects, those of the motion.
 
     Args:
-        model: whose effects may change what is read.
-        trajectory: the motion, or a part of one.
-        begun: when the motion began [s]; with the trajectory without.
+        model: the model whose effects may change the readings.
+        trajectory: the motion, or a part of it.
+        begun: start time of the motion [s]; by default the first time of the trajectory.
     """
     start = float(trajectory.times[0]) if begun is None else begun
     seen = Reading(trajectory.times, trajectory.theta, trajectory.theta_rate, start)
@@ -26,14 +26,14 @@ def readings(model: Model, trajectory: Trajectory, begun: float | None = None) -
 
 
 def lateness(model: Model) -> float:
-    """By how much all sensors are late [s]."""
+    """Return the delay of all sensors [s]."""
     return float(sum(np.sum(active.effect.late(active.values)) for active in model.effects))
 
 
 def as_read(model: Model, motion: Trajectory) -> Trajectory:
-    """The motion with angles and rates as the model's sensors read them; the same where they read it plainly.
+    """Return the motion with angles and rates as the model's sensors read them; ideal sensors do not change it.
 
-    Before its first sample the arm is taken to have been as it was there.
+    Before the first sample, the arm is assumed to have been in the state of the first sample.
     """
     from scipy.interpolate import CubicHermiteSpline
 

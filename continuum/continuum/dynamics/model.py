@@ -14,18 +14,18 @@ from continuum.dynamics.planar.cable_tension import SIDES
 from continuum.errors import InvalidValueError
 
 DRY_SLOPE, CABLE_SLOPE = 1000.0, 2e4
-"""Slopes k_v [s/rad] and k_l [s/m] at which smoothed friction can no longer be told from Coulomb's."""
+"""Slopes k_v [s/rad] and k_l [s/m] at which smoothed friction is indistinguishable from Coulomb friction."""
 
 
 class InputKind(Enum):
-    """What drives an arm: its cables, or torques at its joints. By the names that model files use."""
+    """Inputs that drive an arm: its cables, or torques at its joints. Values are the names in model files."""
 
     CABLES = "cables"
     JOINT_TORQUES = "joint_torques"
 
     @property
     def in_words(self) -> str:
-        """As messages name it."""
+        """Name in messages."""
         return {"cables": "tensions of cables", "joint_torques": "joint torques"}[self.value]
 
 
@@ -39,16 +39,17 @@ class ActiveEffect:
 
 @dataclass(frozen=True)
 class Model:
-    """One planar arm.
+    """Dynamic model of one planar arm.
 
     Attributes:
-        parameters: of Eq. 12.
-        effects: beyond Eq. 12, in the order in which they are applied.
-        sources: where each parameter's value comes from, by its name.
-        inputs: what drives the arm. Where torques do, cables that it may have are let go.
+        parameters: parameters of Eq. 12.
+        effects: effects beyond Eq. 12, in the order in which they are applied.
+        sources: source of each parameter's value, by its name.
+        inputs: inputs that drive the arm. If torques drive it, cables that it may have are slack.
 
     Raises:
-        InvalidValueError: cables are to drive an arm that has none, or an effect acts on cables where torques drive it.
+        InvalidValueError: an arm driven by cables has none, or an effect acts on the cables of an arm that torques
+            drive.
     """
 
     parameters: Parameters
@@ -69,16 +70,16 @@ class Model:
                 raise InvalidValueError("effect", active.effect.name, allowed)
 
     def require_cables(self, user: str) -> None:
-        """Refuse a model that no cables drive.
+        """Refuse a model that cables do not drive.
 
         Args:
-            user: what needs them, as the message names it.
+            user: what needs the cables, for the message.
 
         Raises:
-            InvalidValueError: joint torques drive it.
+            InvalidValueError: joint torques drive the model.
         """
         if self.inputs is not InputKind.CABLES:
-            raise InvalidValueError("what drives the model", self.inputs.value, f"cables, which {user} needs")
+            raise InvalidValueError("input of the model", self.inputs.value, f"cables, which {user} needs")
 
     @property
     def n_joints(self) -> int:
@@ -87,12 +88,12 @@ class Model:
 
     @property
     def n_inputs(self) -> int:
-        """Number of inputs: of cables, or of joints."""
+        """Number of inputs: that of the cables, or that of the joints."""
         return len(SIDES) if self.inputs is InputKind.CABLES else self.n_joints
 
     @cached_property
     def changed_parameters(self) -> Parameters:
-        """Parameters of Eq. 12 as the effects make them."""
+        """Parameters of Eq. 12 as modified by the effects."""
         p = self.parameters
         for active in self.effects:
             p = active.effect.change_parameters(p, active.values)
@@ -100,7 +101,7 @@ class Model:
 
     @property
     def n_states(self) -> int:
-        """States of the effects, beside the joints' angles and rates."""
+        """Number of the effects' states, in addition to joint angles and rates."""
         return sum(active.effect.n_states(self.n_joints) for active in self.effects)
 
     def values(self) -> dict[str, Numbers]:
@@ -111,19 +112,19 @@ class Model:
         return found
 
     def meanings(self) -> dict[str, Parameter]:
-        """What each of `values` means and may be, by the same names."""
+        """Description and bounds of each of `values`, by the same names."""
         found = {name: PARAMETERS[name] for name in self.parameters.named()}
         for active in self.effects:
             found |= {f"{active.effect.name}.{name}": spec for name, spec in active.effect.parameters.items()}
         return found
 
     def with_values(self, changed: Mapping[str, object]) -> Model:
-        """The model with some values changed, checked against their bounds.
+        """Return the model with some values changed, checked against their bounds.
 
-        A parameter that may be absent, as ``link_length``, can be given to a model that has none.
+        An optional parameter such as ``link_length`` can be added to a model without it.
 
         Raises:
-            InvalidValueError: an unknown name, or a value that its parameter may not have.
+            InvalidValueError: a name is unknown, or a value is not allowed.
         """
         meanings = PARAMETERS | self.meanings()
         for name in changed:
@@ -135,7 +136,7 @@ class Model:
         return self.built_from(values)
 
     def built_from(self, values: Mapping[str, Numbers]) -> Model:
-        """The same model around other arrays, floats or symbols, named as in `values`; unchecked."""
+        """Return the model with other arrays, floats or symbols, named as in `values`; unchecked."""
         return replace(
             self,
             parameters=Parameters(**{name: values[name] for name in PARAMETERS if name in values}),
@@ -147,8 +148,8 @@ class Model:
 
 
 def with_dry_friction(model: Model) -> Model:
-    """The model with k_v and k_l of its friction at least that large; a smoother sign creeps where an arm rests."""
+    """Return the model with k_v and k_l steep enough for dry friction; a smoother sign lets a resting arm creep."""
     steep = {"friction_slope": DRY_SLOPE, "cable_slope": CABLE_SLOPE}
     raised = {name: sensitivity for name, sensitivity in steep.items() if sensitivity > float(model.values()[name][0])}
-    sources = dict(model.sources) | dict.fromkeys(raised, "so steep that it cannot be told from dry friction")
+    sources = dict(model.sources) | dict.fromkeys(raised, "steep enough to be indistinguishable from dry friction")
     return replace(model.with_values(raised), sources=sources)

@@ -1,4 +1,4 @@
-"""Inputs over time that suit a model."""
+"""Inputs over time that match a model."""
 
 from __future__ import annotations
 
@@ -10,20 +10,22 @@ from continuum.errors import InvalidValueError
 
 
 def suitable_inputs(model: Model, given: InputSignal | None) -> InputSignal:
-    """What was given, where it suits the model; without, cables that are let go, or no torques.
+    """Return the given inputs if they match the model; for None, slack cables or zero torques.
 
     Raises:
-        InvalidValueError: inputs of another kind, or of another number, than the model takes.
+        InvalidValueError: the kind or the number of the inputs does not match the model.
     """
     if given is None:
         return undriven(model)
     if given.kind is not model.inputs:
-        raise InvalidValueError("kind of inputs", given.kind.in_words, f"{model.inputs.in_words}, as the model")
+        raise InvalidValueError("kind of inputs", given.kind.in_words, f"{model.inputs.in_words}, as in the model")
     if given.n_inputs != model.n_inputs:
-        raise InvalidValueError(f"number of {given.kind.in_words}", given.n_inputs, f"{model.n_inputs}, as the model")
+        raise InvalidValueError(
+            f"number of {given.kind.in_words}", given.n_inputs, f"{model.n_inputs}, as in the model"
+        )
     return given
 
 
 def undriven(model: Model) -> InputSignal:
-    """Nothing that drives the arm."""
+    """Return inputs that do not drive the arm."""
     return slack() if model.inputs is InputKind.CABLES else no_torques(model.n_joints)

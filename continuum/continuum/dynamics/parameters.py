@@ -1,4 +1,4 @@
-"""The physical parameters of Eq. 12: one object with symbols, units and bounds; every one may be given per joint."""
+"""The physical parameters of Eq. 12: one object with symbols, units and bounds; most may differ between joints."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from continuum.dynamics.expressions import Numbers
 from continuum.errors import InvalidValueError
 
 RATIO = ", less 1"
-"""How the meaning of a parameter ends that is a ratio less one."""
+"""Ending of the description of a parameter that is a ratio minus one."""
 
 
 class ByHand(NamedTuple):
-    """A measurement by hand: its standard deviation [unit of the parameter], and what to do, one sentence."""
+    """A measurement by hand: its standard deviation [unit of the parameter], and its procedure in one sentence."""
 
     sd: float
     how: str
@@ -25,22 +25,22 @@ class ByHand(NamedTuple):
 
 @dataclass(frozen=True)
 class Parameter:
-    """What one parameter means and may be.
+    """Description and bounds of one parameter.
 
     Attributes:
-        symbol: as in the thesis.
+        symbol: symbol in the thesis.
         unit: SI unit, "1" for a pure number.
-        lower, upper: bounds of what makes physical sense, inclusive.
-        per_joint: may differ from joint to joint; else one number for the section.
-        meaning: one sentence.
-        default: used where a model file leaves it out; None makes it required.
-        typical: size that it has where it matters, the scale of fits; without, the model's own value is.
-        per_recording: differs from recording to recording, as a sensor's offset after each start.
-        ordinary: standard deviation by which parts of one batch differ; a diagnosis allows for it and names nothing.
-        shape: says what an effect looks like, not how large it is, though its default is 0.
-        by_hand: how it can be measured by hand, and how exactly; None where it cannot, or where its number counts from
-            what a fit changes.
-        optional: without a default and not required: an arm may have no such thing, its model then no such value.
+        lower, upper: physically meaningful bounds, inclusive.
+        per_joint: whether it may differ between joints; otherwise one number holds for the section.
+        meaning: description in one phrase.
+        default: value if a model file omits it; None makes it required.
+        typical: typical size where the parameter matters, the scale of fits; None uses the model's value.
+        per_recording: whether it differs between recordings, like the offset of a sensor after each start.
+        ordinary: standard deviation between parts of one batch; a diagnosis tolerates it without naming an effect.
+        shape: whether it describes the shape of an effect and not its size, although its default is 0.
+        by_hand: measurement by hand, with its accuracy; None if there is none, or if the value is relative to one that
+            a fit changes.
+        optional: whether the parameter, without a default, may be absent: an arm may lack the part that it describes.
     """
 
     symbol: str
@@ -59,7 +59,7 @@ class Parameter:
 
     @property
     def another_value(self) -> float:
-        """A value within the bounds that is not the default, about a typical size from it [unit]."""
+        """A value within the bounds that differs from the default by about the typical size [unit]."""
         origin, step = self.default or 0.0, self.typical or 1.0
         above, below = min(origin + step, self.upper), max(origin - step, self.lower)
         return above if above > origin else below
@@ -71,10 +71,11 @@ class Parameter:
         return f"{number} from {self.lower:g} to {self.upper:g} {self.unit}"
 
     def array(self, value: object, n_joints: int, name: str) -> Numbers:
-        """``value`` as an array, (n_joints,) or (1,) [unit].
+        """Return ``value`` as an array, (n_joints,) or (1,) [unit].
 
         Raises:
-            InvalidValueError: not a number, not finite, out of bounds, or as many as there are neither joints nor one.
+            InvalidValueError: an item is not a finite number within the bounds, or their number is neither 1 nor
+                that of the joints.
         """
         size = n_joints if self.per_joint else 1
         items = list(value) if isinstance(value, list | tuple) else list(np.atleast_1d(value))  # type: ignore[call-overload]
@@ -113,12 +114,13 @@ def _field(parameter: Parameter) -> Any:
 class Parameters:
     """Values of the parameters, (n_joints,) or (1,) each: floats, or symbols while a model is compiled.
 
-    Joints and links count from the base. Link i lies between joint i and joint i + 1 and carries disc i, where the arm
-    has discs. What is left out has its default. Without one it is None, and no value of the model: ``link_length``
-    follows from the discs then (`joint_spacing`), and an arm without ``half_spacing`` has neither discs nor cables.
+    Joints and links count from the base. Link i lies between joint i and joint i + 1 and carries disc i if the arm has
+    discs. An omitted parameter has its default; an omitted optional one is None and not a value of the model. Without
+    ``link_length`` the spacing follows from the discs (`joint_spacing`); an arm without ``half_spacing`` has neither
+    discs nor cables.
 
     Raises:
-        InvalidValueError: there is neither ``link_length`` nor ``half_spacing``.
+        InvalidValueError: both ``link_length`` and ``half_spacing`` are missing.
     """
 
     mass: Numbers = _joint("m", "kg", 1e-6, 1e3, "mass of a link with its disc and sensor")
@@ -151,7 +153,7 @@ class Parameters:
 
     def __post_init__(self) -> None:
         if self.link_length is None and self.half_spacing is None:
-            allowed = PARAMETERS["link_length"].allowed + "; only where half_spacing is given it may be left out"
+            allowed = PARAMETERS["link_length"].allowed + "; it may be omitted only if half_spacing is given"
             raise InvalidValueError("link_length", None, allowed)
         for name, parameter in PARAMETERS.items():
             if getattr(self, name) is None and parameter.default is not None:
@@ -159,7 +161,7 @@ class Parameters:
                 object.__setattr__(self, name, np.full(size, parameter.default))
 
     def named(self) -> dict[str, Numbers]:
-        """The arrays by name, in the order of declaration, without those that the arm has not."""
+        """Return the arrays by name, in the order of declaration, without absent optional parameters."""
         return {name: value for name in PARAMETERS if (value := getattr(self, name)) is not None}
 
     @property
@@ -169,32 +171,32 @@ class Parameters:
 
     @property
     def joint_spacing(self) -> Numbers:
-        """From each joint to the next, and to the tip for the last, (n,) [m].
+        """Distance from each joint to the next, and from the last to the tip, (n,) [m].
 
-        The length of the links, or where that is left out b_i + b_(i+1), to the tip disc's far side for the last.
+        The length of the links; if that is omitted, b_i + b_(i+1), and for the last joint to the tip disc's far side.
         """
         return self._between_discs if self.link_length is None else self.link_length
 
     @property
     def disc_gap(self) -> Numbers:
-        """From the disc after a joint to the disc before the next, (n,) [m]; 0 where one disc is both."""
+        """Distance from the disc after a joint to the disc before the next joint, (n,) [m]; 0 if they are the same."""
         if self.link_length is None or self.half_spacing is None:
             return np.zeros(self.n_joints)
         return self.link_length - self._between_discs
 
     @property
     def middle(self) -> Numbers:
-        """From each joint to its link's disc, to the middle of a link without, (n,) [m]."""
+        """Distance from each joint to the disc of its link, or to the middle of a link without disc, (n,) [m]."""
         return self.link_length / 2 if self.half_spacing is None else self.half_spacing
 
     @property
     def tip(self) -> Numbers:
-        """From the last joint to the tip disc, to the end of the last link without, (1,) [m]."""
+        """Distance from the last joint to the tip disc, or to the end of a last link without disc, (1,) [m]."""
         return self.link_length[-1:] if self.half_spacing is None else self.half_spacing[-1:]
 
     @property
     def mount(self) -> Numbers:
-        """From the centre of the base plate to joint 1, (1,) [m]; 0 where there are no discs."""
+        """Distance from the centre of the base plate to joint 1, (1,) [m]; 0 without discs."""
         return np.zeros(1) if self.half_spacing is None else self.half_spacing[:1]
 
     @property
@@ -216,4 +218,4 @@ class Parameters:
 
 
 PARAMETERS: dict[str, Parameter] = {f.name: f.metadata["parameter"] for f in dataclasses.fields(Parameters)}
-"""What each field of `Parameters` means and may be."""
+"""Description and bounds of each field of `Parameters`."""

@@ -1,4 +1,4 @@
-"""Checks of what a simulation is given."""
+"""Checks of the arguments of a simulation."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ __all__ = ["finite_array", "initial_state", "output_times"]
 
 
 def initial_state(model: Model, given: object) -> Array:
-    """A whole state (2 n + n_states,), of a whole one, or of joint angles alone (n,), which start at rest.
+    """Return a complete state (2 n + n_states,) from a complete state, or from joint angles (n,) at rest.
 
     Raises:
-        InvalidValueError: another size, or not finite.
+        InvalidValueError: the argument has the wrong size or is not finite.
     """
     n, size = model.n_joints, 2 * model.n_joints + model.n_states
     allowed = f"{size} finite numbers, or the {n} joint angles"
@@ -29,10 +29,10 @@ def initial_state(model: Model, given: object) -> Array:
 
 
 def output_times(given: object) -> Array:
-    """Times (n_times,) [s] as floats.
+    """Return times (n_times,) [s] as floats.
 
     Raises:
-        InvalidValueError: none, not finite, or not increasing.
+        InvalidValueError: there are no times, or they are not finite or not increasing.
     """
     allowed = "finite, increasing numbers [s]"
     times = finite_array("times", given, allowed)

@@ -23,12 +23,12 @@ from continuum.errors import InvalidValueError
 
 
 class Simulator:
-    """Compiles a model's equations once; simulates with any values of its parameters.
+    """Simulator that compiles a model's equations once and runs with any parameter values.
 
     Args:
-        model: the model; `run` takes the values from it unless told others.
-        tolerances: of integration.
-        tableau: the Runge-Kutta method, third order by default.
+        model: the model; its parameter values are the defaults of `run`.
+        tolerances: tolerances of the integration.
+        tableau: the Runge-Kutta method, of third order by default.
     """
 
     def __init__(self, model: Model, tolerances: Tolerances | None = None, tableau: Tableau | None = None) -> None:
@@ -38,10 +38,10 @@ class Simulator:
         self.equations = CompiledEquations(model)
 
     def around(self, model: Model) -> Simulator:
-        """The same compiled equations with another model's values.
+        """Return a simulator with the same compiled equations and the values of another model.
 
         Raises:
-            InvalidValueError: it has other effects, other values, another number of joints or other inputs.
+            InvalidValueError: the model differs in its effects, names of values, number of joints or inputs.
         """
         if _structure(model) != _structure(self.model):
             allowed = f"one with the values {', '.join(self.model.values())} and the same joints and inputs"
@@ -64,14 +64,14 @@ class Simulator:
         Args:
             initial: state at the first time, (2 n + n_states,) [rad, rad/s, ...]; angles alone start at rest.
             times: output times, increasing, (n_times,) [s].
-            inputs: what drives the arm, `Tensions` or `JointTorques` as the model says; nothing without.
-            values: flat parameter values as `parameter_vector` gives them, (n_p,); the model's own without.
-            free: directions in these values to differentiate by, (n_p, n_free).
+            inputs: `Tensions` or `JointTorques`, as the model requires; None drives the arm with nothing.
+            values: flat parameter values in the order of `parameter_vector`, (n_p,); those of the model by default.
+            free: directions in these values by which to differentiate, (n_p, n_free).
             free_initial: derivative of the initial state by the same free quantities, (n_x, n_free).
 
         Raises:
-            InvalidValueError: an argument of the wrong shape, not finite, times that do not increase, or inputs that
-                the model does not take.
+            InvalidValueError: an argument has the wrong shape or is not finite, the times do not increase, or the
+                inputs do not match the model.
         """
         n, drive = self.model.n_joints, suitable_inputs(self.model, inputs)
         x0, times = initial_state(self.model, initial), output_times(times)
@@ -122,6 +122,6 @@ class Simulator:
 
 
 def _structure(model: Model) -> tuple[object, ...]:
-    """What is compiled in."""
+    """Return the properties of a model that are compiled in."""
     effects = tuple(active.effect.name for active in model.effects)
     return model.inputs, effects, tuple((name, len(value)) for name, value in model.values().items())

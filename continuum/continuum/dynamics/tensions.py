@@ -1,4 +1,4 @@
-"""Tensions of the cables over time: what pulls at the base."""
+"""Tensions of the cables at the base over time."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from continuum.dynamics.planar.cable_tension import SIDES
 from continuum.errors import InvalidValueError
 
 LET_GO = -1e-3
-"""Tension [N] that says that a cable is let go: no motor lets it down, it is slack at once. No cable pushes by it."""
+"""Value [N] for a released cable: no motor lowers its tension, it is slack at once. It does not make a cable push."""
 
 
 @dataclass(frozen=True)
 class Tensions(InputSignal):
-    """Tension of each cable, (rows, n_cables) [N], none negative but LET_GO: a cable that no motor holds."""
+    """Tension of each cable, (rows, n_cables) [N], none negative except LET_GO for a cable that no motor holds."""
 
     kind: ClassVar[InputKind] = InputKind.CABLES
     allowed: ClassVar[str] = "finite, >= 0 N"
@@ -34,5 +34,5 @@ class Tensions(InputSignal):
 
 
 def slack() -> Tensions:
-    """No tension at any time, and no motor that holds a cable."""
+    """Return slack cables at all times, held by no motor."""
     return Tensions(np.zeros(1), np.full((1, len(SIDES)), LET_GO))

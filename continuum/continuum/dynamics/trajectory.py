@@ -1,4 +1,4 @@
-"""Motions over time: what a simulation gives, or the reason why it gives none, and what sensors read of it."""
+"""Motions over time: the result of a simulation, or the reason of its failure, and the sensor readings."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ class Trajectory:
     """States of the arm over time; NaN from where a simulation failed.
 
     Attributes:
-        status: how the simulation ended; unless COMPLETE the states are not to be used.
+        status: outcome of the simulation; the states are valid only if it is COMPLETE.
         times: (n_times,) [s].
         states: joint angles, joint rates, states of effects, (n_times, n_x) [rad, rad/s, ...].
         n_joints: number of joints.
-        steps, refused: steps that the integrator took, and that it had to repeat (SciPy's BDF: not told, 0).
+        steps, refused: number of accepted steps and of repeated steps (SciPy's BDF does not report the latter: 0).
         sensitivities: derivative of the states by the free quantities, (n_times, n_x, n_free); n_free may be 0.
     """
 
@@ -50,13 +50,13 @@ class Trajectory:
 
 @dataclass(frozen=True)
 class Reading:
-    """What sensors read of a motion: joint angles and rates at the sampled times.
+    """Sensor readings of a motion: joint angles and rates at the sampled times.
 
     Attributes:
         times: (n_times,) [s].
         theta: joint angles, (n_times, n_joints) [rad].
         theta_rate: joint rates, (n_times, n_joints) [rad/s].
-        begun: when the recording began of which this may be a part [s].
+        begun: start time [s] of the recording that these readings are part of.
     """
 
     times: Array

@@ -1,10 +1,11 @@
 """A planar model from a URDF: one chain of joints whose axes are parallel.
 
-Angles of the model are those of the URDF up to a sign and a zero: a model's joints are at zero where its links lie on
-one straight line, a URDF's where it was drawn. With p_i the joints' places in the URDF's zero configuration, seen along
-the first joint's axis, and phi_i the direction from p_i to p_i+1 counted from that of the first link,
+The angles of the model equal those of the URDF up to sign and offset: the joints of a model are at zero if its links
+lie on a straight line, those of a URDF in the drawn configuration. Let p_i be the positions of the joints in the URDF's
+zero configuration, seen along the first joint's axis, and phi_i the direction from p_i to p_i+1 relative to that of the
+first link. Then
 
-    theta_i = s_i q_i + (phi_i - phi_i-1),     s_i = 1 where axis i points as the first one does, else -1.
+    theta_i = s_i q_i + (phi_i - phi_i-1),     s_i = 1 if axis i points in the direction of the first one, else -1.
 """
 
 from __future__ import annotations
@@ -23,22 +24,22 @@ from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.urdf_description import Body, Description
 from continuum.errors import FileError
 
-_PARALLEL = 1e-4  # rad: what descriptions round
-_SHORTEST = 1e-4  # m, of links, as in model files
-_OFFSET = 0.01  # part of a link's length by which its centre of mass may lie off the line from joint to joint
+_PARALLEL = 1e-4  # rad: rounding in descriptions
+_SHORTEST = 1e-4  # m: shortest link, as in model files
+_OFFSET = 0.01  # largest distance of a link's centre of mass from the line between joints, per length of the link
 
 
 @dataclass(frozen=True)
 class UrdfChain:
-    """A model, and how its joints are those of the description.
+    """A model, and the relation of its joints to those of the description.
 
     Attributes:
-        model: driven by joint torques.
+        model: the model, driven by joint torques.
         joints: names in the URDF from base to tip.
         signs: s_i, (n_joints,).
         zeros: angles of the model in the URDF's zero configuration, (n_joints,) [rad].
-        tip: the link whose frame is the tip; none where the last link is taken to end twice as far as its centre of
-            mass lies.
+        tip: the link whose frame is the tip; None if the last link is assumed to end at twice the distance of its
+            centre of mass.
     """
 
     model: Model
@@ -54,13 +55,13 @@ def chain_from_urdf(
     """Read a serial arm that moves in one plane.
 
     Args:
-        path: of the URDF.
-        tip: name of the link whose frame is the tip; without it the last frame that is fixed to the last link.
-        gravity: acceleration in the frame of the URDF's root, (3,) [m/s^2].
+        path: path of the URDF.
+        tip: name of the link whose frame is the tip; by default the last frame that is fixed to the last link.
+        gravity: acceleration of gravity in the frame of the URDF's root, (3,) [m/s^2].
 
     Raises:
-        FileError: no readable URDF, or none of a serial planar arm.
-        InvalidValueError: a value that no model may have.
+        FileError: the file is not a readable URDF, or does not describe a serial planar arm.
+        InvalidValueError: a value is not allowed in a model.
     """
     path = Path(path)
     joints, axes, places, groups = Description(path).chain()
@@ -83,9 +84,9 @@ def chain_from_urdf(
         worst = int(np.argmax(offset / lengths))
         raise FileError(
             path,
-            f"has a link whose centre of mass lies {1e3 * offset[worst]:.3g} mm beside the line from joint "
-            f"{joints[worst].name} to the next, or to the tip; models have theirs on it, here within "
-            f"{1e3 * _OFFSET * lengths[worst]:.3g} mm",
+            f"has a link whose centre of mass lies {1e3 * offset[worst]:.3g} mm off the line from joint "
+            f"{joints[worst].name} to the next, or to the tip; models allow at most "
+            f"{1e3 * _OFFSET * lengths[worst]:.3g} mm here",
         )
     pull = _within(np.asarray(gravity, dtype=float), axis)
     weight = float(np.linalg.norm(pull))
@@ -109,10 +110,12 @@ def chain_from_urdf(
 
 
 def _lumped(path: Path, name: str, bodies: Sequence[Body]) -> Body:
-    """Bodies as one, by the parallel axes of each."""
+    """Combine bodies into one by the parallel axis theorem."""
     mass = sum(one.mass for one in bodies)
     if not 0 < mass < np.inf:
-        raise FileError(path, f"has a link {name} of mass {mass:g}; every link of a model has one, which is finite")
+        raise FileError(
+            path, f"has a link {name} of mass {mass:g}; every link of a model needs a finite, positive mass"
+        )
     centre = np.sum([one.mass * one.centre for one in bodies], axis=0) / mass
     inertia = np.zeros((3, 3))
     for one in bodies:
@@ -122,7 +125,7 @@ def _lumped(path: Path, name: str, bodies: Sequence[Body]) -> Body:
 
 
 def _end(path: Path, tip: str | None, last: Array, frames: Mapping[str, Array], body: Body) -> tuple[Array, str | None]:
-    """Place of the tip (3,) [m], and the link whose frame it is."""
+    """Return the position of the tip (3,) [m], and the link whose frame it is."""
     if tip is not None and tip not in frames:
         raise FileError(path, f"has no link {tip} beyond its last joint; it has {', '.join(frames)}")
     farther = [name for name, place in frames.items() if np.linalg.norm(place - last) > _SHORTEST]
@@ -139,10 +142,10 @@ def _dynamics(path: Path, joint: yourdfpy.urdf.Joint, name: str) -> float:
 
 
 def _within(vector: Array, axis: Array) -> Array:
-    """The part of a vector (3,) in the plane that is normal to an axis (3,)."""
+    """Return the component of a vector (3,) in the plane normal to an axis (3,)."""
     return vector - (vector @ axis) * axis
 
 
 def _angle(start: Array, end: Array, axis: Array) -> float:
-    """From one direction in the plane to another, positive about the axis [rad]."""
+    """Return the angle from one direction in the plane to another, positive about the axis [rad]."""
     return float(np.arctan2(axis @ np.cross(start, end), start @ end))

@@ -1,4 +1,4 @@
-"""A URDF's links as groups that are fixed to each other, and the joints that turn them, from the base to the tip."""
+"""A URDF's links in rigid groups, and the joints that rotate them, from the base to the tip."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _UNREADABLE = (
     ValueError,
     yourdfpy.urdf.URDFError,
 )
-"""What yourdfpy's reading of a damaged description runs into."""
+"""Exceptions of yourdfpy on a damaged description."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Body:
 
 @dataclass
 class Group:
-    """Links that are fixed to each other: their bodies, their frames' places (3,) [m], and joints that turn others."""
+    """Links fixed to each other: their bodies, the positions of their frames (3,) [m], and joints to other groups."""
 
     bodies: list[Body]
     frames: dict[str, Array]
@@ -50,10 +50,10 @@ class Description:
     """Links and joints of a file.
 
     Args:
-        path: of the URDF.
+        path: path of the URDF.
 
     Raises:
-        FileError: it cannot be read, or its links are no tree.
+        FileError: the file cannot be read, or its links do not form a tree.
     """
 
     def __init__(self, path: Path) -> None:
@@ -63,7 +63,7 @@ class Description:
         except OSError as error:
             raise FileError(path, f"cannot be read ({error.strerror or error})") from error
         if b"<!DOCTYPE" in data:
-            raise FileError(path, "has a document type; descriptions have none")
+            raise FileError(path, "has a document type declaration, which descriptions must not have")
         try:
             root = ElementTree.fromstring(data)
             robot = yourdfpy.URDF.load(
@@ -76,22 +76,22 @@ class Description:
         self._beyond: dict[str, list[yourdfpy.urdf.Joint]] = {name: [] for name in self._links}
         for joint in robot.joints:
             if joint.parent not in self._links or joint.child not in self._links:
-                raise FileError(path, f"has a joint {joint.name} between links that it does not have")
+                raise FileError(path, f"has a joint {joint.name} between undefined links")
             self._beyond[joint.parent].append(joint)
         moved = [joint.child for joint in robot.joints]
         roots = sorted(self._links.keys() - set(moved))
         if len(roots) != 1 or len(set(moved)) != len(moved):
-            raise FileError(path, f"is no tree of links: its roots are {', '.join(roots) or 'none'}")
+            raise FileError(path, f"is not a tree of links: its roots are {', '.join(roots) or 'none'}")
         self._root = roots[0]
 
     def chain(self) -> tuple[list[yourdfpy.urdf.Joint], Array, list[Array], list[Group]]:
-        """Joints from the base to the tip, their axes (n, 3), their places (3,) [m], and what each moves."""
+        """Return the joints from base to tip, their axes (n, 3), their positions (3,) [m], and the moved groups."""
         joints, axes, places, groups = list[yourdfpy.urdf.Joint](), list[Array](), list[Array](), list[Group]()
         group = self._fixed_to(self._root, np.eye(4))
         while group.turning:
             if len(group.turning) > 1:
                 names = ", ".join(joint.name for joint, _ in group.turning)
-                raise FileError(self._path, f"branches into the joints {names}; one chain is needed")
+                raise FileError(self._path, f"branches into the joints {names}; a single chain is needed")
             joint, pose = group.turning[0]
             group = self._fixed_to(joint.child, pose)
             joints.append(joint)
@@ -99,11 +99,11 @@ class Description:
             places.append(pose[:3, 3])
             groups.append(group)
         if not joints:
-            raise FileError(self._path, f"has no joint that turns ({' or '.join(_TURNING)})")
+            raise FileError(self._path, f"has no rotary joint ({' or '.join(_TURNING)})")
         return joints, np.array(axes), places, groups
 
     def _fixed_to(self, name: str, pose: Array) -> Group:
-        """A link at a pose (4, 4) [m], with all that is fixed to it."""
+        """Return the group of a link at a pose (4, 4) [m] and of all links fixed to it."""
         group, waiting = Group([], {}, []), [(name, pose)]
         while waiting:
             name, pose = waiting.pop(0)
@@ -118,19 +118,19 @@ class Description:
                 elif joint.type in _TURNING and joint.mimic is None:
                     group.turning.append((joint, at))
                 else:
-                    kind = "moved by another one (mimic)" if joint.mimic is not None else joint.type
+                    kind = "coupled to another one (mimic)" if joint.mimic is not None else joint.type
                     allowed = ", ".join((*_TURNING, "fixed"))
                     raise FileError(self._path, f"has the joint {joint.name}, which is {kind}; allowed: {allowed}")
         return group
 
 
 def _check_text(path: Path, root: ElementTree.Element) -> None:
-    """Refuse names that stand twice, and moments of inertia that are missing: yourdfpy fills them in without a word."""
+    """Refuse duplicate names and missing moments of inertia, which yourdfpy would complete silently."""
     for kind in ("link", "joint"):
         counts = Counter(one.get("name", "") for one in root.findall(kind))
         for name, count in counts.items():
             if count > 1:
-                raise FileError(path, f"has {count} times the {kind} {name}")
+                raise FileError(path, f"defines the {kind} {name} {count} times")
     for link in root.findall("link"):
         for inertia in link.findall("inertial/inertia"):
             for moment in _MOMENTS:
@@ -147,7 +147,7 @@ def _body(path: Path, name: str, inertial: yourdfpy.urdf.Inertial, pose: Array) 
 
 
 def _axis(path: Path, joint: yourdfpy.urdf.Joint) -> Array:
-    """Unit vector (3,)."""
+    """Return the axis of a joint as a unit vector (3,)."""
     axis = np.asarray(joint.axis, dtype=float)
     length = float(np.linalg.norm(axis))
     if axis.shape != (3,) or not 1e-9 < length < np.inf:

@@ -11,12 +11,12 @@ from continuum.dynamics.model import Model
 
 
 def parameter_vector(model: Model) -> Array:
-    """The values in the order of `Model.values`, (n_p,)."""
+    """Return the values in the order of `Model.values`, (n_p,)."""
     return np.concatenate([np.asarray(value, dtype=float) for value in model.values().values()])
 
 
 def parameter_slots(model: Model) -> dict[str, slice]:
-    """Where each parameter stands in that vector."""
+    """Return the position of each parameter in that vector."""
     slots, at = {}, 0
     for name, value in model.values().items():
         slots[name] = slice(at, at + len(value))
@@ -25,7 +25,7 @@ def parameter_slots(model: Model) -> dict[str, slice]:
 
 
 def shared_directions(model: Model, names: Sequence[str]) -> Array:
-    """Directions in the vector, one for each name, that change a parameter of all joints alike, (n_p, len(names))."""
+    """Return directions in the vector, one per name, that change a parameter equally in all joints, (n_p, n_names)."""
     slots = parameter_slots(model)
     directions = np.zeros((parameter_vector(model).size, len(names)))
     for column, name in enumerate(names):
@@ -34,5 +34,5 @@ def shared_directions(model: Model, names: Sequence[str]) -> Array:
 
 
 def with_vector(model: Model, values: Array) -> Model:
-    """The model around a vector of all its values; unchecked."""
+    """Return the model with a vector of all its values; unchecked."""
     return model.built_from({name: values[slot] for name, slot in parameter_slots(model).items()})

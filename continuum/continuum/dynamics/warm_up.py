@@ -1,6 +1,6 @@
-"""Compile the integrator's loops, or load them from their cache, before somebody waits for them.
+"""Compile the integrator's loops, or load them from their cache, before their first use.
 
-`python3 -m continuum.dynamics.warm_up` does it once for all programs after an installation.
+After an installation, `python3 -m continuum.dynamics.warm_up` does this once for all programs.
 """
 
 from __future__ import annotations

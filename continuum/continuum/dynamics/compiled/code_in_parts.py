@@ -1,14 +1,14 @@
-"""CasADi's C code of a long arm, cut into functions: compilers take the square of a function's length and more.
+"""Split CasADi's C code of a long arm into functions: compile time grows at least quadratically with their length.
 
-CasADi writes one function that is one list of assignments to local variables, a0 to ak. Cut into parts, the variables
-become one array that all parts share. Twenty joints and fewer stay as they are: their code is shorter than the limit.
+CasADi writes one function, a list of assignments to local variables a0 to ak. When it is split, the variables become
+one array that all parts share. The code of arms with at most twenty joints is shorter than the limit and is not split.
 """
 
 from __future__ import annotations
 
 import re
 
-_LONGEST = 40_000  # statements of a function that is left whole
+_LONGEST = 40_000  # most statements of a function that is not split
 _PART = 500  # statements of a part
 
 _HEAD = re.compile(r"static int casadi_f0\(.*\) \{\n(?:  casadi_real [^;]*;\n)+")
@@ -17,7 +17,7 @@ _VARIABLE = re.compile(r"\ba(\d+)\b")
 
 
 def in_parts(code: str) -> str:
-    """The same C code with a long function cut into parts; for code of one function, as CasADi generates it."""
+    """Return C code of one function, as CasADi generates it, with the function split into parts if it is long."""
     head = _HEAD.search(code)
     if head is None:
         return code

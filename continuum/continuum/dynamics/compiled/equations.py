@@ -21,7 +21,7 @@ class CompiledEquations:
     """Compiled equations of a model's structure; parameter values are arguments.
 
     Args:
-        model: its effects and its number of joints are compiled in, its values are the defaults.
+        model: its effects and number of joints are compiled in; its values are the defaults.
     """
 
     def __init__(self, model: Model) -> None:
@@ -53,7 +53,7 @@ class CompiledEquations:
 
     @cached_property
     def sensitivities(self) -> Any:
-        """Machine code of `SymbolicBalance.sensitivities`, made when first asked for."""
+        """Machine code of `SymbolicBalance.sensitivities`, compiled on first use."""
         return self._machine_code("sensitivities")
 
     def _machine_code(self, name: str) -> Any:
@@ -75,7 +75,7 @@ class CompiledEquations:
         """Eq. 18: (theta', theta'', z'), (n_x,).
 
         Raises:
-            ValueError: the equations are not finite, or leave the rates open.
+            ValueError: the equations are not finite, or do not determine the rates.
         """
         r, by_v, _ = self.balance(x, np.zeros(self.n_rates), u, p)
         if not (np.isfinite(r).all() and np.isfinite(by_v).all()):
@@ -83,7 +83,7 @@ class CompiledEquations:
         return np.concatenate([x[self.n_joints : 2 * self.n_joints], -np.linalg.solve(by_v, r)])
 
     def jacobian(self, x: Array, u: Array, p: Array | None = None) -> Array:
-        """Derivative of the rates by the state, (n_x, n_x): exact, as r = 0 gives dv/dx = -(dr/dv)^-1 dr/dx."""
+        """Exact derivative of the rates by the state, (n_x, n_x): r = 0 gives dv/dx = -(dr/dv)^-1 dr/dx."""
         n = self.n_joints
         _, by_v, by_x = self.balance(x, self.rates(x, u, p)[n:], u, p)
         kinematic = np.zeros((n, self.n_x))
@@ -94,8 +94,8 @@ class CompiledEquations:
         packed = np.concatenate([x, v, u, self.values if p is None else p, _NO_STAGE])
         if (
             packed.size != self.n_x + self.n_rates + self.n_inputs + self.values.size + 1
-        ):  # the machine code reads unchecked
-            raise ValueError(f"{packed.size - 1} numbers of state, rates, inputs and parameters")
+        ):  # the machine code does not check sizes
+            raise ValueError(f"state, rates, inputs and parameters have {packed.size - 1} numbers, a wrong total")
         out = np.empty(size)
         function(packed.ctypes.data, out.ctypes.data)
         return out

@@ -1,8 +1,8 @@
-"""A CasADi function as machine code by LLVM, which comes with numba: for machines without a C compiler.
+"""Compile a CasADi function with the LLVM that numba includes, for machines without a C compiler.
 
-Every operation of CasADi's list becomes an instruction of LLVM's language; results are those of the C code to the last
-bit, but for the sign of a zero that fmin or fmax chooses. LLVM compiles in a third of a C compiler's time, and its code
-takes up to twice as long to run.
+Every operation of CasADi's list becomes one or more LLVM instructions. The results equal those of the C code to the
+last bit, except for the sign of a zero that fmin or fmax returns. LLVM compiles in a third of a C compiler's time, and
+its code takes up to twice as long to run.
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ _DECLARATIONS = "".join(
 
 
 def compile_by_llvm(function: casadi.Function) -> Callable[[int, int], None]:
-    """Machine code that takes the addresses of the one dense input and of the one dense output.
+    """Return machine code that takes the addresses of the one dense input and of the one dense output.
 
     Raises:
-        NotImplementedError: the function has an operation that is not known here.
+        NotImplementedError: the function has an operation without a translation.
     """
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
@@ -48,12 +48,12 @@ def compile_by_llvm(function: casadi.Function) -> Callable[[int, int], None]:
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(assembly(function)), machine)
     engine.finalize_object()
     found = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(engine.get_function_address("flat"))
-    found.engine = engine  # type: ignore[attr-defined]  # holds the code as long as the function is held
+    found.engine = engine  # type: ignore[attr-defined]  # keeps the code alive as long as the function
     return found
 
 
 def assembly(function: casadi.Function) -> str:
-    """The function in LLVM's language: one block, every value assigned once."""
+    """Return the function in LLVM assembly: one block, with every value assigned once."""
     lines, values = list[str](), dict[int, str]()
     for k in range(function.n_instructions()):
         name = _NAMES[function.instruction_id(k)]
@@ -77,12 +77,12 @@ def assembly(function: casadi.Function) -> str:
 
 
 def _constant(value: float) -> str:
-    """All bits of it."""
+    """Return the LLVM constant with all bits of ``value``."""
     return f"0x{struct.unpack('<Q', struct.pack('<d', value))[0]:016X}"
 
 
 def _instructions(name: str, k: int, given: Sequence[str]) -> list[str]:
-    """Of operation k, whose result is %vk; logic is by numbers that are 0 or 1."""
+    """Return the instructions of operation k, whose result is %vk; truth values are the numbers 0 and 1."""
     v, a, b = f"%v{k}", given[0], given[-1]
     if name in _OPERATORS:
         return [f"{v} = {_OPERATORS[name]} double {a}, {b}"]

@@ -1,7 +1,7 @@
-"""CasADi functions as machine code: C by CasADi's generator, compiled by the system's compiler, kept in a cache.
+"""CasADi functions as machine code: C from CasADi's generator, compiled by the system's compiler and cached.
 
-A library is named by the digest of its code. For equations of a known structure an index holds that name, so that a
-program that finds both need not trace them. Without a C compiler, LLVM makes the code, in every program again.
+The digest of its code names a library. For equations of a known structure an index stores that name, so that a program
+that finds both need not trace the equations. Without a C compiler, LLVM compiles the code anew in every program.
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ _warned = threading.Event()
 
 
 class CompilerError(ContinuumError, RuntimeError):
-    """The C compiler did not take the generated code."""
+    """The C compiler rejected the generated code."""
 
 
 def compile_function(function: casadi.Function) -> Any:
-    """The function as ``void f(const double *in, double *out)``; it must have one dense input and one dense output.
+    """Compile a function to ``void f(const double *in, double *out)``; it must have one dense input and one output.
 
-    The compiler is that of the environment's CC, else cc or gcc, else LLVM.
+    The compiler is the one in the environment variable CC, otherwise cc or gcc, otherwise LLVM.
 
     Raises:
         CompilerError: the C compiler fails.
@@ -49,12 +49,12 @@ def compile_function(function: casadi.Function) -> Any:
 
 
 def found_or_compiled(structure: str | None, name: str, trace: Callable[[], casadi.Function]) -> Any:
-    """The same for what ``trace`` gives, which is called only where no library is known for it.
+    """As `compile_function` for the result of ``trace``, which is called only if no library is known for it.
 
     Args:
-        structure: tells equations apart before they are traced; None where nothing does.
-        name: of the function among those of the equations.
-        trace: gives the function.
+        structure: key that identifies the equations before they are traced; None if there is none.
+        name: name of the function among those of the equations.
+        trace: returns the function.
 
     Raises:
         CompilerError, FileError: as `compile_function`.
@@ -76,7 +76,7 @@ def found_or_compiled(structure: str | None, name: str, trace: Callable[[], casa
 
 
 def address_of(function: Any) -> int:
-    """Where a compiled function stands in memory, for calls from compiled loops; the function must be kept alive."""
+    """Return the address of a compiled function, for calls from compiled loops; the caller must keep it alive."""
     return ctypes.cast(function, ctypes.c_void_p).value or 0
 
 
@@ -97,7 +97,7 @@ def _by_llvm(function: casadi.Function) -> Any:
 
 
 def _library_of(function: casadi.Function, compiler: str) -> tuple[ctypes.CDLL, Path]:
-    """The library of a function, and its file, which is missing where it cannot be kept."""
+    """Return the library of a function, and its file, which is missing if it cannot be stored."""
     code = _c_code(function)
     library = _folder() / f"{_digest(code, compiler, version('casadi'))}.so"
     return _loaded(code, compiler, library), library
@@ -125,7 +125,7 @@ def _compiler() -> str | None:
 
 
 def _loaded(code: str, compiler: str, library: Path) -> ctypes.CDLL:
-    """The library, compiled if its file is missing, damaged or of another kind of machine."""
+    """Load the library; compile it first if its file is missing, damaged or for another kind of machine."""
     if read_checked(library, platform.machine()) is None:
         with _temporary_folder() as folder:
             built = _compile(code, compiler, Path(folder))
@@ -133,7 +133,7 @@ def _loaded(code: str, compiler: str, library: Path) -> ctypes.CDLL:
                 write_checked(library, built.read_bytes(), platform.machine())
             except OSError as error:
                 warn_not_kept(error)
-                return ctypes.CDLL(str(built))  # stays loaded when its file is gone
+                return ctypes.CDLL(str(built))  # stays loaded after its file is deleted
     return ctypes.CDLL(str(library))
 
 

@@ -1,4 +1,4 @@
-"""What equations depend on that are traced from a model: its structure, and the sources that they are written in."""
+"""Key of the equations that are traced from a model: the model's structure and the source files of the equations."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ _SOURCES = (_PACKAGE / "dynamics", _PACKAGE / "effects")
 
 
 def structure_key(model: Model, *sources: Path) -> str | None:
-    """The same for models whose traced equations are the same; None where an effect is written elsewhere.
+    """Return a key that is equal for models with equal traced equations; None if an effect is defined elsewhere.
 
     Args:
-        model: whose parameter values do not matter, their number does.
-        sources: files that the equations are written in, besides those of dynamics and effects.
+        model: the model; the key depends on the number of its parameter values, not on the values.
+        sources: source files of the equations besides those of dynamics and effects.
     """
     classes = [type(active.effect) for active in model.effects]
     if not all(any(Path(inspect.getfile(one)).is_relative_to(place) for place in _SOURCES) for one in classes):
-        return None  # what else it depends on is not known
+        return None  # its further dependencies are unknown
     digest = sources_digest(*_SOURCES, *sources)
     effects = [f"{one.__module__}.{one.__qualname__}" for one in classes]
     values = [f"{name} {len(value)}" for name, value in model.values().items()]

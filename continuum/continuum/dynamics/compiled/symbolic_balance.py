@@ -1,8 +1,8 @@
 """A model's equations traced once with symbols, and their exact derivatives.
 
-The links' absolute angles are sums of joint angles, so a derivative by joint angles taken through them fills up:
-every term depends on every joint before it. Hence the sums are symbols of their own here, whose derivatives are
-sparse, and the chain rule adds them up along the joints: for n joints some n^2 operations, not n^3.
+The links' absolute angles are sums of joint angles, so derivatives by joint angles through these sums are dense: every
+term depends on every preceding joint. The sums are therefore separate symbols with sparse derivatives, and the chain
+rule adds these along the joints: for n joints about n^2 operations instead of n^3.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ from continuum.dynamics.planar.instant import Motion
 
 @dataclass(frozen=True)
 class TracedMotion(Motion):
-    """A motion that notes which symbols stand for sums of which others."""
+    """A motion that records which symbols stand for the sums of which others."""
 
     sums: dict[tuple[str, ...], tuple[Numbers, Numbers]] = field(default_factory=dict)
 
     def summed(self, joints: Numbers) -> Numbers:
         if not all(isinstance(joint, casadi.SX) and joint.is_symbolic() for joint in joints):
-            return super().summed(joints)  # an effect's own angles
+            return super().summed(joints)  # angles that an effect defines
         key = tuple(str(joint) for joint in joints)
         if key not in self.sums:
             self.sums[key] = (joints, symbols(f"sum_{len(self.sums)}", len(joints)))
@@ -38,9 +38,9 @@ class TracedMotion(Motion):
 class SymbolicBalance:
     """Functions of one packed vector: state x, rates v, inputs u, parameters p, and h g [s] of an implicit stage.
 
-    Each gives one packed vector, matrices by columns. Parameter values do not matter, their number does. The stage
-    matrix is the slope of r by the rates v where the state moves with them, theta' and z by h g, theta by (h g)^2:
-    J = dr/dv + h g dr/d(theta', z) + (h g)^2 dr/dtheta.
+    Each returns one packed vector, matrices column by column. The functions depend on the number of parameter values,
+    not on the values. The stage matrix is the derivative of r by the rates v when the state moves with them, theta'
+    and z by h g, theta by (h g)^2: J = dr/dv + h g dr/d(theta', z) + (h g)^2 dr/dtheta.
     """
 
     def __init__(self, model: Model) -> None:
@@ -61,7 +61,7 @@ class SymbolicBalance:
 
     @cached_property
     def stage(self) -> casadi.Function:
-        """r, J; J by one derivative, which costs less than the three that it is made of."""
+        """r, J; J is computed as one derivative, which costs less than its three summands."""
         return self._function("stage", [self._stage_matrix()])
 
     @cached_property
@@ -111,12 +111,12 @@ class SymbolicBalance:
 
 
 def _through_sums(by_sums: Any) -> Any:
-    """Slope by the joints of what depends on their sums: d sum_k / d joint_i is 1 for k >= i."""
+    """Convert a derivative by the sums to one by the joints: d sum_k / d joint_i is 1 for k >= i."""
     return casadi.cumsum(casadi.densify(by_sums)[:, ::-1], 1)[:, ::-1]
 
 
 def _state_moved(moved: Any, hg: Any, n: int) -> Any:
-    """How far a stage's state (theta, theta', z) moves with its rates (theta'', z')."""
+    """Return the change of a stage's state (theta, theta', z) by a change of its rates (theta'', z')."""
     return casadi.vertcat(hg**2 * moved[:n], hg * moved)
 
 

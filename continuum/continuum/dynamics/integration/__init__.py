@@ -1,1 +1,1 @@
-"""Integration over time: SciPy's BDF as the reference, a compiled implicit Runge-Kutta method as the fast way."""
+"""Integration over time: SciPy's BDF as the reference, and a fast compiled implicit Runge-Kutta method."""

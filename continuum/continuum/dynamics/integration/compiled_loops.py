@@ -1,7 +1,7 @@
-"""How the integrator's loops are compiled, and how they call a model's machine code.
+"""Compilation of the integrator's loops, and their calls of a model's machine code.
 
-The cache follows the sources of this folder. Machine code is called at an address, so that loops compiled once serve
-every model.
+The cache depends on the source files of this folder. Loops call machine code by its address, so that they are compiled
+once for all models.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from continuum.compiled_code import compiled
 __all__ = ["call_at", "compiled", "entry_point"]
 
 entry_point = compiled_code.entry_point(Path(__file__).parent)
-"""Decorates the function that Python calls."""
+"""Decorator of the function that Python calls."""
 
 
 @compiled
@@ -29,7 +29,7 @@ def call_at(address, given, wanted):  # type: ignore[no-untyped-def]
 
 
 def _generated(typing: Any, address: Any, given: Any, wanted: Any) -> Any:
-    """The same with the addresses of the data, in numba's terms: its signature, and the code that it becomes."""
+    """Give numba the signature and the generated code of a call with the addresses of the data."""
     _ = typing, address, given, wanted
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:

@@ -1,8 +1,8 @@
 """The fast integrator: an adaptive ESDIRK method for the implicit equations r(x, v, u, p) = 0, with exact derivatives.
 
-Every stage is solved by Newton's method with the exact Jacobian, so that a stage's own derivative by initial state
-and parameters is one more linear solve with the same matrix: the sensitivities are those of the computed trajectory,
-its steps held, and cost no further iterations. Steps end on every output time and where the inputs bend or jump;
+Newton's method solves every stage with the exact Jacobian, so that the derivative of a stage by initial state and
+parameters is one more linear solve with the same matrix. The sensitivities are those of the computed trajectory for
+fixed steps, and cost no further iterations. Steps end at every output time and at every kink or jump of the inputs;
 nothing is interpolated.
 """
 
@@ -17,21 +17,21 @@ from continuum.dynamics.integration.step_size import FIRST_STEP, error_size, lon
 from continuum.dynamics.trajectory import SimulationStatus
 
 STATUSES = (SimulationStatus.COMPLETE, SimulationStatus.STEP_TOO_SMALL, SimulationStatus.NOT_FINITE)
-"""What the numbers mean with which `integrate` ends."""
+"""Statuses by the index that `integrate` returns."""
 _COMPLETE, _STEP_TOO_SMALL, _NOT_FINITE = range(len(STATUSES))
-_ONE_INSTANT = 1e-12  # apart [s], or in parts of the time: rounding, no time to step through
+_ONE_INSTANT = 1e-12  # times that differ by less [s], or relative to the time, differ by rounding only
 
 
 @compiled
 def _next_bend(input_times, t):  # type: ignore[no-untyped-def]
-    """When the inputs bend next after ``t``; infinite where they do not."""
+    """Return the time of the inputs' next kink after ``t``; infinite if there is none."""
     k = np.searchsorted(input_times, t, side="right")
     return input_times[k] if k < input_times.size else np.inf
 
 
 @entry_point
 def integrate(problem, method, x0, times, sensitivity0):  # type: ignore[no-untyped-def]
-    """States (n_times, n_x), their derivatives (n_times, n_x, n_free), steps taken, refused, index into `STATUSES`."""
+    """Return states (n_times, n_x), derivatives (n_times, n_x, n_free), steps, refused steps, index in `STATUSES`."""
     x, sensitivity, free = x0.copy(), sensitivity0.copy(), sensitivity0.shape[1]
     work = work_for(problem, x.size, free, method.c.size)
     states, sensitivities = np.full((times.size, x.size), np.nan), np.full((times.size, x.size, free), np.nan)
@@ -45,7 +45,7 @@ def integrate(problem, method, x0, times, sensitivity0):  # type: ignore[no-unty
         while t < times[k]:
             stop = min(times[k], _next_bend(problem.input_times, t))
             shortest = _ONE_INSTANT * max(1.0, abs(t))
-            if stop - t < shortest:  # an output and a bend, or two bends; the inputs may jump
+            if stop - t < shortest:  # an output and a kink, or two kinks; the inputs may jump
                 t = stop
                 if not first_stage(problem, method, work, t, x, sensitivity):
                     return states, sensitivities, taken, refused, _NOT_FINITE
@@ -62,7 +62,7 @@ def integrate(problem, method, x0, times, sensitivity0):  # type: ignore[no-unty
             if free > 0 and not sensitivities_of_stages(problem, method, work, t, step, sensitivity):
                 return states, sensitivities, taken, refused, _NOT_FINITE
             grown = longer(step, size, size_before, method.order, just_refused)
-            wanted = max(wanted, grown) if ends else grown  # a step cut short says nothing against a longer one
+            wanted = max(wanted, grown) if ends else grown  # a truncated step is no reason for short steps
             size_before, just_refused = size, False
             x[:], work.rates[0], work.rate_sensitivities[0] = new, work.rates[-1], work.rate_sensitivities[-1]
             t, taken = stop if ends else t + step, taken + 1

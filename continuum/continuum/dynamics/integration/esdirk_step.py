@@ -1,6 +1,6 @@
 """One step of an ESDIRK method: its stages, and their exact derivatives by initial state and parameters.
 
-A stage's derivatives cost one more linear solve with the stage's own matrix.
+The derivatives of a stage cost one more linear solve with the matrix of that stage.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from continuum.dynamics.integration.stage_newton import factorise_stage_matrix, 
 
 @compiled
 def first_stage(problem, method, work, t, x, sensitivity):  # type: ignore[no-untyped-def]
-    """Rates at ``t`` and their derivatives, with which the first step begins; whether there are any."""
+    """Compute the rates at ``t`` and their derivatives, the start of the first step; return whether they exist."""
     n = problem.n_joints
     v = work.rates[0, n:]
     inputs_at(t, t, problem.input_times, problem.inputs, work.u)
@@ -25,13 +25,13 @@ def first_stage(problem, method, work, t, x, sensitivity):  # type: ignore[no-un
 
 @compiled
 def solve_stages(problem, method, work, t, x, step):  # type: ignore[no-untyped-def]
-    """States and rates of every stage of the step from ``x`` at ``t``; whether all were solved."""
+    """Compute states and rates of every stage of the step from ``x`` at ``t``; return whether all were solved."""
     n = problem.n_joints
     for i in range(1, method.c.size):
         _stage_base(work.base, x, step, method.a[i, :i], work.rates)
         v = work.rates[i, n:]
         hg = step * method.a[i, i]
-        before = x if i == 1 else work.states[i - 1]  # a stuck joint stays, whatever its rates begin with
+        before = x if i == 1 else work.states[i - 1]  # a stuck joint stays stuck for any initial guess of its rates
         v[:] = (before[n:] - work.base[n:]) / hg
         inputs_at(t, t + method.c[i] * step, problem.input_times, problem.inputs, work.u)
         if not solve_stage(problem, method, work, work.base, v, hg, i > 1):
@@ -43,7 +43,7 @@ def solve_stages(problem, method, work, t, x, step):  # type: ignore[no-untyped-
 
 @compiled
 def sensitivities_of_stages(problem, method, work, t, step, sensitivity):  # type: ignore[no-untyped-def]
-    """Slopes at the end of a step whose stages are solved, in place of those at its start; whether there are any."""
+    """Replace sensitivities at the start of a solved step by those at its end; return whether they exist."""
     n, n_x = problem.n_joints, sensitivity.shape[0]
     for i in range(1, method.c.size):
         _stage_base(work.base_sensitivity, sensitivity, step, method.a[i, :i], work.rate_sensitivities)
@@ -61,7 +61,7 @@ def sensitivities_of_stages(problem, method, work, t, step, sensitivity):  # typ
 
 @compiled
 def _stage_base(base, x, step, weights, rates):  # type: ignore[no-untyped-def]
-    """x + step sum_j weights_j rates_j over the stages before one; of states or of their derivatives."""
+    """Fill ``base`` with x + step sum_j weights_j rates_j over the preceding stages, for states or derivatives."""
     base[:] = x
     for j in range(weights.size):
         if weights[j] != 0.0:
@@ -70,7 +70,7 @@ def _stage_base(base, x, step, weights, rates):  # type: ignore[no-untyped-def]
 
 @compiled
 def _add(total, factor, more):  # type: ignore[no-untyped-def]
-    """total + factor more, in place and without a temporary array."""
+    """Add factor * more to ``total`` in place, without a temporary array."""
     flat, added = total.ravel(), more.ravel()
     for k in range(flat.size):
         flat[k] += factor * added[k]
@@ -78,13 +78,13 @@ def _add(total, factor, more):  # type: ignore[no-untyped-def]
 
 @compiled
 def stage_sensitivities(problem, work, base_sensitivity, hg, rate_sensitivities):  # type: ignore[no-untyped-def]
-    """Slopes of the rates of the stage that ``work.packed`` holds; whether there are any.
+    """Compute the sensitivities of the rates of the stage in ``work.packed``; return whether they exist.
 
     Args:
-        problem, work: see there.
-        base_slope: of the stage's state but for its own rates, (n_x, n_free).
+        problem, work: see `Problem` and `Work`.
+        base_sensitivity: sensitivity of the stage's state without the contribution of its rates, (n_x, n_free).
         hg: h g [s].
-        rate_slopes: the answer, of (theta', v), (n_x, n_free).
+        rate_sensitivities: the result, sensitivities of (theta', v), (n_x, n_free).
     """
     n, n_v = problem.n_joints, work.pivots.size
     n_x, n_free = base_sensitivity.shape
@@ -99,7 +99,7 @@ def stage_sensitivities(problem, work, base_sensitivity, hg, rate_sensitivities)
     at_p = at_x + n_v * n_x
     for k in range(n_x):
         row[:] = base_sensitivity[k]
-        if k < n:  # theta moves with theta' of this very stage, which moves with its base
+        if k < n:  # theta depends on theta' of the same stage, which depends on its base
             row += hg * base_sensitivity[n + k]
         for r in range(n_v):
             sensitivity = out[at_x + n_v * k + r]

@@ -19,9 +19,9 @@ class Tableau:
     """Stage i is y_i = y + h sum_j a_ij f_j; the last stage is the result.
 
     Attributes:
-        a: (stages, stages), lower triangular, one diagonal value but 0 first.
-        error: weights of the estimated error, those of the result less those of the embedded method, (stages,).
-        order: of the result.
+        a: (stages, stages), lower triangular; the diagonal is constant except for the first entry, 0.
+        error: weights of the estimated error: those of the result minus those of the embedded method, (stages,).
+        order: order of the result.
     """
 
     a: Array

@@ -9,7 +9,7 @@ from continuum.dynamics.integration.compiled_loops import compiled
 
 @compiled
 def factorise(A, pivots):  # type: ignore[no-untyped-def]
-    """LU of ``A`` (n, n) in place, and the rows exchanged; False where it is singular or not finite."""
+    """Factorise ``A`` (n, n) to LU in place and fill ``pivots``; return False if it is singular or not finite."""
     n = A.shape[0]
     for k in range(n):
         best = k
@@ -32,7 +32,7 @@ def factorise(A, pivots):  # type: ignore[no-untyped-def]
 
 @compiled
 def solve_factorised(A, pivots, b):  # type: ignore[no-untyped-def]
-    """Solve for every column of ``b`` (n, columns), in place, with what `factorise` made."""
+    """Solve for every column of ``b`` (n, columns) in place, with the factors and pivots of `factorise`."""
     n, columns = b.shape
     for k in range(n):
         best = pivots[k]

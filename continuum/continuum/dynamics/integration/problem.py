@@ -1,4 +1,4 @@
-"""What the compiled loops are given, the inputs at an instant, and the arrays that they use again at every step."""
+"""Arguments of the compiled loops, the inputs at an instant, and the arrays that the loops reuse at every step."""
 
 from __future__ import annotations
 
@@ -14,15 +14,16 @@ IntArray = NDArray[np.int64]
 
 
 class Problem(NamedTuple):
-    """What is integrated.
+    """The problem to integrate.
 
     Attributes:
-        residual, stage, sensitivities: addresses of a model's machine code; the last is 0 where none are asked for.
+        residual, stage, sensitivities: addresses of a model's machine code; the last is 0 if no sensitivities are
+            needed.
         n_joints: number of joints.
         p: parameter values, (n_p,).
-        input_times, inputs: what drives the arm, (rows,) [s] and (rows, n_inputs), as `InputSignal.rows`.
-        direction_rows, direction_columns, direction_values: directions in the parameters by which to differentiate,
-            entries of a matrix (n_p, n_free) that is mostly zero, (n_entries,) each.
+        input_times, inputs: inputs that drive the arm, (rows,) [s] and (rows, n_inputs), as `InputSignal.rows`.
+        direction_rows, direction_columns, direction_values: parameter directions by which to differentiate, as the
+            nonzero entries of a matrix (n_p, n_free), (n_entries,) each.
     """
 
     residual: int
@@ -38,7 +39,7 @@ class Problem(NamedTuple):
 
 
 class Method(NamedTuple):
-    """How it is integrated: a Runge-Kutta method as in `Tableau`, and its tolerances as in `Tolerances`."""
+    """The integration method: a Runge-Kutta method as in `Tableau`, and tolerances as in `Tolerances`."""
 
     a: Array
     c: Array
@@ -54,14 +55,16 @@ class Work(NamedTuple):
     """Arrays for one integration: n_x states, n_v rates to be solved for, n_free quantities to differentiate by.
 
     Attributes:
-        packed: state, rates, inputs, parameters, h g: what the equations read.
-        u: the inputs in it.
-        out: what the equations answer.
-        matrix, pivots: of Newton's method, factorised, (n_v, n_v) and (n_v,).
-        change, further: of the rates in one iteration and in the next, (n_v, 1).
-        row: of a matrix of derivatives, (n_free,).
-        base, base_slope: a stage's state but for its own rates, and its slope, (n_x,) and (n_x, n_free).
-        states, rates, rate_slopes: of every stage, (stages, n_x), (stages, n_x) and (stages, n_x, n_free).
+        packed: arguments of the equations: state, rates, inputs, parameters, h g.
+        u: view of the inputs in ``packed``.
+        out: results of the equations.
+        matrix, pivots: factorised matrix of Newton's method, (n_v, n_v) and (n_v,).
+        change, further: change of the rates in one iteration and in the next, (n_v, 1).
+        row: row of a matrix of derivatives, (n_free,).
+        base, base_sensitivity: state of a stage without the contribution of its rates, and its sensitivity, (n_x,) and
+            (n_x, n_free).
+        states, rates, rate_sensitivities: values of every stage, (stages, n_x), (stages, n_x) and
+            (stages, n_x, n_free).
     """
 
     packed: Array
@@ -81,7 +84,7 @@ class Work(NamedTuple):
 
 @compiled
 def work_for(problem, n_x, n_free, stages):  # type: ignore[no-untyped-def]
-    """Arrays for one integration."""
+    """Allocate the arrays for one integration."""
     n_v, n_u, n_p = n_x - problem.n_joints, problem.inputs.shape[1], problem.p.size
     packed = np.zeros(n_x + n_v + n_u + n_p + 1)
     packed[n_x + n_v + n_u : -1] = problem.p
@@ -106,8 +109,8 @@ def work_for(problem, n_x, n_free, stages):  # type: ignore[no-untyped-def]
 def inputs_at(begin, t, times, values, u):  # type: ignore[no-untyped-def]
     """Write into ``u`` the inputs at ``t``: linear between the rows, held before the first and after the last.
 
-    ``begin`` is the start of the step that ``t`` is in: where two rows of one time make a jump, a step that ends there
-    still has the inputs before it.
+    ``begin`` is the start of the step that contains ``t``: a step that ends at a jump, two rows with equal times, uses
+    the inputs before the jump.
     """
     last = times.size - 1
     k = min(max(np.searchsorted(times, begin, side="right") - 1, 0), last)
@@ -120,6 +123,6 @@ def inputs_at(begin, t, times, values, u):  # type: ignore[no-untyped-def]
 
 @compiled
 def jumps_at(t, times):  # type: ignore[no-untyped-def]
-    """Whether two rows have the time ``t``."""
+    """Return whether two rows have the time ``t``."""
     k = np.searchsorted(times, t, side="right") - 1
     return k > 0 and times[k] == t and times[k - 1] == t

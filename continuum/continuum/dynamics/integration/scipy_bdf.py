@@ -27,15 +27,16 @@ def simulate_bdf(
     """Simulate with SciPy's BDF.
 
     Args:
-        model: what to simulate.
-        initial: whole state, or joint angles alone [rad].
+        model: the model to simulate.
+        initial: complete state, or joint angles alone [rad].
         times: output times, (n_times,) [s].
-        inputs: what drives the arm; nothing without.
-        tolerances: the thesis's without.
-        equations: compiled rates and their exact Jacobian; without, the rates in NumPy, differences for the Jacobian.
+        inputs: inputs that drive the arm; None drives it with nothing.
+        tolerances: tolerances of the integration; None uses those of the thesis.
+        equations: compiled rates and their exact Jacobian; None uses NumPy for the rates and finite differences for
+            the Jacobian.
 
     Raises:
-        InvalidValueError: a state or times that are not allowed, or inputs that the model does not take.
+        InvalidValueError: the state or the times are not allowed, or the inputs do not suit the model.
     """
     x0, times = initial_state(model, initial), output_times(times)
     drive, limits = suitable_inputs(model, inputs), tolerances or Tolerances()
@@ -55,7 +56,7 @@ def simulate_bdf(
             atol=limits.absolute,
             max_step=limits.max_step,
         )
-    except ValueError:  # linear algebra was given what is not finite, or singular
+    except ValueError:  # linear algebra met a matrix that is not finite or singular
         return Trajectory(SimulationStatus.NOT_FINITE, times, nothing, model.n_joints, 0, 0, no_sensitivities)
     status = SimulationStatus.COMPLETE if done.success else SimulationStatus.STEP_TOO_SMALL
     states = nothing

@@ -1,11 +1,11 @@
 """One implicit stage: find the rates v at which the equations hold, the state being x = base + h g (rates).
 
 The state is x = (theta, theta', z), its rates are (theta', v) with v = (theta'', z'). Eliminating theta leaves one
-matrix of the size of v: dr/dv + h g dr/d(theta', z) + (h g)^2 dr/dtheta. It is exact, and kept, from stage to stage
-of a step too, as long as the iteration converges fast with it: the residual alone costs a fraction of it.
+matrix of the size of v: dr/dv + h g dr/d(theta', z) + (h g)^2 dr/dtheta. It is exact, and is reused between iterations
+and between the stages of a step as long as the iteration converges fast: a residual costs a fraction of a matrix.
 
-Dry friction saturates, so that a full step away from a stuck joint would overshoot without end: a step is shortened
-until the one that follows with the same matrix is shorter (natural monotonicity test: Deuflhard, Newton Methods for
+Dry friction saturates, so that full steps away from a stuck joint would overshoot forever. A step is therefore
+shortened until the next step with the same matrix is shorter (natural monotonicity test: Deuflhard, Newton Methods for
 Nonlinear Problems, 2004, section 3.3).
 """
 
@@ -17,16 +17,16 @@ from continuum.dynamics.integration.compiled_loops import call_at, compiled
 from continuum.dynamics.integration.linear_solve import factorise, solve_factorised
 
 _MOST_ITERATIONS = 8  # matrices
-_FAST = 0.4  # a change this much smaller than the one before it
-_SOLVED = 0.01  # a change of the state this small, in units of the tolerance
-_LEAST_SHARE = 0.05  # of a step
-_MOST_SHORTENED, _LEAST_SHORTENED = 0.1, 0.5  # factors
-_DONE, _SLOW, _STUCK = range(3)  # how steps with one matrix end
+_FAST = 0.4  # fast convergence: each change is smaller than this fraction of the previous one
+_SOLVED = 0.01  # change of the state that ends the iteration, in units of the tolerance
+_LEAST_SHARE = 0.05  # smallest fraction of a step
+_MOST_SHORTENED, _LEAST_SHORTENED = 0.1, 0.5  # limits of the factor that shortens a step
+_DONE, _SLOW, _STUCK = range(3)  # outcomes of the steps with one matrix
 
 
 @compiled
 def place_stage(packed, base, v, hg, n):  # type: ignore[no-untyped-def]
-    """Write the state and its rates into ``packed``, which the equations read."""
+    """Write the state and its rates into ``packed``, the argument of the equations."""
     n_v = v.size
     for r in range(n_v):
         packed[n + r] = base[n + r] + hg * v[r]
@@ -37,7 +37,7 @@ def place_stage(packed, base, v, hg, n):  # type: ignore[no-untyped-def]
 
 @compiled
 def factorise_stage_matrix(out, matrix, pivots):  # type: ignore[no-untyped-def]
-    """The matrix above, which stands in ``out`` by columns after r; whether it has an inverse."""
+    """Factorise the stage matrix, stored by columns in ``out`` after r; return whether it is regular."""
     n_v = pivots.size
     for c in range(n_v):
         for r in range(n_v):
@@ -47,11 +47,13 @@ def factorise_stage_matrix(out, matrix, pivots):  # type: ignore[no-untyped-def]
 
 @compiled
 def solve_stage(problem, method, work, base, v, hg, matrix_serves):  # type: ignore[no-untyped-def]
-    """Newton's method from the guess ``v``, which becomes the answer; whether it converged, ``work.packed`` then too.
+    """Solve by Newton's method from the guess ``v``, in place; return whether it converged.
+
+    After convergence ``work.packed`` holds the solution too.
 
     Args:
-        problem, method, work: see there.
-        base: the state but for these rates, (n_x,).
+        problem, method, work: see `Problem`, `Method` and `Work`.
+        base: the state without the contribution of these rates, (n_x,).
         v: rates, (n_v,).
         hg: h g [s].
         matrix_serves: whether ``work`` holds the matrix of another stage with the same ``hg``.
@@ -79,7 +81,7 @@ def solve_stage(problem, method, work, base, v, hg, matrix_serves):  # type: ign
 
 @compiled
 def _follow(problem, method, work, base, v, hg):  # type: ignore[no-untyped-def]
-    """Take the step ``work.change`` and those that follow with the same matrix, while they get shorter fast."""
+    """Take the step ``work.change`` and further steps with the same matrix while they converge fast."""
     n, packed, out, step, further = problem.n_joints, work.packed, work.out, work.change, work.further
     share, change = 1.0, _size(step, packed, hg, n, method)
     if not np.isfinite(change):
@@ -109,7 +111,7 @@ def _follow(problem, method, work, base, v, hg):  # type: ignore[no-untyped-def]
 
 @compiled
 def _stopped(packed, step, base, v, hg, n):  # type: ignore[no-untyped-def]
-    """Let joints that a step turns back stop instead; whether there are any."""
+    """Stop the joints whose motion a step would reverse; return whether there are any."""
     any_stopped = False
     for r in range(n):
         now = packed[n + r]
@@ -121,7 +123,7 @@ def _stopped(packed, step, base, v, hg, n):  # type: ignore[no-untyped-def]
 
 @compiled
 def _size(step, packed, hg, n, method):  # type: ignore[no-untyped-def]
-    """Largest change of the state by a step of the rates, in units of the tolerance."""
+    """Return the largest change of the state by a step of the rates, in units of the tolerance."""
     largest = 0.0
     for r in range(step.shape[0]):
         if not np.isfinite(step[r, 0]):
@@ -133,7 +135,7 @@ def _size(step, packed, hg, n, method):  # type: ignore[no-untyped-def]
 
 @compiled
 def _shortened(step, further):  # type: ignore[no-untyped-def]
-    """Factor that leads to the root of a straight line along the step."""
+    """Return the factor to the root of a straight line along the step, within its limits."""
     along = length = 0.0
     for r in range(step.shape[0]):
         along += step[r, 0] * further[r, 0]

@@ -1,4 +1,4 @@
-"""How long a step is: by the estimated errors of those before it, and by where a step has to end."""
+"""Control of the step size, by the estimated errors of previous steps and by times at which a step has to end."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from continuum.dynamics.integration.compiled_loops import compiled
 FIRST_STEP = 1e-4  # [s]
 _SAFETY, _GROWTH, _SHRINK = 0.9, 3.0, 0.2
 _PROPORTIONAL, _INTEGRAL = 0.7, 0.3
-_SMALL = 1e-4  # an error this small, in units of the tolerance, tells no more
+_SMALL = 1e-4  # smaller errors, in units of the tolerance, carry no more information
 
 
 @compiled
@@ -26,7 +26,7 @@ def error_size(step, weights, rates, x, new, relative, absolute):  # type: ignor
 
 @compiled
 def shorter(step, size, order):  # type: ignore[no-untyped-def]
-    """The step to try after one that was refused; ``size`` is not finite where its stages were not solved."""
+    """Return the step to try after a refused one; ``size`` is not finite if its stages were not solved."""
     if not np.isfinite(size):
         return 0.25 * step
     return step * max(_SHRINK, _SAFETY * size ** (-1.0 / order))
@@ -34,12 +34,12 @@ def shorter(step, size, order):  # type: ignore[no-untyped-def]
 
 @compiled
 def longer(step, size, size_before, order, just_refused):  # type: ignore[no-untyped-def]
-    """The step after one that was taken: proportional-integral control (Gustafsson 1991), no growth after a refusal.
+    """Return the next step by proportional-integral control (Gustafsson 1991), without growth after a refusal.
 
     Args:
-        step: that was taken [s].
-        size, size_before: of its error and of the error of the step before.
-        order: of the method.
+        step: the accepted step [s].
+        size, size_before: error sizes of this step and of the previous one.
+        order: order of the method.
         just_refused: whether the step had to be repeated.
     """
     errors = max(size, _SMALL) ** -_PROPORTIONAL * max(size_before, _SMALL) ** _INTEGRAL
@@ -49,7 +49,7 @@ def longer(step, size, size_before, order, just_refused):  # type: ignore[no-unt
 
 @compiled
 def step_towards(stop, t, wanted):  # type: ignore[no-untyped-def]
-    """Length of a step, and whether it ends at ``stop``: two equal ones rather than a long and a tiny one."""
+    """Return the length of a step, and whether it ends at ``stop``; avoids a tiny last step by two equal ones."""
     left = stop - t
     if wanted >= left * (1 - 1e-10):
         return left, True

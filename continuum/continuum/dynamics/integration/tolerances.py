@@ -1,4 +1,4 @@
-"""How exact an integration shall be."""
+"""Tolerances of an integration."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from continuum.errors import InvalidValueError
 
 @dataclass(frozen=True)
 class Tolerances:
-    """By default the thesis's (chapter 3.2).
+    """Tolerances of an integration; the defaults are those of the thesis (chapter 3.2).
 
     Attributes:
-        relative, absolute: local error allowed, the latter in the state's units [rad, rad/s].
+        relative, absolute: allowed local error, the latter in the units of the state [rad, rad/s].
         max_step: longest step [s].
-        most_steps: between two outputs; a simulation that needs more has failed.
+        most_steps: most steps between two outputs; a simulation that needs more fails.
     """
 
     relative: float = 1e-4

@@ -1,1 +1,1 @@
-"""An arm that is simulated interval by interval while it is commanded, for nodes and emulators; free of clocks."""
+"""Simulation of an arm interval by interval under commands, for nodes and emulators; independent of any clock."""

@@ -1,13 +1,13 @@
-"""The two integrators, interval by interval: the fast one, and SciPy's BDF, which is not started again at each.
+"""The two integrators, interval by interval: the fast one, and SciPy's BDF without a restart in each interval.
 
-ESDIRK is a one-step method, which loses nothing by starting again at each interval. BDF is a multistep method: started
-again for every interval of 1/120 s it starts over at order 1 with tiny steps. Hence one solver object lives on and only
-the time up to which it may step is moved, so that its last step in an interval ends with it. Kinks of the tension,
-where it begins or stops to change, are left to the solver's error control. It is started again where state or tension
-jump: after a reset or a release.
+ESDIRK is a one-step method, which loses nothing by a restart in each interval. BDF is a multistep method: restarted in
+every interval of 1/120 s, it would begin at order 1 with tiny steps each time. One solver object therefore persists,
+and only its end time advances, so that its last step in an interval ends with the interval. Kinks of the tension, where
+it starts or stops changing, are left to the solver's error control. The solver restarts where state or tension jump:
+after a reset or a release.
 
-Measured on the prototype, processor time for a second of simulated time at 120 intervals a second and the thesis's
-tolerances, largest error of an angle against a converged solution:
+Measured on the prototype: processor time for one second of simulated time at 120 intervals a second and the thesis's
+tolerances, and the largest error of an angle against a converged solution:
 
 ============================  ================  ==================  ==================
 one core                      release from 90°  tension of 0.7 Hz   straight, at rest
@@ -36,18 +36,18 @@ from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
 
 _MOST_STEPS = 3000
-"""In one interval; more of them help nobody who waits for it."""
+"""Most steps in one interval; more would take too long for a live simulation."""
 
 _REACHED = 1e-6
-"""Share of an interval that is not worth a step of its own."""
+"""Fraction of an interval that needs no separate step."""
 
 
 class EsdirkStepper:
-    """The fast integrator; compiles the model's equations when it is made.
+    """The fast integrator; compiles the model's equations on construction.
 
     Args:
-        model: what to simulate.
-        tolerances: of integration.
+        model: the model to simulate.
+        tolerances: tolerances of the integration.
     """
 
     def __init__(self, model: Model, tolerances: Tolerances) -> None:
@@ -62,11 +62,11 @@ class EsdirkStepper:
 
 
 class BdfStepper:
-    """SciPy's BDF, which lives on; compiles the model's equations when it is made.
+    """SciPy's BDF, which persists between intervals; compiles the model's equations on construction.
 
     Args:
-        model: what to simulate.
-        tolerances: of integration.
+        model: the model to simulate.
+        tolerances: tolerances of the integration.
     """
 
     def __init__(self, model: Model, tolerances: Tolerances) -> None:
@@ -83,11 +83,11 @@ class BdfStepper:
         self._interval = interval
         end = self._begin + interval.duration
         try:
-            with np.errstate(all="ignore"):  # the status tells
+            with np.errstate(all="ignore"):  # the status reports it
                 if not goes_on:
                     self._solver = self._new_solver(x, end)
                 status = self._step_to(end)
-        except ValueError:  # SciPy's linear algebra was given what is not finite
+        except ValueError:  # SciPy's linear algebra met values that are not finite
             status = SimulationStatus.NOT_FINITE
         if status is not SimulationStatus.COMPLETE:
             self._solver = None
@@ -95,7 +95,7 @@ class BdfStepper:
         return status, np.asarray(self._solver.y)
 
     def _goes_on(self, x: Array, interval: Interval) -> bool:
-        """Whether the interval continues the one before."""
+        """Return whether the interval continues the previous one."""
         same_tension = np.array_equal(interval.before, self._interval.after)
         return self._solver is not None and same_tension and np.array_equal(x, self._solver.y)
 
@@ -111,7 +111,7 @@ class BdfStepper:
             atol=limits.absolute,
             max_step=limits.max_step,
         )
-        # The same LAPACK as SciPy's lu_factor and lu_solve, whose checks take far longer than these small systems.
+        # The LAPACK routines of SciPy's lu_factor and lu_solve, whose checks take far longer than these small systems.
         solver.lu = dgetrf
         solver.solve_lu = lambda factors, b: dgetrs(*factors[:2], b)[0]
         return solver
@@ -128,6 +128,6 @@ class BdfStepper:
         return SimulationStatus.STEP_TOO_SMALL
 
     def _tension(self, t: float) -> Array:
-        """Of each cable at the solver's time ``t`` [s], (n_cables,) [N]."""
+        """Return the tension of each cable at the solver's time ``t`` [s], (n_cables,) [N]."""
         now = self._interval
         return now.before + (now.after - now.before) * min(max((t - self._begin) / now.duration, 0.0), 1.0)

@@ -1,4 +1,4 @@
-"""A simulated arm that is moved on interval by interval: its state, and what one would measure of it."""
+"""A simulated arm that advances interval by interval: its state and its measurable quantities."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
 
 INTEGRATORS: dict[str, type[BdfStepper] | type[EsdirkStepper]] = {"bdf": BdfStepper, "esdirk": EsdirkStepper}
-"""By the names that users give: the thesis's method, and the fast one."""
+"""Integrators by the names in user settings: the thesis's method, and the fast one."""
 
 
 class LiveArm:
-    """Compiles the model's equations, which may take seconds, and rests in a posture until it is advanced.
+    """A simulated arm at rest in a posture until `advance` moves it; its construction may take seconds to compile.
 
     Args:
-        model: what to simulate, with any effects.
-        posture: joint angles at the start, (n,) [rad], or a whole state, as `initial_state` takes it.
+        model: the model to simulate, with any effects.
+        posture: joint angles at the start, (n,) [rad], or a complete state, as in `initial_state`.
         integrator: one of `INTEGRATORS`.
-        tolerances: of integration; the thesis's without.
+        tolerances: tolerances of the integration; None uses those of the thesis.
 
     Attributes:
         state: joint angles, joint rates, states of effects, (n_x,) [rad, rad/s, ...].
 
     Raises:
-        InvalidValueError: an unknown integrator, a model that joint torques drive, a posture of another size, or one
-            from which no motion is found.
+        InvalidValueError: the integrator is unknown, joint torques drive the model, the posture has the wrong size, or
+            no motion is found from it.
         CompilerError: the model's equations cannot be compiled.
     """
 
@@ -41,25 +41,27 @@ class LiveArm:
     ) -> None:
         if integrator not in INTEGRATORS:
             raise InvalidValueError("integrator", integrator, "one of " + ", ".join(INTEGRATORS))
-        model.require_cables("an arm that is pulled while it is simulated")
+        model.require_cables("a live simulation with cable commands")
         self._model = model
         self.place(posture)
         self._stepper: Stepper = INTEGRATORS[integrator](model, tolerances or Tolerances())
         slack = np.zeros(len(SIDES))
-        status, _ = self._stepper.advance(self.state, Interval(1e-3, slack, slack))  # compiles what is not compiled yet
+        status, _ = self._stepper.advance(self.state, Interval(1e-3, slack, slack))  # compiles the remaining code
         if status is not SimulationStatus.COMPLETE:
-            raise InvalidValueError("posture", self.angles.tolist(), f"one that the model can leave; {status.value}")
+            raise InvalidValueError(
+                "posture", self.angles.tolist(), f"one from which the model can move; {status.value}"
+            )
 
     def place(self, posture: object) -> None:
-        """Put the arm into a posture, at rest where only joint angles are given.
+        """Place the arm in a posture; joint angles alone place it at rest.
 
         Raises:
-            InvalidValueError: another size, or not finite.
+            InvalidValueError: the posture has the wrong size or is not finite.
         """
         self.state = initial_state(self._model, posture)
 
     def advance(self, interval: Interval) -> SimulationStatus:
-        """Move on; unless the status is COMPLETE the arm stays where it is."""
+        """Advance by one interval; unless the status is COMPLETE, the state does not change."""
         status, reached = self._stepper.advance(self.state, interval)
         if status is SimulationStatus.COMPLETE:
             self.state = reached
@@ -67,21 +69,21 @@ class LiveArm:
 
     @property
     def angles(self) -> Array:
-        """Of the joints, (n,) [rad]."""
+        """Joint angles, (n,) [rad]."""
         return self.state[: self._model.n_joints]
 
     @property
     def rates(self) -> Array:
-        """Of the joints, (n,) [rad/s]."""
+        """Joint rates, (n,) [rad/s]."""
         n = self._model.n_joints
         return self.state[n : 2 * n]
 
     @property
     def cable_lengths(self) -> Array:
-        """Of each cable from the base plate to the last disc, (n_cables,) [m]."""
+        """Length of each cable from the base plate to the last disc, (n_cables,) [m]."""
         return cable_lengths(self.angles, self._model.parameters)
 
     @property
     def cable_rates(self) -> Array:
-        """Their rates, positive when a cable gets longer, (n_cables,) [m/s]."""
+        """Rate of each cable length, positive when the cable gets longer, (n_cables,) [m/s]."""
         return cable_rates(self.angles, self.rates, self._model.parameters)

@@ -1,4 +1,4 @@
-"""What moves a simulated arm on by one interval."""
+"""Interface of the integrators that advance a simulated arm by one interval."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from continuum.dynamics.trajectory import SimulationStatus
 
 @dataclass(frozen=True)
 class Interval:
-    """A short time in which the tensions change linearly.
+    """A short time interval in which the tensions change linearly.
 
     Attributes:
-        duration: [s], > 0.
-        before, after: tension of each cable at its start and at its end, (n_cables,) [N].
+        duration: length of the interval [s], > 0.
+        before, after: tension of each cable at the start and at the end of the interval, (n_cables,) [N].
     """
 
     duration: float
@@ -24,8 +24,8 @@ class Interval:
 
 
 class Stepper(Protocol):
-    """An integrator, called for one interval after the other."""
+    """An integrator that is called for consecutive intervals."""
 
     def advance(self, x: Array, interval: Interval) -> tuple[SimulationStatus, Array]:
-        """State (n_x,) [rad, rad/s, ...] at the end of the interval; to be used where the status is COMPLETE."""
+        """Return the status and the state (n_x,) [rad, rad/s, ...] at the end, valid if the status is COMPLETE."""
         ...

@@ -1,4 +1,4 @@
-"""From tension commands to the tension that pulls: bounded, no faster than allowed, slack when commands stop coming."""
+"""Applied tension from tension commands: limited in size and rate, and slack when commands stop."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from continuum.dynamics.live.stepper import Interval
 
 @dataclass(frozen=True)
 class TensionLimits:
-    """What commands may ask for, and what happens without them.
+    """Limits of the commands, and the reaction to missing commands.
 
     Attributes:
-        max_tension: of each cable [N].
-        max_rate: of a commanded change [N/s].
-        patience: time without a command after which the cables are let go [s].
-        slack_time: time in which they are then slack [s]: each tension falls linearly; 0 for at once.
+        max_tension: largest tension of each cable [N].
+        max_rate: largest rate of a commanded change [N/s].
+        patience: time without a command after which the cables are released [s].
+        slack_time: duration of the release [s]: each tension falls linearly to zero; 0 releases at once.
     """
 
     max_tension: float
@@ -28,15 +28,15 @@ class TensionLimits:
 
 
 class TensionLimiter:
-    """The tensions of the cables over time. Times [s] are of any one clock that does not go back.
+    """The tensions of the cables over time. Times [s] are those of one monotonic clock.
 
     Args:
-        limits: of tension.
+        limits: limits of the tensions.
         n_cables: number of cables.
 
     Attributes:
-        tension: of each cable now, (n_cables,) [N].
-        abandoned: a tight cable was let go, as commands stopped coming; False again with the next one.
+        tension: current tension of each cable, (n_cables,) [N].
+        abandoned: whether a tight cable was released because commands stopped; the next command resets it.
     """
 
     def __init__(self, limits: TensionLimits, n_cables: int) -> None:
@@ -45,7 +45,7 @@ class TensionLimiter:
         self.release()
 
     def release(self) -> None:
-        """Slack at once; what was commanded is forgotten."""
+        """Make the cables slack at once and discard the last command."""
         self.tension = self._slack
         self._goal = self._slack
         self._rate = np.full_like(self._slack, self._limits.max_rate)  # of change [N/s]
@@ -53,14 +53,14 @@ class TensionLimiter:
         self.abandoned = False
 
     def command(self, wanted: Array, now: float) -> None:
-        """Go for tensions (n_cables,) [N], finite and none negative; those above the limit mean the limit."""
+        """Set the goal tensions (n_cables,) [N], finite and not negative; they are clipped to the limit."""
         self._goal = np.minimum(wanted, self._limits.max_tension)
         self._rate = np.full_like(self._slack, self._limits.max_rate)
         self._received = now
         self.abandoned = False
 
     def abandon(self) -> None:
-        """Let go of the cables: slack within the slack time, unless a command comes."""
+        """Release the cables within the slack time, unless a new command arrives."""
         if self.tight and not self.abandoned:
             self.abandoned = True
             self._goal = self._slack
@@ -70,11 +70,11 @@ class TensionLimiter:
                 self.tension = self._slack
 
     def forget_time(self) -> None:
-        """The clock went back: who commanded has to do so again, or the cables are let go."""
+        """Discard the time of the last command after the clock went back: without a new one the cables are released."""
         self._received = -np.inf
 
     def move_on(self, now: float, duration: float) -> Interval:
-        """The tensions from ``now`` on for a ``duration`` [s], which then are those of the follower."""
+        """Advance the tensions by ``duration`` [s] from the time ``now`` [s] and return their interval."""
         if now - self._received > self._limits.patience:
             self.abandon()
         before, most = self.tension, self._rate * duration
@@ -83,5 +83,5 @@ class TensionLimiter:
 
     @property
     def tight(self) -> bool:
-        """Whether a cable pulls, or is to pull."""
+        """Whether a cable is under tension or commanded to be."""
         return bool(np.any(self.tension > 0) or np.any(self._goal > 0))

@@ -7,12 +7,12 @@ cable_tension.py         Eqs. 14, 15: B tension_propagation, wrap_angles; Eq. 16
                          Eq. 17: J_s serial_jacobian, serial_jacobian_transposed_times;
                          Eq. 12, right-hand side: cable_torque; Eq. 8 in the plane: chord_lengths
 balance.py               Eq. 12, the sum: torque_balance, rigid_body_torque
-instant.py               what these terms see: Motion, Instant
+instant.py               arguments of these terms: Motion, Instant
 =======================  =====================================================================================
 
-Eq. 18, the state space, is `numpy_state_space` of `continuum.dynamics.balance`, where effects add to the sum.
+Eq. 18, the state space form, is `numpy_state_space` in `continuum.dynamics.balance`, where effects add to the sum.
 
-The plane: z points along the straight arm, as in `base_link`, x to the side towards which positive angles bend; a
-link's absolute angle is the sum of the joint angles up to it, and moments turn z towards x. Every function takes
+In the plane, z points along the straight arm, as in `base_link`, and x to the side of positive bends. The absolute
+angle of a link is the sum of the joint angles up to it, and positive moments rotate z towards x. Every function accepts
 floats or symbols (`continuum.dynamics.expressions`).
 """

@@ -1,6 +1,6 @@
-"""Thesis Eq. 12, whole: M theta'' + C theta' + K (theta - theta_0) + G + F - J_s^T W B u - tau, zero when it holds.
+"""Sum of thesis Eq. 12: M theta'' + C theta' + K (theta - theta_0) + G + F - J_s^T W B u - tau, which must be zero.
 
-tau are torques of drives at the joints, which the thesis's arm has not.
+tau is the torque of drives at the joints, which the thesis's arm does not have.
 Integrators, statics, inverse dynamics and fits all call this one sum.
 """
 
@@ -36,7 +36,7 @@ def rigid_body_torque(now: Instant) -> Numbers:
 
 
 def link_torque(now: Instant) -> Numbers:
-    """That of the links alone, (n,) [N m]; formed in their absolute angles, which a turning base moves too."""
+    """The same sum for the links alone, (n,) [N m], in their absolute angles, which include a rotation of the base."""
     move, p = now.motion, now.p
     return suffix_sum(
         link_inertia_times(move.link_angle, move.link_acceleration, p)

@@ -1,7 +1,7 @@
-"""The two cables of a planar section: where they run, and the torque J_s^T W B u that they make (Eqs. 12, 14 to 17).
+"""The two cables of a planar section: their course, and the torque J_s^T W B u that they exert (Eqs. 12, 14 to 17).
 
-Cable 1 runs at x = +a and bends the arm towards positive angles, cable 2 at x = -a. Its chord in a module whose joint
-stands at theta is l = 2 (b cos(theta / 2) - side a sin(theta / 2)): Eq. 8 in the plane, with one joint.
+Cable 1 runs at x = +a and bends the arm towards positive angles, cable 2 at x = -a. The chord of a cable in a module
+with joint angle theta is l = 2 (b cos(theta / 2) - side a sin(theta / 2)): Eq. 8 in the plane, with one joint.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def chord_lengths(theta: Numbers, p: Parameters) -> Numbers:
 
 
 def chord_jacobian(theta: Numbers, p: Parameters) -> Numbers:
-    """d l / d theta of the same, (n, n_cables) [m/rad]."""
+    """d l / d theta of `chord_lengths`, (n, n_cables) [m/rad]."""
     half = theta[:, None] / 2
     return -(p.half_spacing[:, None] * np.sin(half) + SIDES * p.hole_radius[:, None] * np.cos(half))
 
@@ -35,16 +35,16 @@ def cable_lengths(theta: Array, p: Parameters) -> Array:
 
 
 def cable_rates(theta: Array, rate: Array, p: Parameters) -> Array:
-    """Their rates, positive when a cable gets longer, (n_cables,) [m/s]."""
+    """Rate of each cable length, positive when the cable gets longer, (n_cables,) [m/s]."""
     return np.asarray(rate @ chord_jacobian(theta, p))
 
 
 def cable_torque(move: Motion, u: Numbers, p: Parameters) -> Numbers:
-    """Right-hand side of Eq. 12, J_s^T W B u, (n,) [N m]; nothing where the arm has no cables.
+    """Right-hand side of Eq. 12, J_s^T W B u, (n,) [N m]; zero for an arm without cables.
 
     Args:
-        move: of the joints and links.
-        u: tension of each cable at the base, (n_cables,) [N]; below 0 there is none, a cable cannot push.
+        move: motion of the joints and links.
+        u: tension of each cable at the base, (n_cables,) [N]; values below 0 count as 0, because a cable cannot push.
         p: parameters.
     """
     if not p.has_cables:
@@ -54,14 +54,14 @@ def cable_torque(move: Motion, u: Numbers, p: Parameters) -> Numbers:
 
 
 def tension_propagation(theta: Numbers, slip_rate: Numbers, p: Parameters) -> Numbers:
-    """Eqs. 14 and 15, B(theta, theta'): tension in each module for one newton at the base, (n, n_cables).
+    """Eqs. 14 and 15, B(theta, theta'): tension in each module for a tension of 1 N at the base, (n, n_cables).
 
-    At every disc a cable loses or gains by the capstan law T_(i+1) = T_i exp(-+ mu_c wrap). The loss follows the
-    cable's motion over that very disc: where the cable beyond it grows shorter, tension falls towards the tip, as
-    printed; where it grows longer, tension rises.
+    At every disc the tension changes by the capstan law T_(i+1) = T_i exp(-+ mu_c wrap). The sign depends on the
+    cable's motion over that disc: where the cable beyond the disc gets shorter, tension falls towards the tip, as
+    printed; where it gets longer, tension rises.
 
     Args:
-        theta, slip_rate: of the joints, (n,) [rad, rad/s].
+        theta, slip_rate: angles and rates of the joints, (n,) [rad, rad/s].
         p: parameters.
     """
     taken_in = -suffix_sum(chord_jacobian(theta, p) * slip_rate[:, None])  # cable speed over each disc [m/s]
@@ -70,10 +70,10 @@ def tension_propagation(theta: Numbers, slip_rate: Numbers, p: Parameters) -> Nu
 
 
 def wrap_angles(theta: Numbers) -> Numbers:
-    """Wrap of Eq. 14: angle by which a cable turns at the base plate and at each disc but the last, (n,) [rad].
+    """Wrap angle of Eq. 14: the deflection of a cable at the base plate and at each disc but the last, (n,) [rad].
 
-    It is an absolute value: half the first joint's angle at the base plate, half the sum of its two joints' angles at
-    disc i, which adds up to the printed theta_1 + ... + theta_i / 2 for an arm bent to one side.
+    It is an absolute value: half the first joint's angle at the base plate, and half the sum of the angles of its two
+    joints at a disc. These add up to the printed theta_1 + ... + theta_i / 2 for an arm bent to one side.
     """
     before = np.concatenate([np.zeros(1), theta[:-1]])
     return np.abs(before + theta) / 2
@@ -83,14 +83,14 @@ def link_wrenches(tensions: Numbers, theta: Numbers, p: Parameters) -> Numbers:
     """Eq. 16, W T: (F_x, F_z, M) on each link, at its disc's centre, in its own frame, (n, 3) [N, N, N m].
 
     A cable pulls a disc backwards along the chord of module i and forwards along that of module i + 1. By symmetry a
-    chord is parallel to the bisector of its two links, so it leans by half the joint's angle. Compared with the printed
-    matrix the signs are those of this plane (z along the link, moments from z to x); that J_s^T W B u is the virtual
-    work of the cables is tested. A link longer than b_i + b_(i+1) has two discs; what pulls at the further one is told
-    at the nearer one.
+    chord is parallel to the bisector of its two links, so it is inclined by half the joint's angle. In contrast to the
+    printed matrix, the signs are those of this plane (z along the link, moments from z to x); a test verifies that
+    J_s^T W B u is the virtual work of the cables. A link longer than b_i + b_(i+1) has two discs; the wrench at the
+    further disc is expressed at the nearer one.
 
     Args:
-        tensions: T = B u, of each cable in each module, (n, n_cables) [N].
-        theta: of the joints, (n,) [rad].
+        tensions: T = B u, the tension of each cable in each module, (n, n_cables) [N].
+        theta: angles of the joints, (n,) [rad].
         p: parameters.
     """
     sine, cosine, a = np.sin(theta / 2), np.cos(theta / 2), p.hole_radius
@@ -98,16 +98,16 @@ def link_wrenches(tensions: Numbers, theta: Numbers, p: Parameters) -> Numbers:
     twist = (tensions * SIDES).sum(axis=1)
     module = np.stack([pull * sine, pull * cosine, twist * a * cosine], axis=1)
     beyond = np.concatenate([module[1:], np.zeros((1, 3))])  # the cables end at the last disc
-    further = p.disc_gap * beyond[:, 0]  # a lever longer by the gap
+    further = p.disc_gap * beyond[:, 0]  # the gap lengthens the lever
     at_disc = np.stack([np.zeros_like(further), np.zeros_like(further), further], axis=1)
     return module * np.array([1.0, -1.0, 1.0]) + beyond * np.array([1.0, 1.0, -1.0]) + at_disc
 
 
 def serial_jacobian_transposed_times(wrenches: Numbers, link_angle: Numbers, p: Parameters) -> Numbers:
-    """Eq. 17, J_s^T F of wrenches at the discs' centres in the links' own frames, (n,) [N m].
+    """Eq. 17, J_s^T F for wrenches at the discs' centres in the frames of the links, (n,) [N m].
 
-    Joint k moves disc i >= k by the lever from the joint to the disc, across it. Written as the sum that the block
-    matrix means: what lies beyond a joint pushes on it through that joint's link.
+    Joint k moves disc i >= k perpendicularly to the lever from the joint to the disc. The function evaluates the
+    product with the block matrix as a sum: the forces beyond a joint act on it through the link of that joint.
 
     Args:
         wrenches: (F_x, F_z, M) of each link, (n, 3) [N, N, N m].
@@ -122,7 +122,7 @@ def serial_jacobian_transposed_times(wrenches: Numbers, link_angle: Numbers, p: 
 
 
 def turned(vectors: Numbers, angle: Numbers) -> Numbers:
-    """Vectors (n, 2) in (x, z), each turned by its angle (n,) [rad] from z towards x."""
+    """Rotate vectors (n, 2) in (x, z), each by its angle (n,) [rad] from z towards x."""
     x, z = vectors[:, 0], vectors[:, 1]
     return np.stack([np.cos(angle) * x + np.sin(angle) * z, np.cos(angle) * z - np.sin(angle) * x], axis=1)
 
@@ -130,7 +130,7 @@ def turned(vectors: Numbers, angle: Numbers) -> Numbers:
 def serial_jacobian(link_angle: Numbers, p: Parameters) -> Numbers:
     """Eq. 17, J_s, (3 n, n): motion (x, z, angle) of every disc, in its link's frame, for a unit rate of every joint.
 
-    It is upper triangular by blocks, as printed.
+    As printed, it is block upper triangular.
     """
     n = p.n_joints
     unit = np.eye(3 * n).reshape(3 * n, n, 3)

@@ -1,4 +1,4 @@
-"""What the terms of Eq. 12 see of an instant: motion, cable tensions, joint torques, and the parameters that hold."""
+"""Arguments of the terms of Eq. 12 at one instant: motion, cable tensions, joint torques and parameters."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from continuum.dynamics.parameters import Parameters
 
 @dataclass(frozen=True)
 class Motion:
-    """Position, speed and acceleration of a planar chain: relative joint angles, and the links' absolute ones.
+    """Position, speed and acceleration of a planar chain, in relative joint angles and absolute link angles.
 
     Attributes:
-        theta, theta_rate, theta_acceleration: of the joints, (n,) [rad, rad/s, rad/s2].
-        base_angle, base_rate, base_acceleration: turn of the base plate itself, (1,); zero unless an effect turns it.
+        theta, theta_rate, theta_acceleration: motion of the joints, (n,) [rad, rad/s, rad/s2].
+        base_angle, base_rate, base_acceleration: rotation of the base plate, (1,) [rad, rad/s, rad/s2]; zero unless an
+            effect rotates it.
     """
 
     theta: Numbers
@@ -28,7 +29,7 @@ class Motion:
 
     @property
     def slip_rate(self) -> Numbers:
-        """Joint rates as dry friction and its sign see them, (n,) [rad/s]; given while motion is estimated."""
+        """Joint rates in the dry friction terms, (n,) [rad/s]; they differ from ``theta_rate`` in estimators."""
         return self.theta_rate
 
     @property
@@ -38,28 +39,28 @@ class Motion:
 
     @property
     def link_rate(self) -> Numbers:
-        """Its rate, (n,) [rad/s]."""
+        """Rate of each link angle, (n,) [rad/s]."""
         return self.base_rate + self.summed(self.theta_rate)
 
     @property
     def link_acceleration(self) -> Numbers:
-        """And acceleration, (n,) [rad/s2]."""
+        """Acceleration of each link angle, (n,) [rad/s2]."""
         return self.base_acceleration + self.summed(self.theta_acceleration)
 
     def summed(self, joints: Numbers) -> Numbers:
-        """Sums from the base of what belongs to the joints, (n,)."""
+        """Return the cumulative sums of joint quantities from the base, (n,)."""
         return np.cumsum(joints)
 
 
 @dataclass(frozen=True)
 class Instant:
-    """One instant of the arm, as an equation sees it.
+    """One instant of the arm, the argument of the equations.
 
     Attributes:
-        motion: of joints and links.
+        motion: motion of joints and links.
         u: tension of each cable at the base, (n_cables,) [N].
         p: parameters.
-        drive: torque of the joints' drives, (n,) [N m], or (1,) where there are none.
+        drive: torque of the joints' drives, (n,) [N m], or a zero (1,) without drives.
     """
 
     motion: Motion

@@ -1,15 +1,15 @@
 """Thesis Eq. 12, M, C and G: inertia, Coriolis terms and gravity of a planar chain (Murray, Li, Sastry 1994, ch. 4).
 
-Mass k moves with link i through the lever rho_ki: the link's length d_i where i < k, its own c_k where i = k. Hence the
-energy is (1/2) sum_ij A_ij cos(phi_i - phi_j) phi_i' phi_j' with A_ij = sum over k >= max(i, j) of m_k rho_ki rho_kj, a
-constant of the arm. With link angles phi = L theta, L lower triangular of ones,
+Mass k moves with link i through the lever rho_ki: the length d_i of the link for i < k, and c_k for i = k. The energy
+is therefore (1/2) sum_ij A_ij cos(phi_i - phi_j) phi_i' phi_j' with A_ij = sum over k >= max(i, j) of m_k rho_ki
+rho_kj, a constant of the arm. With link angles phi = L theta, where L is the lower triangular matrix of ones,
 
     M = L^T (A o cos(phi_i - phi_j) + diag(I)) L,    C = L^T (A o sin(phi_i - phi_j) diag(phi')) L,
 
-and C is made of Christoffel symbols, so that dM/dt - 2 C is skew. The products with a vector need no matrix:
-cos(phi_i - phi_j) = c_i c_j + s_i s_j, so the masses' accelerations along x and z are added up, which is most of what
-makes long arms cheap. The potential of gravity is V = -g sum_i (m_i c_i + d_i sum_k>i m_k) cos(beta + phi_i) with beta
-from the direction of gravity to the straight arm: 0 hangs, pi stands.
+and C consists of Christoffel symbols, so that dM/dt - 2 C is skew-symmetric. The products with a vector need no matrix:
+cos(phi_i - phi_j) = c_i c_j + s_i s_j, so the masses' accelerations along x and z are added up, which accounts for most
+of the efficiency for long arms. The potential of gravity is V = -g sum_i (m_i c_i + d_i sum_k>i m_k) cos(beta + phi_i)
+with beta from the direction of gravity to the straight arm: the arm hangs for 0 and stands upright for pi.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from continuum.dynamics.parameters import Parameters
 
 
 def link_coupling(p: Parameters) -> Numbers:
-    """A, (n, n) [kg m2], without the links' own inertias."""
+    """A, (n, n) [kg m2], without the links' inertias about their centres of mass."""
     n, d = p.n_joints, p.joint_spacing
     moment = mass_moments(p)
     A = np.empty((n, n), dtype=moment.dtype)
@@ -33,12 +33,12 @@ def link_coupling(p: Parameters) -> Numbers:
 
 
 def mass_moments(p: Parameters) -> Numbers:
-    """First moment of what link i carries, m_i c_i + d_i times all mass beyond it, (n,) [kg m]."""
+    """First moment of the mass on link i, m_i c_i + d_i times all mass beyond it, (n,) [kg m]."""
     return p.mass * p.center_of_mass + (suffix_sum(p.mass) - p.mass) * p.joint_spacing
 
 
 def coupling_times(vector: Numbers, p: Parameters) -> Numbers:
-    """A times a vector, (n,): by sums along the arm, n operations and no matrix."""
+    """A times a vector, (n,), by cumulative sums along the arm: of order n operations and no matrix."""
     moment, d = mass_moments(p), p.joint_spacing
     outboard = suffix_sum(p.mass) - p.mass
     beyond, before = suffix_sum(moment * vector) - moment * vector, np.cumsum(d * vector) - d * vector
@@ -46,7 +46,7 @@ def coupling_times(vector: Numbers, p: Parameters) -> Numbers:
 
 
 def inertia_matrix(link_angle: Numbers, p: Parameters) -> Numbers:
-    """M(theta) of Eq. 12, (n, n) [kg m2], symmetric and positive definite; drives' rotors stand on its diagonal.
+    """M(theta) of Eq. 12, (n, n) [kg m2], symmetric and positive definite; rotor inertias are on its diagonal.
 
     Args:
         link_angle: absolute angle of each link, (n,) [rad].
@@ -61,22 +61,22 @@ def link_inertia_matrix(link_angle: Numbers, p: Parameters) -> Numbers:
 
 
 def link_inertia_times(link_angle: Numbers, vector: Numbers, p: Parameters) -> Numbers:
-    """The latter matrix times a vector, (n,)."""
+    """`link_inertia_matrix` times a vector, (n,), without forming the matrix."""
     c, s = np.cos(link_angle), np.sin(link_angle)
     return c * coupling_times(c * vector, p) + s * coupling_times(s * vector, p) + p.inertia * vector
 
 
 def joint_space(matrix: Numbers) -> Numbers:
-    """L^T matrix L: from absolute link angles to relative joint angles, (n, n)."""
+    """L^T matrix L: convert a matrix from absolute link angles to relative joint angles, (n, n)."""
     return suffix_sum(suffix_sum(matrix).T).T
 
 
 def rotor_torque(theta_acceleration: Numbers, p: Parameters) -> Numbers:
-    """J_r theta'', (n,) [N m], of joint accelerations (n,) [rad/s2]: in M of Eq. 12, beyond the thesis.
+    """J_r theta'', (n,) [N m], for joint accelerations (n,) [rad/s2]: part of M in Eq. 12, beyond the thesis.
 
-    A drive is taken to turn with its joint: its rotor's inertia, times the gear ratio squared, at the joint's own,
-    relative acceleration. That the rotor also turns with the link that carries it is left out, a part of
-    1 / (gear ratio) of this.
+    J_r is the inertia of the rotor times the gear ratio squared, and acts at the relative acceleration of its joint.
+    The model neglects that the rotor also rotates with the link that carries it, which contributes a fraction of
+    1 / (gear ratio) of this torque.
     """
     return p.rotor_inertia * theta_acceleration
 
@@ -85,7 +85,7 @@ def coriolis_matrix(link_angle: Numbers, link_rate: Numbers, p: Parameters) -> N
     """C(theta, theta') of Eq. 12, (n, n) [N m s/rad].
 
     Args:
-        link_angle, link_rate: of each link, absolute, (n,) [rad, rad/s].
+        link_angle, link_rate: absolute angle and rate of each link, (n,) [rad, rad/s].
         p: parameters.
     """
     return joint_space(link_coriolis_matrix(link_angle, link_rate, p))
@@ -97,7 +97,7 @@ def link_coriolis_matrix(link_angle: Numbers, link_rate: Numbers, p: Parameters)
 
 
 def link_coriolis_torque(link_angle: Numbers, link_rate: Numbers, p: Parameters) -> Numbers:
-    """The latter matrix times the rates, (n,) [N m]; without the matrix, as `link_inertia_times`."""
+    """`link_coriolis_matrix` times the rates, (n,) [N m], without forming the matrix."""
     c, s = np.cos(link_angle), np.sin(link_angle)
     return s * coupling_times(c * link_rate**2, p) - c * coupling_times(s * link_rate**2, p)
 
@@ -118,5 +118,5 @@ def link_gravity_torque(link_angle: Numbers, p: Parameters) -> Numbers:
 
 
 def gravity_potential(link_angle: Numbers, p: Parameters) -> Numbers:
-    """V, (1,) [J]; zero with every link level."""
+    """V, (1,) [J]; zero if every link is horizontal."""
     return -p.gravity * np.sum(mass_moments(p) * np.cos(p.hang_angle + link_angle))

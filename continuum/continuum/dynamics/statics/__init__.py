@@ -1,8 +1,8 @@
-"""Statics: where the arm rests under gravity, springs and cable tension, and what its friction holds beside that.
+"""Statics: equilibria of the arm under gravity, springs and cable tension, and postures that friction holds.
 
 ==================  ==========================================================================
-resting_arm.py      the equations at rest, and which way the cables slid last
-equilibrium.py      the posture in which nothing pulls at a joint
-sticking_zone.py    all postures that dry friction holds, told as an interval for each joint
+resting_arm.py      the equations at rest, given the last sliding direction of the cables
+equilibrium.py      the posture without a net torque at any joint
+sticking_zone.py    all postures that dry friction holds, as an interval for each joint
 ==================  ==========================================================================
 """

@@ -1,4 +1,4 @@
-"""The posture in which gravity, springs and cables cancel at every joint, so that friction has nothing to hold."""
+"""The posture in which the torques of gravity, springs and cables cancel at every joint, without friction."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from continuum.dynamics.simulation_input import finite_array
 from continuum.dynamics.statics.resting_arm import Load, RestingArm
 from continuum.errors import InvalidValueError
 
-_SOLVED = 1e-10  # torque left [N m], in units of the largest torque of the problem where that is larger
+_SOLVED = 1e-10  # residual torque [N m], relative to the largest torque of the problem if that exceeds 1 N m
 _MOST_ITERATIONS = 50
 _SMALLEST_SHARE = 1e-3
 
 
 class EquilibriumStatus(Enum):
-    """What was found."""
+    """Outcome of the search for an equilibrium."""
 
     STABLE = "an equilibrium to which the arm returns"
     UNSTABLE = "an equilibrium that the arm leaves"
@@ -27,14 +27,14 @@ class EquilibriumStatus(Enum):
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """Where an arm rests.
+    """Equilibrium of an arm.
 
     Attributes:
-        status: unless STABLE or UNSTABLE the rest is not to be used.
+        status: the other attributes are valid only if it is STABLE or UNSTABLE.
         theta: joint angles, (n,) [rad].
-        states: of effects, (n_states,).
-        stiffness: slope of what pulls the joints back, by their angles, (n, n) [N m/rad].
-        load: under which it is one.
+        states: states of effects, (n_states,).
+        stiffness: derivative of the restoring torques by the joint angles, (n, n) [N m/rad].
+        load: load of the equilibrium.
     """
 
     status: EquilibriumStatus
@@ -50,15 +50,17 @@ class Equilibrium:
 
 
 def equilibrium(arm: RestingArm, load: Load, start: Array | None = None) -> Equilibrium:
-    """Newton's method from ``start``; without, or where that fails, the load grows from nothing on relaxed springs.
+    """Find an equilibrium by Newton's method from ``start``.
+
+    Without a start, or if that fails, the search increases the load from zero, starting at relaxed springs.
 
     Args:
         arm: the arm.
-        load: tensions, and which way the joints bent last.
-        start: joint angles near which to look, (n,) [rad].
+        load: tensions, and the last bending direction of the joints.
+        start: joint angles near which to search, (n,) [rad].
 
     Raises:
-        InvalidValueError: ``start`` is not finite, or of another size.
+        InvalidValueError: ``start`` is not finite or has the wrong size.
     """
     y = None
     if start is not None:
@@ -75,10 +77,10 @@ def equilibrium(arm: RestingArm, load: Load, start: Array | None = None) -> Equi
 
 
 def solve_pull(arm: RestingArm, load: Load, y: Array, torque: Array | None = None, share: float = 1.0) -> Array | None:
-    """Joint angles and states in which the arm pulls with ``torque`` (n,) [N m], zero without; None: not found.
+    """Find joint angles and states with a net torque (n,) [N m], zero by default; return None if not found.
 
-    Newton's method with steps shortened until they help. States of effects that rest anywhere (a bristle, say) stay
-    near where they are: of all steps the smallest.
+    Newton's method with a line search. Its steps are of minimum norm, so that states of effects that can rest anywhere
+    (a bristle, for example) stay near their present values.
     """
     wanted = np.zeros(y.size)
     if torque is not None:
@@ -92,7 +94,7 @@ def solve_pull(arm: RestingArm, load: Load, y: Array, torque: Array | None = Non
         if not (np.isfinite(size) and np.all(np.isfinite(sensitivity))):
             return None
         step, part = np.linalg.lstsq(sensitivity, wanted - pull, rcond=1e-12)[0], 1.0
-        part = min(part, 0.5 / max(float(np.abs(step).max()), 1e-300))  # rad: half a turn is another branch
+        part = min(part, 0.5 / max(float(np.abs(step).max()), 1e-300))  # rad: a larger step may reach another branch
         while part > 1e-4:
             tried, tried_sensitivity = arm.pull(y + part * step, load, share)
             if float(np.abs(tried - wanted).max()) < size:
@@ -105,7 +107,7 @@ def solve_pull(arm: RestingArm, load: Load, y: Array, torque: Array | None = Non
 
 
 def joint_stiffness(sensitivity: Array, n: int) -> Array:
-    """Slope of the joints' torques alone, the states of effects following, (n, n)."""
+    """Return the derivative of the joint torques by the angles when the states of effects adapt, (n, n)."""
     if sensitivity.shape[0] == n:
         return sensitivity
     following = -np.linalg.lstsq(sensitivity[n:, n:], sensitivity[n:, :n], rcond=1e-12)[0]
@@ -113,7 +115,7 @@ def joint_stiffness(sensitivity: Array, n: int) -> Array:
 
 
 def _grown(arm: RestingArm, load: Load) -> Array | None:
-    """The equilibrium that relaxed springs lead to as gravity and tensions grow; None where the path ends."""
+    """Follow the equilibrium from relaxed springs as gravity and tensions grow; return None if the path ends."""
     y = arm.unknowns(np.asarray(arm.model.changed_parameters.rest_angle, dtype=float), load)
     share, step = 0.0, 1.0
     while share < 1.0:

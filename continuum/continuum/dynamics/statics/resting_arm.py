@@ -1,4 +1,4 @@
-"""The compiled equations of an arm at rest: what pulls at the joints but for their friction, and how it changes."""
+"""The compiled equations of an arm at rest: joint torques without the joints' friction, and their derivative."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from continuum.dynamics.simulation_input import finite_array
 from continuum.dynamics.values import parameter_slots, parameter_vector
 from continuum.errors import InvalidValueError
 
-_CREEP = 1e-12  # joint speed that tells the cables' direction and is felt by nothing else [rad/s]
-_ANY_SPEED = 1e18  # cable_slope with which it does [s/m]
+_CREEP = 1e-12  # joint speed that sets the cables' sliding direction and is otherwise negligible [rad/s]
+_ANY_SPEED = 1e18  # cable_slope at which this speed saturates the cables' friction [s/m]
 
 
 @dataclass(frozen=True)
 class Load:
-    """What is done to an arm that rests.
+    """Load on a resting arm.
 
     Attributes:
-        tension: of each cable at the base, (n_cables,) [N], none negative.
-        approach: which way all joints bent last: 1 towards positive angles, -1 towards negative ones. By it every cable
-            loses tension over the discs as it did while it slid (Eq. 15). 0: no losses.
+        tension: tension of each cable at the base, (n_cables,) [N], none negative.
+        approach: last bending direction of all joints: 1 towards positive angles, -1 towards negative ones. It sets the
+            direction of the tension losses over the discs (Eq. 15). 0: no losses.
     """
 
     tension: Array
@@ -45,35 +45,36 @@ class RestingArm:
 
     Args:
         model: the model.
-        equations: its compiled equations where they are there already.
+        equations: compiled equations of the model if available.
 
     Raises:
         InvalidValueError: joint torques drive the model.
     """
 
     def __init__(self, model: Model, equations: CompiledEquations | None = None) -> None:
-        model.require_cables("an arm that rests under its cables' pull")
+        model.require_cables("the equilibrium under cable tension")
         self.model = model
         self.equations = equations or CompiledEquations(model)
         self._p = parameter_vector(model)
         self._slots = parameter_slots(model)
 
     def unknowns(self, theta: Array, load: Load) -> Array:
-        """y of an arm that rests in joint angles (n,) [rad], as far as its effects know."""
+        """Return y of an arm at rest at joint angles (n,) [rad], with the initial states of its effects."""
         p, parts = self.model.changed_parameters, [theta]
         parts += [active.effect.initial_state(theta, load.tension, active.values, p) for active in self.model.effects]
         return np.concatenate(parts)
 
     def pull(self, y: Array, load: Load, share: float = 1.0) -> tuple[Array, Array]:
-        """Torque that friction has to hold, with what is left of the effects' equations, and its slope by y.
+        """Return the torque that friction has to hold, with the residual of the effects' equations, and the derivative.
 
         Args:
-            y: (n + n_states,).
-            load: on the arm.
-            share: of gravity and of the tensions that acts.
+            y: joint angles and states of effects, (n + n_states,).
+            load: load on the arm.
+            share: fraction of gravity and of the tensions that acts.
 
         Returns:
-            (n + n_states,) [N m, ...], positive where a joint is bent too far, and (n + n_states, n + n_states).
+            Residual (n + n_states,) [N m, ...], positive where a joint is bent beyond its equilibrium, and its
+            derivative by y, (n + n_states, n + n_states).
         """
         n, p = self.model.n_joints, self._p.copy()
         p[self._slots["gravity"]] *= share

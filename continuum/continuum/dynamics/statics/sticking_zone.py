@@ -1,16 +1,16 @@
-"""All postures in which an arm stays though they are no equilibrium: its joints' dry friction holds what is left.
+"""Sticking zone: all postures around an equilibrium in which the joints' dry friction holds the arm at rest.
 
-The zone is the set of postures in which every joint is pulled by no more than its break-away torque, |tau_i| <=
-tau_c,i (1 + S_i), connected with the equilibrium. It has as many dimensions as there are joints; told is, for each
-joint, the smallest and the largest angle over the whole zone, the other joints anywhere in it: its projection, which
-is wider than what the joint may do with the others at equilibrium. At such an extreme every joint is on the verge of
-slipping: the torque is at a corner of the box, the one whose signs are those of d theta_i / d tau_j.
+The zone is the set of postures, connected with the equilibrium, in which the net torque at every joint is at most its
+break-away torque, |tau_i| <= tau_c,i (1 + S_i). It has as many dimensions as there are joints. The result gives the
+smallest and the largest angle of each joint over the whole zone, that is, the zone's projection; it is wider than the
+interval of that joint with the other joints at equilibrium. At such an extreme every joint is about to slip: the torque
+is at the corner of the box whose signs are those of d theta_i / d tau_j.
 
-The cables' friction is no part of the zone: their tensions are those of the load's approach, as if they slid. Cables
-that slid the other way have a zone of their own, that of the load with the other approach; between the two, what the
-discs hold lets the arm stay too.
+The cables' friction is not part of the zone: the cable tensions are those of sliding in the direction of the load's
+approach. Cables that slid in the opposite direction have another zone, that of the load with the opposite approach;
+between the two zones, friction at the discs can hold the arm too.
 
-Eq. 13's friction is smooth, so within the zone the joints do creep, at speeds around 1 / k_v or below.
+The friction of Eq. 13 is smooth, so within the zone the joints creep, at speeds of about 1 / k_v or less.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ _MOST_CORNERS = 10
 
 @dataclass(frozen=True)
 class StickingZone:
-    """The zone of one equilibrium; NaN where an end was not found.
+    """The zone of one equilibrium; NaN for an end that was not found.
 
     Attributes:
-        break_away: largest torque that each resting joint holds, (n,) [N m].
+        break_away: largest torque that the friction of each resting joint holds, (n,) [N m].
         lower, upper: smallest and largest angle of each joint over the zone, (n,) [rad].
-        postures: in which these are reached: lower ends, then upper ones, (2, n joints whose end it is, n) [rad].
+        postures: postures at these extremes: lower ends, then upper ones, (2, n joints at their end, n) [rad].
         total_bend: smallest and largest sum of the joint angles over the zone, (2,) [rad].
     """
 
@@ -47,9 +47,9 @@ class StickingZone:
 
 
 def sticking_zone(arm: RestingArm, around: Equilibrium) -> StickingZone:
-    """The zone around a stable equilibrium.
+    """Return the zone around a stable equilibrium.
 
-    Friction that effects add as torques of their own is not counted, parameters of Eq. 13 that they change are.
+    The zone includes changes of the parameters of Eq. 13 by effects, but not friction torques that effects add.
     """
     n, held = arm.model.n_joints, break_away(arm.model)
     ends = np.array([[_extreme(arm, around, side * unit, held) for unit in np.eye(n)] for side in (-1.0, 1.0)])
@@ -59,15 +59,15 @@ def sticking_zone(arm: RestingArm, around: Equilibrium) -> StickingZone:
 
 
 def break_away(model: Model) -> Array:
-    """Largest torque that each resting joint holds, tau_c (1 + S), (n,) [N m]."""
+    """Largest torque that the friction of each resting joint holds, tau_c (1 + S), (n,) [N m]."""
     return np.asarray(break_away_torque(model.changed_parameters), dtype=float)
 
 
 def _extreme(arm: RestingArm, around: Equilibrium, weights: Array, held: Array) -> Array:
-    """Posture of the zone in which weights . theta is largest, (n,) [rad].
+    """Return the posture of the zone with the largest weights . theta, (n,) [rad].
 
-    Steps from corner to corner by the derivatives there. Where a derivative near zero changes its sign between two
-    corners, the better corner is taken.
+    The search moves from corner to corner according to the derivatives there. If a derivative near zero changes its
+    sign between two corners, it returns the better corner.
     """
     n, y = held.size, around.unknowns
     visited: dict[bytes, Array] = {}
