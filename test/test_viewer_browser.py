@@ -97,4 +97,12 @@ def test_playback_scrubs(chromium, tmp_path):
         page.wait_for(lambda: (orange(page.pixels()) ^ orange(end)).sum() > 0.2 * orange(end).sum(), "the beginning")
         page.settled()
         page.keep("recording_begin")
+        page.tab.mouse.click(600, 100)  # keys are of the page, not of the input that was typed into
+        for key, sample in (("l", 1), ("l", 2), ("j", 1)):
+            page.tab.keyboard.press(key)
+            page.wait_for(lambda at=sample / 120: abs(float(time.input_value()) - at) < 0.006, f"sample {sample}")
+        page.tab.keyboard.press("Space")
+        page.wait_for(lambda: float(time.input_value()) > 0.1, "time that goes on")
+        page.tab.get_by_role("button", name="Pause").click()
+        page.tab.get_by_role("button", name="Play").wait_for()
         page.tab.close()

@@ -113,9 +113,10 @@ def test_an_arm_that_nobody_reported_of_is_pale_and_said_so(opened):
     assert remote._unheard.visible
     assert max(mesh.opacity for mesh in meshes) < 1.0
     assert page._plots.plots.plot(LENGTHS) is None
-    page._plots.plots.draw_soon()
-    remote.tell(joints=joints_of(np.full((2, 2), 0.1), ARM), time=1.0)
-    page.draw()
+    for time in (1.0, 1.1):
+        page._plots.plots.draw_soon()
+        remote.tell(joints=joints_of(np.full((2, 2), 0.1), ARM), time=time)
+        page.draw()
     assert not remote._unheard.visible
     assert {mesh.opacity for mesh in meshes} == {None}
     assert page._plots.plots.plot(LENGTHS).plot is not None

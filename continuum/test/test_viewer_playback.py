@@ -9,7 +9,7 @@ import recorded_runs as runs
 from continuum.errors import FileError
 from continuum.joint_names import theta_joints
 from continuum.kinematics.chain import arm_pose
-from continuum.viewer import playback
+from continuum.viewer import playback, player
 from continuum.viewer.default_arm import arm_of_joints
 from continuum.viewer.drawn_cables import drawn_cables
 from continuum.viewer.motion_csv import motion_csv
@@ -58,16 +58,17 @@ class Shown:
 
     def __init__(self, folder, monkeypatch):
         self._now = 100.0
-        monkeypatch.setattr(playback.time, "monotonic", lambda: self._now)
+        monkeypatch.setattr(player.time, "monotonic", lambda: self._now)
         self.source = playback.Playback(runs.ARM, read_tracks(folder), "run")
         self.page = Page(runs.ARM, self.source, port=0)
+        self.player = self.source.player
         self.page.draw()
 
     def after(self, seconds):
         """The slider's time then [s]."""
         self._now += seconds
         self.page.draw()
-        return self.source._slider.value
+        return self.player._slider.value
 
 
 @pytest.fixture
@@ -96,27 +97,27 @@ def test_what_was_recorded_is_shown(shown):
 
 def test_time_goes_as_fast_as_chosen_stops_at_the_end_and_begins_again(shown):
     assert shown.after(0.1) == pytest.approx(0.1)
-    shown.source._speed.value = "1/4"
+    shown.player._speed.value = "1/4"
     assert shown.after(0.4) == pytest.approx(0.2)
-    shown.source._plays.value = False
+    shown.player.playing = False
     assert shown.after(9.0) == pytest.approx(0.2)
-    shown.source._plays.value, shown.source._repeats.value = True, False
+    shown.player.playing, shown.player._repeats.value = True, False
     assert shown.after(9.0) == pytest.approx(0.59)
-    assert not shown.source._plays.value
-    shown.source._plays.value = True
+    assert not shown.player.playing
+    shown.player.playing = True
     assert shown.after(0.1) == 0.0
 
 
 def test_it_is_played_again_and_again(shown):
     for _ in range(2):
         assert shown.after(9.0) == pytest.approx(0.59)
-        assert shown.source._plays.value
+        assert shown.player.playing
         assert shown.after(0.1) == 0.0
 
 
 def test_the_slider_says_the_time(shown):
-    shown.source._plays.value = False
-    shown.source._slider.value = 0.405
+    shown.player.playing = False
+    shown.player._slider.value = 0.405
     shown.after(1.0)
     ghost = shown.page._ghosts["/ghost"].poses[-1, :3, 3]
     np.testing.assert_allclose(ghost, arm_pose(runs.postures()[0][40], runs.ARM)[:3, 3], atol=1e-6)
@@ -125,9 +126,9 @@ def test_the_slider_says_the_time(shown):
 def test_steps_go_from_sample_to_sample_and_pause(shown):
     shown.after(0.305)
     for steps, row in ((1, 31), (1, 32), (-1, 31), (-100, 0), (1000, runs.N - 1)):
-        shown.source._steps = steps
+        shown.player._steps = steps
         assert shown.after(0.1) == pytest.approx(row / runs.RATE)
-        assert not shown.source._plays.value
+        assert not shown.player.playing
 
 
 def test_the_motion_is_saved_as_a_table(tmp_path):

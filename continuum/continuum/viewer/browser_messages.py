@@ -66,7 +66,13 @@ class _DragEnd(_Form, tag="TransformControlsDragEndMessage"):
     owner: _Text = ""
 
 
-_DECODER = msgspec.msgpack.Decoder(_Input | _Camera | _Target | _DragStart | _DragEnd)
+class _Command(_Form, tag="CommandTriggerMessage"):
+    """Of a key; the server knows its commands by their identity."""
+
+    uuid: _Text
+
+
+_DECODER = msgspec.msgpack.Decoder(_Input | _Camera | _Target | _DragStart | _DragEnd | _Command)
 
 
 def check_browser_message(data: bytes | str, words: Collection[str]) -> None:

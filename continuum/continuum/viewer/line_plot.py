@@ -51,19 +51,20 @@ class LinePlot:
 
     def show(self, data: PlotData | None, now: float | None = None, dark: bool = False) -> None:
         """Draw the lines, with a cursor at ``now`` [s] if given; what is drawn already is not sent again."""
-        if data is None or not data.lines:
+        if data is None or len(data.times) < 2:  # one point is no line, and its axes would mean nothing
             self.remove()
             return
         made_of = (data.lines, dark, now is None)
-        if made_of != self._made_of:
+        if self._shown is not None and self._shown[0] is data and self._shown[1] == now and made_of == self._made_of:
+            return
+        arrays = (data.times, *data.values) if now is None else with_cursor(data, now)
+        if self.plot is None or made_of != self._made_of:
             self.remove()
             self._made_of = made_of
-            self.plot = self._made(data, dark, now is not None)
-        known = self._shown is not None and self._shown[0] is data and self._shown[1] == now
-        if self.plot is not None and not known:
-            self._shown = (data, now)
-            self.plot.data = (data.times, *data.values) if now is None else with_cursor(data, now)
-            self.plot.visible = len(data.times) > 1  # one point is no line, and its axes would mean nothing
+            self.plot = self._made(arrays, data, dark, now is not None)
+        else:
+            self.plot.data = arrays
+        self._shown = (data, now)
 
     def remove(self) -> None:
         """Take the plot off the page; it comes back with the next data."""
@@ -71,7 +72,7 @@ class LinePlot:
             self.plot.remove()
         self.plot, self._made_of, self._shown = None, (), None
 
-    def _made(self, data: PlotData, dark: bool, cursor: bool) -> viser.GuiUplotHandle:
+    def _made(self, arrays: tuple[Array, ...], data: PlotData, dark: bool, cursor: bool) -> viser.GuiUplotHandle:
         no_points = uplot.Series_Points(show=False)
         series = [
             uplot.Series(label=line.label, stroke=css(line.colour, dark), width=2, points=no_points)
@@ -86,7 +87,7 @@ class LinePlot:
         ticks = uplot.Axis_Ticks(size=_TICK)
         with self._layout.plots:
             return self._layout.server.gui.add_uplot(
-                tuple(np.zeros(1) for _ in range(1 + len(series))),
+                arrays,
                 (uplot.Series(label="t [s]"), *series),
                 title=self._title,
                 height=self._height,

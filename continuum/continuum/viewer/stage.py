@@ -11,6 +11,9 @@ from continuum.arrays import Array
 _OFFSET = np.array([1.7, 1.1, 0.53])
 """From the point looked at to the camera, in lengths of the arm; the last is upwards."""
 
+_OFFSET_HANGING = 0.1
+"""The same upwards where the base is at the top, so that the camera is below the grid."""
+
 _HEIGHT = 0.47
 """Of the point looked at above the base, in lengths of the arm."""
 
@@ -101,7 +104,8 @@ class Stage:
         """Return camera, point looked at [m] and direction of up, each (3,), in the base frame."""
         up = np.array([0.0, 0.0, -1.0 if self._hanging else 1.0])
         look_at = np.array([0.0, 0.0, _HEIGHT * self._length])
-        offset = self._length * np.array([_OFFSET[0], _OFFSET[1], _OFFSET[2] * up[2]])
+        above = -_OFFSET_HANGING if self._hanging else _OFFSET[2]
+        offset = self._length * np.array([*_OFFSET[:2], above])
         if narrow:
             look_at, offset = look_at - _LOWER * self._length * up, _FURTHER * offset
         return look_at + offset, look_at, up

@@ -1,0 +1,100 @@
+"""The time of a recording: play and pause, single steps, again and again or once, speed, and a slider."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+import viser
+
+from continuum.arrays import Array
+from continuum.viewer.choice import Choice
+from continuum.viewer.layout import Layout
+from continuum.viewer.slider_value import value_within
+
+_SPEEDS = {"1/8": 0.125, "1/4": 0.25, "1/2": 0.5, "1": 1.0, "2": 2.0, "4": 4.0}
+_STEPS = {"back": -1, "forward": 1}
+_STEP = 0.01
+"""Of the time slider [s]."""
+
+
+class Player:
+    """Controls on the page, the same in all browsers. It plays from the beginning as soon as it is asked for the time.
+
+    The keys are space, J and L; the page has WASD, Q, E and the arrows for its camera.
+
+    Args:
+        layout: page; the controls are put where its parts are put now.
+        times: times of the samples, rising from 0 (n,) [s].
+
+    Attributes:
+        playing: whether time goes on.
+    """
+
+    def __init__(self, layout: Layout, times: Array) -> None:
+        self._times, self._time = times, 0.0
+        self._asked: float | None = None
+        self._steps = 0
+        self.playing, self._said_playing = True, False
+        gui = layout.server.gui
+        end = max(float(times[-1]), _STEP)
+        self._button = gui.add_button("Play", hint="Key: space")
+        steps = gui.add_button_group("Step", tuple(_STEPS), hint="To the sample before or after. Keys: J, L")
+        self._slider: viser.GuiSliderHandle[float] = gui.add_slider("time [s]", 0.0, end, min(_STEP, end), 0.0)
+        self._speed = Choice(layout, "Speed", tuple(_SPEEDS), "1")
+        self._repeats: viser.GuiCheckboxHandle = gui.add_checkbox("Repeat", True)
+        layout.words.update(_STEPS)
+        self._shown = self._slider.value
+        self._button.on_click(self._toggle)
+        steps.on_click(self._step)
+        gui.add_command("Play or pause", hotkey="space").on_trigger(self._toggle)
+        gui.add_command("Step back", hotkey="J").on_trigger(self._step_back)
+        gui.add_command("Step forward", hotkey="L").on_trigger(self._step_forward)
+        self._say()
+
+    def go_on(self) -> float:
+        """Return the time [s]: on by what passed since it was asked for last, or where the user put it."""
+        now = time.monotonic()
+        passed, self._asked = 0.0 if self._asked is None else now - self._asked, now
+        steps, self._steps = self._steps, 0
+        if self._slider.value != self._shown:
+            self._time = value_within(self._slider)
+        elif steps:
+            self.playing = False
+            row = int(np.searchsorted(self._times, self._time, side="right")) - 1 + steps
+            self._put(float(self._times[min(max(row, 0), self._times.size - 1)]))
+        elif self.playing:
+            end = float(self._times[-1])
+            if self._time >= end and self._shown >= end:
+                self._put(0.0)  # it is repeated, or play was pressed at the end
+            else:
+                self._put(min(self._time + passed * _SPEEDS[self._speed.value], end))
+                self.playing = self._time < end or bool(self._repeats.value)
+        self._shown = self._slider.value
+        self._say()
+        return self._time
+
+    def _put(self, moment: float) -> None:
+        self._time = moment
+        self._slider.value = moment  # type: ignore[misc]
+
+    def _say(self) -> None:
+        """Let the button say what it does."""
+        if self.playing is not self._said_playing:
+            self._said_playing = self.playing
+            self._button.label = "Pause" if self.playing else "Play"
+            self._button.icon = viser.Icon.PLAYER_PAUSE if self.playing else viser.Icon.PLAYER_PLAY
+
+    async def _toggle(self, _: object) -> None:
+        """Asynchronous, as the others, so that what is pressed is taken in the order in which it came."""
+        self.playing = not self.playing
+
+    async def _step(self, event: viser.GuiEvent[Any]) -> None:
+        self._steps += _STEPS.get(event.target.value, 0)
+
+    async def _step_back(self, _: object) -> None:
+        self._steps -= 1
+
+    async def _step_forward(self, _: object) -> None:
+        self._steps += 1
