@@ -23,6 +23,7 @@ PLAIN_PYTHON = {  # what a module is called in package.xml (rosdep's keys)
     "jinja2": "python3-jinja2",
     "llvmlite": "python3-numba",  # comes with it
     "matplotlib": "python3-matplotlib",
+    "mcap": "mcap-ros2-support",  # brings it
     "numba": "python3-numba",
     "numpy": "python3-numpy",
     "rich": "python3-rich",
@@ -39,7 +40,8 @@ WITHOUT_KEY = {
     "msgspec",
     "viser",
     "websockets",
-}  # rosbags brings the first, viser its two: docs/dependencies.md
+    "zstandard",
+}  # rosbags brings apsw and zstandard, viser the others: docs/dependencies.md
 ONLY_IN_TESTS = {"hypothesis", "mujoco", "pytest", "vqf"}
 
 each_package = pytest.mark.parametrize("package", PACKAGES)

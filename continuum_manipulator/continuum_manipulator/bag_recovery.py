@@ -1,20 +1,26 @@
-"""What is left of an MCAP recording whose recorder was killed, or whose file was damaged, as a proper recording.
+"""Recover an MCAP recording whose recorder was killed, or whose file was damaged, as a proper recording.
 
     python3 -m continuum_manipulator.bag_recovery BROKEN RECOVERED
 
-A killed recorder leaves a file without index and ``metadata.yaml``. Every chunk that was flushed is whole; its layout
-is that of the MCAP specification, https://mcap.dev/spec. A chunk with damaged bytes is left out.
+A killed recorder leaves a file without index and ``metadata.yaml``. Every flushed chunk is complete. The layout of chunks
+is that of https://mcap.dev/spec. A chunk with damaged bytes is left out.
 """
 
 from __future__ import annotations
 
+import io
 import struct
 import sys
-import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import zstandard
+from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.records import Channel, Chunk, McapRecord, Message, Schema
+from mcap.stream_reader import MAGIC_SIZE, breakup_chunk
 from rosbags.interfaces import Connection, Qos
 from rosbags.rosbag2 import ReaderError
 from rosbags.rosbag2.metadata import parse_qos
@@ -23,12 +29,11 @@ from continuum.errors import ContinuumError, FileError
 from continuum_manipulator.bag_writer import BagWriter
 
 _MAGIC = b"\x89MCAP0\r\n"
-_SCHEMA, _CHANNEL, _MESSAGE, _CHUNK = 0x03, 0x04, 0x05, 0x06
-_BEFORE_RECORDS = struct.Struct("<QQQI")  # of a chunk: first and last time, size, checksum; then the compression's name
-_MESSAGE_HEAD = struct.Struct("<HIQQ")  # channel, sequence, time of logging, time of publishing
+_HEAD = struct.Struct("<BQ")
+"""Of a record: its kind, and its length [bytes]."""
 
-_NO_SENSE = (struct.error, LookupError, ValueError)
-"""What bytes lead to that were changed."""
+_DAMAGED = (McapError, struct.error, LookupError, ValueError, MemoryError, RuntimeError, zstandard.ZstdError)
+"""What parsing and decompression raise for changed bytes; RuntimeError is lz4's."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +42,7 @@ class Recovered:
 
     Attributes:
         messages: number of messages.
-        damaged: number of chunks that were left out, in whole or from where their bytes make no sense.
+        damaged: number of records of the file (chunks, schemas, channels) that were left out.
     """
 
     messages: int
@@ -45,10 +50,10 @@ class Recovered:
 
 
 def recover(broken: str | Path, recovered: str | Path) -> Recovered:
-    """Copy the whole chunks of a recording, a folder or its storage file, to a new folder.
+    """Copy the undamaged chunks of a recording, a folder or its storage file, to a new folder.
 
     Raises:
-        FileError: there is no MCAP file, it is compressed, or cannot be read, or the new folder exists.
+        FileError: there is no MCAP file, it cannot be read, or the new folder exists.
     """
     path = Path(broken)
     files = [path] if path.is_file() else sorted(path.glob("*.mcap"))
@@ -59,7 +64,7 @@ def recover(broken: str | Path, recovered: str | Path) -> Recovered:
         topics: dict[str, Connection] = {}
         copies = [_Copy(bag, topics) for _ in files]
         for copy, file in zip(copies, files, strict=True):
-            copy.take(data[file], file)
+            copy.take(data[file])
         return Recovered(sum(copy.messages for copy in copies), sum(copy.damaged for copy in copies))
 
 
@@ -74,98 +79,77 @@ def _read(file: Path) -> bytes:
 
 
 class _Copy:
-    """One file's chunks on their way into a recording; ``topics`` are those that it has already."""
+    """Copies the chunks of one file into a recording; ``topics`` are those that it has already."""
 
     def __init__(self, bag: BagWriter, topics: dict[str, Connection]) -> None:
         self._bag = bag
         self._topics = topics
         self._types: dict[int, str] = {}
-        self._channels: dict[int, tuple[str, str, str]] = {}
+        self._channels: dict[int, Channel] = {}
         self.messages = self.damaged = 0
 
-    def take(self, data: bytes, path: Path) -> None:
-        """Copy chunk by chunk; a file that was finished has its channels once more, after all chunks."""
-        chunks = []
-        for kind, record in _records(data, len(_MAGIC)):
-            if kind == _CHUNK:
-                chunks.append(record)
-            else:
-                self._or_damaged(lambda kind=kind, record=record: self._announce(kind, record))
-        for chunk in chunks:
-            self._or_damaged(lambda chunk=chunk: self._copy(_chunk_content(chunk, path)))
+    def take(self, data: bytes) -> None:
+        """Copy chunk by chunk; a finished file repeats its schemas and channels after all chunks."""
+        chunks: list[list[McapRecord]] = []
+        for kind, content in _records(data):
+            try:
+                record = _parsed(kind, content)
+                if isinstance(record, Chunk):
+                    chunks.append(breakup_chunk(record, validate_crc=True))
+                else:
+                    self._announce(record)
+            except _DAMAGED:
+                self.damaged += 1
+        for records in chunks:
+            try:
+                self._copy(records)
+            except LookupError:  # the channel of a message was in a damaged record
+                self.damaged += 1
 
-    def _or_damaged(self, step: Callable[[], None]) -> None:
-        try:
-            step()
-        except _NO_SENSE:
-            self.damaged += 1
+    def _announce(self, record: McapRecord | None) -> None:
+        if isinstance(record, Schema):
+            self._types[record.id] = record.name
+        elif isinstance(record, Channel):
+            self._channels[record.id] = record
 
-    def _copy(self, content: bytes) -> None:
-        for kind, record in _records(content, 0):
-            self._announce(kind, record)
-            if kind == _MESSAGE:
-                channel, _, stamp, _ = _MESSAGE_HEAD.unpack_from(record)
-                self._bag.write(self._topic(channel), record[_MESSAGE_HEAD.size :], stamp)
+    def _copy(self, records: list[McapRecord]) -> None:
+        for record in records:
+            self._announce(record)
+            if isinstance(record, Message):
+                self._bag.write(self._topic(self._channels[record.channel_id]), record.data, record.log_time)
                 self.messages += 1
 
-    def _announce(self, kind: int, record: bytes) -> None:
-        if kind == _SCHEMA:
-            self._types[_short(record, 0)] = _text(record, 2)[0]
-        elif kind == _CHANNEL:
-            name, end = _text(record, 4)
-            _, end = _text(record, end)
-            self._channels[_short(record, 0)] = name, self._types[_short(record, 2)], _offers(record, end)
-
-    def _topic(self, channel: int) -> Connection:
-        name, message_type, offers = self._channels[channel]
+    def _topic(self, channel: Channel) -> Connection:
+        name = channel.topic
         if name not in self._topics:
-            self._topics[name] = self._bag.add_topic(name, message_type, _qos(offers))
+            offers = _qos(channel.metadata.get("offered_qos_profiles", ""))
+            self._topics[name] = self._bag.add_topic(name, self._types[channel.schema_id], offers)
         return self._topics[name]
 
 
-def _records(data: bytes, start: int) -> Iterator[tuple[int, bytes]]:
+def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
     """Kind and content of every record that is there to its end."""
-    while start + 9 <= len(data):
-        kind, length = struct.unpack_from("<BQ", data, start)
-        start += 9 + length
+    start = MAGIC_SIZE
+    while start + _HEAD.size <= len(data):
+        kind, length = _HEAD.unpack_from(data, start)
+        start += _HEAD.size + length
         if start > len(data):
             return
         yield kind, data[start - length : start]
 
 
-def _chunk_content(record: bytes, path: Path) -> bytes:
-    compression, end = _text(record, _BEFORE_RECORDS.size)
-    if compression:
-        raise FileError(path, f"is compressed ({compression}); only recordings without compression can be recovered")
-    *_, checksum = _BEFORE_RECORDS.unpack_from(record)
-    content = record[end + 8 :]
-    if checksum and zlib.crc32(content) != checksum:
-        raise ValueError("checksum")
-    return content
-
-
-def _offers(record: bytes, start: int) -> str:
-    """The entry ``offered_qos_profiles`` of a channel's metadata."""
-    key, end = _text(record, start + 4)
-    return _text(record, end)[0] if key == "offered_qos_profiles" else ""
+def _parsed(kind: int, content: bytes) -> McapRecord | None:
+    """The record, or None for a kind that a recovery does not need."""
+    of_kind = {Opcode.SCHEMA: Schema, Opcode.CHANNEL: Channel, Opcode.CHUNK: Chunk}.get(kind)
+    return None if of_kind is None else of_kind.read(ReadDataStream(io.BytesIO(content)))
 
 
 def _qos(offers: str) -> list[Qos]:
-    """Offered quality of service; none where it cannot be read: messages do not depend on it."""
+    """Offered quality of service; none if it cannot be parsed: messages do not depend on it."""
     try:
         return parse_qos(offers)
-    except (ReaderError, TypeError, AttributeError, *_NO_SENSE):
+    except (ReaderError, TypeError, AttributeError, LookupError, ValueError):
         return []
-
-
-def _short(record: bytes, start: int) -> int:
-    return struct.unpack_from("<H", record, start)[0]
-
-
-def _text(record: bytes, start: int) -> tuple[str, int]:
-    """The text at ``start`` and where it ends."""
-    end = start + 4 + struct.unpack_from("<I", record, start)[0]
-    return record[start + 4 : end].decode(), end
 
 
 def main() -> int:

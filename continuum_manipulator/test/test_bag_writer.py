@@ -7,6 +7,7 @@ import sys
 
 import pytest
 import yaml
+from mcap.writer import CompressionType, Writer
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.serialization import serialize_message
 from rosbags.rosbag2 import Reader
@@ -147,6 +148,24 @@ def test_a_changed_byte_ends_no_recovery_without_a_word(tmp_path):
             continue
         with Reader(folder) as reader:
             assert len(list(reader.messages())) == found.messages <= 30
+
+
+@pytest.mark.parametrize("compression", [CompressionType.LZ4, CompressionType.ZSTD])
+def test_chunks_of_a_compressed_recording_survive_a_cut(tmp_path, compression):
+    file = tmp_path / "bag.mcap"
+    with file.open("wb") as stream:
+        writer = Writer(stream, chunk_size=10 * len(RAW), compression=compression)
+        writer.start()
+        schema = writer.register_schema(TYPE, "ros2msg", b"")
+        channel = writer.register_channel("/joint_states", "cdr", schema)
+        for stamp in range(60):
+            writer.add_message(channel, log_time=stamp, publish_time=stamp, data=RAW)
+        writer.finish()
+    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    found = recover(file, tmp_path / "recovered")
+    assert 10 <= found.messages < 60
+    with Reader(tmp_path / "recovered") as reader:
+        assert [(stamp, raw) for _, stamp, raw in reader.messages()] == [(i, RAW) for i in range(found.messages)]
 
 
 def test_files_of_a_split_recording_are_joined(tmp_path):
