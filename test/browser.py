@@ -121,12 +121,12 @@ class ViewedPage:
         self.tab.screenshot(path=PICTURES / f"{name}.png")
 
     def number(self, label: str, which: int = 0) -> Any:
-        """The input beside a slider with this label."""
+        """The number input of the slider with this label."""
         row = self.tab.get_by_text(label, exact=True).nth(which).locator("xpath=ancestor::*[.//input][1]")
         return row.locator("input").last
 
     def set_number(self, label: str, value: float, which: int = 0) -> None:
-        """Type a number beside a slider."""
+        """Type a number into the input of a slider."""
         field = self.number(label, which)
         field.fill(f"{value:g}")
         field.press("Enter")

@@ -34,7 +34,7 @@ def test_every_import_is_of_a_declared_dependency_or_of_what_one_brings() -> Non
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where pip put the library, and beside it an empty folder for the PATH."""
+    """Where pip put the library, and next to it an empty folder for the PATH."""
     folder = tmp_path_factory.mktemp("pip")
     build = f"import setuptools.build_meta as backend; print(backend.build_sdist({str(folder)!r}))"
     copied = folder / "checkout"

@@ -16,7 +16,7 @@ SMOOTH = {
     "coulomb_friction": 0.0, "capstan_friction": 0.0, "capstan.friction": 0.0, "load_friction.radius": 0.0,
     "sensor_cable.dry": 0.0,
 }  # fmt: skip
-"""An arm whose friction has no sign: what it does is the same, whatever rate dry friction is told."""
+"""An arm whose friction has no sign: it moves alike, whatever rate dry friction gets."""
 SHORT = 1e-3  # s: one substep
 LONG = 0.02  # s: several
 

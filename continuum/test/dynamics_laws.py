@@ -142,7 +142,7 @@ class TurningBase(Effect):
 
     name = "turning_base"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "tilt": Parameter("phi_b", "rad", -3.0, 3.0, False, "constant tilt beside the turn", 0.0),
+        "tilt": Parameter("phi_b", "rad", -3.0, 3.0, False, "constant tilt across the turn", 0.0),
         "frequency": Parameter("w_b", "rad/s", 0.0, 100.0, False, "of the base's swing", 0.0),
     }
 

@@ -1,4 +1,4 @@
-"""Faults: every one counted, a burst told in few lines."""
+"""Faults: each is counted, and a burst takes few lines of the log."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The command `continuum`: what it prints, its exit codes, and its mistakes told in one line."""
+"""The command `continuum`: its output, its exit codes, and errors in one line."""
 
 import os
 import re

@@ -99,7 +99,7 @@ def test_a_direction_next_to_a_file_is_wrong_usage(capsys: Captured, tmp_path: P
     file = tmp_path / "targets.txt"
     file.write_text("0.1 0 0.4\n")
     assert code("solve", THREE, "--targets", file, "--direction", 0, 0, 1) == 2
-    assert "--direction and --quaternion are of X Y Z" in capsys.readouterr().err
+    assert "--direction and --quaternion belong to X Y Z" in capsys.readouterr().err
 
 
 def test_millimetres_are_suspected(capsys: Captured) -> None:
@@ -148,8 +148,8 @@ def test_columns_of_targets_may_stand_in_any_order(capsys: Captured, tmp_path: P
     [
         ("", "holds no targets"),
         ("x y z\n", "holds no targets"),
-        ("1 2\n", "line 1 has 2 columns; wanted are lines of 3"),
-        ("\n1 2 3\n1 2 3 4 5 6\n", "line 3 has 6 columns; wanted are lines of 3"),
+        ("1 2\n", "line 1 has 2 columns; expected are lines of 3"),
+        ("\n1 2 3\n1 2 3 4 5 6\n", "line 3 has 6 columns; expected are lines of 3"),
         ("a b c\n", "line 1 names the columns a b c; allowed: x y z"),
         ("0,1 0,2 0,3\n", "line 1: decimal commas between blanks?"),
         ("x y z\n1 2 3 4\n", "line 2 has 4 columns, the heading 3"),
@@ -159,7 +159,7 @@ def test_columns_of_targets_may_stand_in_any_order(capsys: Captured, tmp_path: P
         ("0.1,,0.2,0.3\n", "line 1 has 4 columns"),
         ("x,y,z\n0.1,,0.2\n", "line 2: ''; allowed: a finite number"),
         ("0,15,0,05,0,25\n", "line 1: decimal commas between commas?"),
-        ("0.1 1_0 0.2\n", "line 1: '1_0' is no number"),
+        ("0.1 1_0 0.2\n", "line 1: '1_0' is not a number"),
     ],
 )
 def test_a_file_without_targets_is_refused_by_its_line(

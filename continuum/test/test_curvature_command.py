@@ -165,7 +165,7 @@ def refused_without_a_file(capsys: Captured, folder: Path, *words: object) -> st
         (["rests", "--hold", 99], "--hold is 99"),
         (["rests", "--sensor-error", -1], "--sensor-error is -1"),
         (["rests", "--sensor-error", "nan"], "--sensor-error is nan"),
-        (["rests", "--model", "double_pendulum.yaml"], "what drives the model is 'joint_torques'"),
+        (["rests", "--model", "double_pendulum.yaml"], "input of the model is 'joint_torques'"),
         (["torques"], "kind of inputs is 'joint torques'"),
         (["rests", "--model", "one.yaml"], "number of joints is 5"),
         (["single", "--model", "one.yaml"], "number of joints is 1; allowed: 2 or more"),

@@ -1,4 +1,4 @@
-"""Which model is nearer: right for arms that are made like one of them, and not told where the measurement cannot."""
+"""Which model is nearer: right for arms that follow one of them, undecided where the measurement cannot decide."""
 
 import numpy as np
 import pytest

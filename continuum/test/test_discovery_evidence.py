@@ -61,7 +61,7 @@ def test_bounds_count_by_each_coefficient_s_own_distribution(seed: int, one: flo
 @LAW
 @given(SEEDS)
 def test_what_each_run_has_for_itself_is_integrated_run_by_run(seed: int) -> None:
-    """By quadrature over all runs' own coefficients, nuisances in closed form; alone and beside another effect."""
+    """By quadrature over the coefficients of all runs, nuisances in closed form; alone and with another effect."""
     drawn = Drawn.by(seed)
     evidence = drawn.evidence(drawn.per_run, drawn.pair)
     for chosen, rest in (((drawn.per_run,), [0, 1]), ((drawn.pair, drawn.per_run), [0, 1, 2, 3])):

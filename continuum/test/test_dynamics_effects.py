@@ -54,7 +54,7 @@ def test_effects_compose() -> None:
 
 
 def test_a_drive_without_lag_is_an_equation_without_rates_of_its_own() -> None:
-    """At the default lag the state's equation holds no rate: the matrix is singular, and that is told."""
+    """At the default lag, the state's equation has no rate: the matrix is singular, which is reported."""
     found = Simulator(with_effects(active(LaggingDrive()))).run(
         np.append(np.zeros(2 * N), U), [0.0, 0.1], Tensions([0.0], [U])
     )

@@ -1,4 +1,4 @@
-"""The effect in a package of one's own that docs/effects.md shows: installed as told, it is one of the library's."""
+"""The user's effect package of docs/effects.md: installed by the page's commands, the effect is in the library."""
 
 import os
 import re

@@ -72,7 +72,7 @@ def test_an_elastic_cable_of_an_arm_that_is_held_is_a_lag_and_of_a_motor_that_is
     still = Instant(moving(RELEASED, np.zeros(N)), u, p)
     found, expected = (one.effect.state_balance(still, one.values, state, rates) for one in (elastic, lag))
     np.testing.assert_allclose(found, expected)
-    drawn = Instant(moving(RELEASED, np.full(N, 0.5)), state, p)  # told just what it pulls: the motor holds
+    drawn = Instant(moving(RELEASED, np.full(N, 0.5)), state, p)  # commanded the present tension: the motor holds
     rate = 700.0 * lengthening_rate(drawn.motion, p)
     np.testing.assert_allclose(elastic.effect.state_balance(drawn, elastic.values, state, rate), 0, atol=1e-9)
 
@@ -153,7 +153,7 @@ def test_what_hangs_stays_between_nothing_and_the_slack() -> None:
 
 
 def test_an_arm_that_gives_way_to_its_cables_loosens_them_and_one_that_draws_them_tightens_them() -> None:
-    """By just as much as its way changes, where motors stand still: told as much as makes them wind, and no more."""
+    """By just as much as its path changes while motors stand still: commanded the tension at which they start to wind."""
     p, one = prototype_model(N).parameters, active(effect_of("slack_cable"), slack=0.05, speed=0.3)
     now = Instant(moving(RELEASED, np.full(N, 0.5)), one.values["least"] * np.ones(2), p)
     rate = -lengthening_rate(now.motion, p)

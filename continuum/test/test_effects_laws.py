@@ -270,7 +270,7 @@ def test_model_files_hold_it(name: str, tmp_path: Path) -> None:
 
 
 class Halved(Effect):
-    """Half of what it is told: an effect before another one."""
+    """Half of the command: an effect ahead of another one."""
 
     name = "halved"
 

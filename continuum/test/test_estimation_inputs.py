@@ -34,7 +34,7 @@ def edges(run: Run) -> np.ndarray:
 @LAW
 @given(SEEDS, DELAYS, st.booleans())
 def test_inputs_are_means_over_the_substeps(seed: int, delay: float, held: bool) -> None:
-    """Of what the simulator is told, summed up over many moments between the breaks."""
+    """Of the simulator's inputs, summed over many instants between the breaks."""
     run = drawn(seed, held)
     output, ends = Tensions(run.signal[0] + delay, run.signal[1], held), edges(run)
     found = run.inputs_later(delay)

@@ -24,7 +24,7 @@ STATEFUL = list(structure().stateful)
 
 
 def with_states(name: str, random: np.random.Generator) -> Model:
-    """A random arm with one effect that has states, beside all that have none."""
+    """A random arm with one effect that has states, and all that have none."""
     effect = structure().stateful[name].effect
     base = with_vector(structure().model, drawn_values(random))
     return replace(base, effects=(*base.effects, ActiveEffect(effect, drawn_params(effect, random))))

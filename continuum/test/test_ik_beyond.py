@@ -1,4 +1,4 @@
-"""Bends beyond half a turn, targets in the corners of the limits, targets very far away: found and told right."""
+"""Bends beyond half a turn, targets in the corners of the limits, targets very far away: right answers and statuses."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Out of reach: the distance told is the true one to the reachable set, by a dense search, and the pose attains it."""
+"""Out of reach: the reported distance to the reachable set is that of a dense search, and the pose attains it."""
 
 import numpy as np
 import pytest

@@ -139,7 +139,7 @@ def test_a_gap_at_rest_is_bridged_if_nothing_can_have_happened(motion: Motion, g
 
 @given(st.integers(1, 5), st.floats(1.0, 15.0), st.floats(0.0, 2 * np.pi))
 def test_the_reckoned_error_of_a_gap_covers_the_real_one(missing: int, frequency: float, phase: float) -> None:
-    """Of a rate that swings; shorter waves than two gaps cannot be told."""
+    """Of a rate that oscillates; waves shorter than two gaps cannot be resolved."""
     omega, period = 2 * np.pi * min(frequency, LIVE / (2 * missing + 2) / 2), 1 / LIVE
     t = np.arange(-60, 20) * period
     means = np.diff(np.sin(omega * np.append(t[0] - period, t) + phase))[:, None] / period

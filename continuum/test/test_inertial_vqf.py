@@ -1,4 +1,4 @@
-"""The estimator beside VQF, a well-kept orientation filter (Laidig, Seel, Information Fusion 91, 2023), on one arm.
+"""The estimator against VQF, a well-kept orientation filter (Laidig, Seel, Information Fusion 91, 2023), on one arm.
 
 VQF knows nothing of the plane in which the arm bends, and corrects by the accelerometer at all times. Its orientation
 without magnetometer turns freely about the vertical, so that what can be compared is each link's inclination.

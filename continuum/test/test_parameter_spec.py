@@ -1,4 +1,4 @@
-"""What a named parameter may be: every kind, bound and list, and the words it is told in."""
+"""Values of a named parameter: every kind, bound and list, and the text that describes them."""
 
 import math
 

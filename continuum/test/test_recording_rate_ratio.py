@@ -1,4 +1,4 @@
-"""Angles that are not of the motion that the rates show: told by the recordings alone."""
+"""Angles and rates of different motions: the recordings alone show it."""
 
 from __future__ import annotations
 

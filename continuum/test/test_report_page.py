@@ -147,7 +147,7 @@ def test_names_of_recordings_change_nothing_but_themselves(result: Diagnosis, tm
 @pytest.mark.parametrize("effect", effect_names())
 @pytest.mark.parametrize("kind", [Kind.CAUSE, Kind.AMBIGUOUS, Kind.UNKNOWN])
 def test_a_mechanic_reads_no_ids(effect: str, kind: Kind, tmp_path: Path) -> None:
-    """They stand small beside the names, for those who look them up."""
+    """They stand in small print next to the names, for readers who search for them."""
     other = "tip_payload" if effect != "tip_payload" else "base_tilt"
     sets = [[cause(effect, 1), cause("joint_friction", 0, 1, 2)], [cause(other)]]
     page = page_of(diagnosis(kind, *sets[: 2 if kind is Kind.AMBIGUOUS else 1]), tmp_path)
@@ -260,7 +260,7 @@ def test_the_best_experiments_come_first(tmp_path: Path) -> None:
 
 
 def test_a_run_that_separates_nothing_is_not_asked_for(tmp_path: Path) -> None:
-    """Two explanations that simulate alike are told apart by hand."""
+    """A measurement by hand separates two explanations that simulate alike."""
     in_vain = Experiment("vain", "Hold the arm level and let go.", 0.1, 0, ())
     text = page_of(replace(SETS["ambiguous"], experiments=(in_vain,)), tmp_path).text("main.first")
     assert "Hold the arm level" not in text

@@ -137,7 +137,7 @@ def test_both_integrators_and_a_model_file_agree(tmp_path):
 
 
 def test_a_posture_that_a_cable_holds_is_one_where_it_stays(tmp_path, capsys):
-    """Held by the tension that is told, the arm hardly moves from where its release begins; cut, it does."""
+    """Held by the stated tension, the arm hardly moves from the start of its release; when cut, it does."""
     out = tmp_path / "cut.csv"
     assert main(["simulate", "--release", "-90", "--pulled", "--csv", str(out)]) == 0
     output = capsys.readouterr().out

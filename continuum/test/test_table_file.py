@@ -89,7 +89,7 @@ def test_cells_without_a_name_and_a_value_at_the_end_are_none(tmp_path: Path, he
     path.write_text(with_every_line(row.format, heading, text_of(sway())))
     found = read_recording_csv(path)
     np.testing.assert_array_equal(found.theta, read_recording_csv(write(tmp_path, sway())).theta)
-    assert len(found.notes) == row.startswith("7")  # a column of numbers without a name is told
+    assert len(found.notes) == row.startswith("7")  # a column of numbers without a name is noted
 
 
 def test_the_heading_may_stand_below_any_number_of_remarks(tmp_path: Path) -> None:

@@ -92,7 +92,7 @@ class Probe:
             messages.clear()
 
     def listen_until_quiet(self, quiet: float = 0.3) -> None:
-        """Listen until nothing has come on the topics heard for ``quiet`` [s]."""
+        """Listen until the topics have been silent for ``quiet`` [s]."""
         last, before = time.monotonic(), sum(map(len, self._received))
         while time.monotonic() - last < quiet:
             self._executor.spin_once(timeout_sec=0.05)

@@ -81,7 +81,7 @@ class Command:
 
 
 class Scene:
-    """Commands that run after or beside each other. Use as a context.
+    """Commands that run one after another or at the same time. Use as a context.
 
     Args:
         folder: where they run, like a checkout that is set up.

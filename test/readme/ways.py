@@ -16,7 +16,7 @@ class Run:
 
     Attributes:
         codes: exit codes that it may have, unless it stays.
-        stays: it runs until it is interrupted, beside those that follow in the same block.
+        stays: it runs until it is interrupted, while those that follow in the same block run.
         after_ctrl_c: all that stays is interrupted first.
         says: patterns that come in what it writes.
         hears: topics on which so many messages come from its start on.

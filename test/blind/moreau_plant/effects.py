@@ -18,7 +18,7 @@ def realise(effect: Effect, m: Mechanism, rng: np.random.Generator, duration: fl
     Args:
         effect: with an amount that is not zero.
         m: without it.
-        rng: of what the effect draws anew for each recording.
+        rng: of what the effect draws for each recording.
         duration: of the recording [s].
 
     Raises:

@@ -22,7 +22,7 @@ class Machine:
 
     Args:
         p: parameters without effects.
-        effects: what the arm has beside them.
+        effects: hidden effects.
         rng: of what effects draw for each recording.
         steps: in a sample, a multiple of 8.
         duration: of the recording [s].

@@ -46,7 +46,7 @@ class Machine:
 
     Args:
         p: parameters without effects.
-        effects: what the arm has beside them.
+        effects: hidden effects.
         rng: of what effects draw for each recording.
         steps: of the integrator in a sample.
 

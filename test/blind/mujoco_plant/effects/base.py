@@ -31,7 +31,7 @@ class BaseTilt(Effect):
 
 
 class RemountedBase(Effect):
-    """The base plate is clamped anew for every recording, and turned each time by another angle.
+    """The base plate is clamped again for every recording, each time turned by another angle.
 
     The angles are of either sign, with magnitudes between half and one and a half times the amount [rad]; gravity
     turns against the plate, which itself stays. Joint angles are from plate to link.

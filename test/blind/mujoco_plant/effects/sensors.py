@@ -17,7 +17,7 @@ def about(amount: float, rng: np.random.Generator, count: int) -> np.ndarray:
 
 
 class AngleOffset(Effect):
-    """The zero of each joint's angle is wrong, anew in each recording: theta_i + o_i.
+    """The zero of each joint's angle is wrong, differently in each recording: theta_i + o_i.
 
     The o_i are of either sign, with magnitudes between half and one and a half times the amount [rad].
     """
@@ -29,7 +29,7 @@ class AngleOffset(Effect):
 
 
 class GyroDrift(Effect):
-    """Each gyro has a bias, anew in each recording: link rate + b_i, link angle + b_i t.
+    """Each gyro has a bias, another one in each recording: link rate + b_i, link angle + b_i t.
 
     Joints are differences of links, so joint i drifts by b_i - b_i-1. The b_i are of either sign, with magnitudes
     between half and one and a half times the amount [rad/s].
