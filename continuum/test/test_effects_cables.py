@@ -153,7 +153,7 @@ def test_what_hangs_stays_between_nothing_and_the_slack() -> None:
 
 
 def test_an_arm_that_gives_way_to_its_cables_loosens_them_and_one_that_draws_them_tightens_them() -> None:
-    """By just as much as its path changes while motors stand still: commanded the tension at which they start to wind."""
+    """By as much as its path changes while motors stand still, commanded the tension at which they start to wind."""
     p, one = prototype_model(N).parameters, active(effect_of("slack_cable"), slack=0.05, speed=0.3)
     now = Instant(moving(RELEASED, np.full(N, 0.5)), one.values["least"] * np.ones(2), p)
     rate = -lengthening_rate(now.motion, p)
