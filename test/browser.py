@@ -53,7 +53,7 @@ def headless_browser() -> Iterator[Any]:
 @contextmanager
 def view(*arguments: str) -> Iterator[str]:
     """`continuum view` on a free port; gives its address."""
-    command = ["continuum", "view", *arguments, "--port", "0"]
+    command = ["continuum", "view", *arguments, "--port", "0", "--no-browser"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         line = next((line for line in process.stdout if line.startswith("open http")), None)

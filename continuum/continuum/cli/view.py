@@ -1,4 +1,4 @@
-"""`continuum view`: an arm in the browser, moved by sliders, by a target that is dragged, or by a recording."""
+"""`continuum view`: an arm in the browser, moved by sliders, by a target that is dragged, or by recordings."""
 
 from __future__ import annotations
 
@@ -6,13 +6,15 @@ import argparse
 import signal
 import sys
 import threading
-from pathlib import Path
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from continuum.arm import Arm, load_arm
+from continuum.cli.browser_window import open_window
 from continuum.cli.completion import completes_files
+from continuum.cli.viewed_files import is_arm, labels
 from continuum.errors import InvalidValueError
-from continuum.shipped_files import ARMS
+from continuum.shipped_files import ARMS, MODELS
 from continuum.viewer.address import HOST, PORT
 
 if TYPE_CHECKING:
@@ -22,21 +24,28 @@ if TYPE_CHECKING:
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
-        "view", help="see an arm or a recording in the browser", description=__doc__,
+        "view", help="see an arm or recordings in the browser", description=__doc__,
         epilog="What nodes do is shown by: ros2 run continuum_manipulator viewer",
     )  # fmt: skip
     what = parser.add_argument(
-        "what", metavar="ARM.yaml|RECORDING", nargs="?",
+        "what", metavar="ARM.yaml|RECORDING", nargs="*",
         help="arm to move, by its file or the name of one of the library's; or what to play: the folder of a rosbag2 "
-        "recording, or a CSV table of joint angles",
+        "recording, or a CSV table of joint angles; more recordings of the same arm are drawn over the first",
     )  # fmt: skip
     arm = parser.add_argument(
         "--arm", metavar="ARM.yaml", help="arm of the recording; default: modules of the prototype, as many as it has"
     )
+    model = parser.add_argument(
+        "--model", metavar="MODEL.yaml", action="append", default=[],
+        help="draw the open-loop simulation of the recording by this model over it; may be repeated",
+    )  # fmt: skip
+    parser.add_argument("--section", metavar="NAME", help="section of --model, where that is a file of several")
     completes_files(what, ARMS, "csv")
     completes_files(arm, ARMS)
+    completes_files(model, MODELS)
     parser.add_argument("--host", default=HOST, help="address to serve on; default %(default)s, this host alone")
     parser.add_argument("--port", type=int, default=PORT, help="0 for any that is free; default %(default)s")
+    parser.add_argument("--no-browser", action="store_true", help="print the address, and do not open it")
     parser.set_defaults(run=run)
 
 
@@ -46,12 +55,14 @@ def run(options: argparse.Namespace) -> int:
     from continuum.viewer.layout import NAME
     from continuum.viewer.page import Page
 
-    arm, source = _shown(options)
+    shown = _arm(options) if all(is_arm(one) for one in options.what) else _recordings(options)
+    title = " - ".join([*([", ".join(labels(options.what))] if options.what else []), NAME])
     stop = threading.Event()
-    title = NAME if options.what is None else f"{Path(options.what).name} - {NAME}"
-    page = Page(arm, source, options.host, options.port, title=title)
+    page = Page(shown.arm, shown.source, options.host, options.port, title=title, hanging=shown.hanging)
     signal.signal(signal.SIGTERM, lambda *_: stop.set())
     print(f"open {page.address} in a browser; Ctrl-C ends it", flush=True)
+    if not options.no_browser:
+        open_window(page.address)
     try:
         page.run(stop)
     except KeyboardInterrupt:
@@ -61,35 +72,66 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _shown(options: argparse.Namespace) -> tuple[Arm, Source]:
-    from continuum.recordings.bag import is_bag
-    from continuum.recordings.recorded_arm import check_joints
-    from continuum.viewer.default_arm import arm_of_joints, default_arm
+@dataclass(frozen=True)
+class _Shown:
+    """What the page is made of."""
+
+    arm: Arm
+    source: Source
+    hanging: bool = False
+
+
+def _arm(options: argparse.Namespace) -> _Shown:
+    """An arm that the page's user moves."""
+    from continuum.viewer.default_arm import default_arm
     from continuum.viewer.manual_source import ManualSource
+
+    if len(options.what) > 1:
+        raise InvalidValueError("ARM.yaml", ", ".join(options.what), "one arm; several recordings can be compared")
+    for option, value in (("--arm", options.arm), ("--model", ", ".join(options.model))):
+        if value and (options.what or option == "--model"):
+            raise InvalidValueError(option, value, "only beside a recording")
+    file = options.what[0] if options.what else options.arm
+    arm = default_arm() if file is None else load_arm(file)
+    return _Shown(arm, ManualSource(arm))
+
+
+def _recordings(options: argparse.Namespace) -> _Shown:
+    """Recordings to play; the first is solid, the others and simulations are ghosts."""
+    from continuum.cli.models import read_model
+    from continuum.recordings.recorded_arm import check_joints
+    from continuum.viewer.default_arm import arm_of_joints
     from continuum.viewer.playback import Playback
-    from continuum.viewer.tracks import read_tracks
+    from continuum.viewer.tracks import Tracks, read_tracks
 
-    what = options.what
-    if what is None or (_is_arm(what) and not is_bag(what)):
-        if what is not None and options.arm is not None:
-            raise InvalidValueError("--arm", options.arm, f"only beside a recording; {what} is an arm itself")
-        file = options.arm if what is None else what
-        arm = default_arm() if file is None else load_arm(file)
-        return arm, ManualSource(arm)
-    if sys.stdout.isatty():  # a refusal is one line, elsewhere
-        print(f"reading {what} ...", flush=True)
-    tracks = read_tracks(what)
-    for note in tracks.notes:
-        print(f"continuum: {what}: {note}", file=sys.stderr)
-    if options.arm is None:
-        arm = arm_of_joints(tracks.joints.names)
-    else:
-        arm = load_arm(options.arm)
-        check_joints(what, tracks.joints.names, arm)
-    return arm, Playback(arm, tracks, Path(what).name)
+    def read(path: str) -> Tracks:
+        if sys.stdout.isatty():  # a refusal is one line, elsewhere
+            print(f"reading {path} ...", flush=True)
+        tracks = read_tracks(path)
+        for note in tracks.notes:
+            print(f"continuum: {path}: {note}", file=sys.stderr)
+        return tracks
 
+    if options.model and len(options.what) > 1:
+        raise InvalidValueError("--model", ", ".join(options.model), "only beside one recording")
+    models = [read_model(one, options.section) for one in options.model]
+    first, *others = (read(path) for path in options.what)
+    arm = arm_of_joints(first.joints.names) if options.arm is None else load_arm(options.arm)
+    for path, tracks in zip(options.what, (first, *others), strict=True):
+        check_joints(path, tracks.joints.names, arm)
+    name, *names = labels([*options.what, *options.model])
+    overlays = [tracks.joints for tracks in others]
+    hanging = False
+    if models:
+        from continuum.recordings.read_recording import read_recording
+        from continuum.viewer.open_loop import hangs, open_loop_track
 
-def _is_arm(what: str) -> bool:
-    """Whether an arm is meant: by a YAML file, or by a bare name that nothing here has."""
-    path = Path(what)
-    return path.suffix in (".yaml", ".yml") or (path.name == what and not path.suffix and not path.exists())
+        if sys.stdout.isatty():
+            print("simulating ...", flush=True)
+        recording, hanging = read_recording(options.what[0]), hangs(models[0])
+        overlays = [
+            open_loop_track(recording, first.joints, model, one)
+            for one, model in zip(options.model, models, strict=True)
+        ]
+    playback = Playback(arm, first, name, dict(zip(names, overlays, strict=True)))
+    return _Shown(arm, playback, hanging)

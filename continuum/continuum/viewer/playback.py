@@ -46,7 +46,8 @@ class Playback:
                 gui.add_html(motion_legend([(motion.label, motion.colour) for motion in self._motions]))
             else:
                 gui.add_markdown(f"`{self._name}`")
-            self.player = Player(layout, self._tracks.joints.times)
+            end = max(float(motion.joints.times[-1]) for motion in self._motions)
+            self.player = Player(layout, self._tracks.joints.times, end)
             save = gui.add_button("Save CSV", hint="Joint angles, tip and cables of the motion that is drawn solid.")
         save.on_click(self._save)
         self._plots = RecordedPlots(layout, self._arm, self._motions, self._lengths, self._tracks.tensions)

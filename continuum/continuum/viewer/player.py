@@ -27,18 +27,19 @@ class Player:
     Args:
         layout: page; the controls are put where its parts are put now.
         times: times of the samples, rising from 0 (n,) [s].
+        end: where the time ends [s]; not before the last sample.
 
     Attributes:
         playing: whether time goes on.
     """
 
-    def __init__(self, layout: Layout, times: Array) -> None:
-        self._times, self._time = times, 0.0
+    def __init__(self, layout: Layout, times: Array, end: float) -> None:
+        self._times, self._time, self._end = times, 0.0, end
         self._asked: float | None = None
         self._steps = 0
         self.playing, self._said_playing = True, False
         gui = layout.server.gui
-        end = max(float(times[-1]), _STEP)
+        end = max(end, _STEP)
         self._button = gui.add_button("Play", hint="Key: space")
         steps = gui.add_button_group("Step", tuple(_STEPS), hint="To the sample before or after. Keys: J, L")
         self._slider: viser.GuiSliderHandle[float] = gui.add_slider("time [s]", 0.0, end, min(_STEP, end), 0.0)
@@ -65,7 +66,7 @@ class Player:
             row = int(np.searchsorted(self._times, self._time, side="right")) - 1 + steps
             self._put(float(self._times[min(max(row, 0), self._times.size - 1)]))
         elif self.playing:
-            end = float(self._times[-1])
+            end = self._end
             if self._time >= end and self._shown >= end:
                 self._put(0.0)  # it is repeated, or play was pressed at the end
             else:
