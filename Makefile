@@ -6,7 +6,7 @@ IN_WORKSPACE := source install/setup.bash &&
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-curvature bench-discovery \
-  bench-inertial bench-link bench-viewer fuzz prototype exams figures notebook equations docs api check check-old format lock clean seeded-faults
+  bench-inertial bench-link bench-viewer fuzz prototype exams figures notebook equations docs api languages check check-old format lock clean seeded-faults
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-20s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -95,6 +95,9 @@ docs: setup ## the pages as one site with the library's reference, in out/docs/s
 
 api: setup ## the library's reference from its docstrings, in out/api/index.html
 	@$(IN_WORKSPACE) python3 -m tools.docs.api $(ARGS)
+
+languages: setup ## collect the sentences to translate into continuum/continuum/languages/*.po, and compile these
+	@$(IN_WORKSPACE) python3 -m tools.docs.languages
 
 check: setup ## style, lint and types, without the tests
 	@$(IN_WORKSPACE) ruff format --check --quiet && ruff check --quiet && mypy

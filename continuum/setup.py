@@ -34,6 +34,7 @@ setup(
     package_data={
         "continuum": ["arms/*.yaml"],
         "continuum.dynamics": ["models/*.yaml"],
+        "continuum.languages": ["*.po", "*.mo"],
         "continuum.discovery.report": ["templates/*", "track_record.json"],
         "continuum.urdf": ["*.xacro"],
     },

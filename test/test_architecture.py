@@ -22,6 +22,7 @@ PLAIN_PYTHON = {  # what a module is called in package.xml (rosdep's keys)
     "casadi": "casadi-pip",
     "jinja2": "python3-jinja2",
     "llvmlite": "python3-numba",  # comes with it
+    "markupsafe": "python3-jinja2",  # comes with it
     "matplotlib": "python3-matplotlib",
     "mcap": "mcap-ros2-support",  # brings it
     "numba": "python3-numba",

@@ -39,7 +39,7 @@ CHOICES = [
     for words, parser in PARSERS.items()
     for action in parser._actions
     for choice in action.choices or ()
-    if action.option_strings and len(str(choice)) > 1
+    if action.option_strings and len(str(choice)) > 2  # to shorter ones nothing is near: all are listed
 ]
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from continuum.cli.completion import completes
+from continuum.cli.language_option import add_language_option
 from continuum.cli.models import add_model_option, read_model
 from continuum.cli.outputs import announce, check_outputs, write
 from continuum.cli.recordings import read_recordings
@@ -18,12 +19,19 @@ from continuum.cli.tables import print_pairs, print_text
 from continuum.did_you_mean import did_you_mean
 from continuum.dynamics.effect_lookup import effect_names
 from continuum.errors import InvalidValueError
+from continuum.languages import ENGLISH, Message, Translator, translator
 from continuum.printable import printable
 
 if TYPE_CHECKING:
-    from continuum.discovery.result import Diagnosis
+    from continuum.discovery.result import Cause, Diagnosis
 
 EXIT_CODES = {"adequate": 0, "cause": 3, "ambiguous": 4, "unknown": 5}  # 1 is a crash, 2 wrong usage
+_VERDICTS = {
+    "adequate": Message("ADEQUATE"),
+    "cause": Message("CAUSE"),
+    "ambiguous": Message("AMBIGUOUS"),
+    "unknown": Message("UNKNOWN"),
+}
 
 
 def add_to(commands: Any) -> None:
@@ -62,6 +70,7 @@ def add_to(commands: Any) -> None:
         help="one of the recordings, before which the sensors' zeros were set by a protractor; may be repeated",
     )  # fmt: skip
     completes(without, lambda _: effect_names())
+    add_language_option(parser, "verdict and page")
     parser.set_defaults(run=run)
 
 
@@ -71,7 +80,8 @@ def run(options: argparse.Namespace) -> int:
         raise InvalidValueError("--tolerance", options.tolerance, "an angle > 0 [degrees]")
     _check_effects(options)
     check_outputs((*options.data, options.model), [options.json, options.extended], pages=[options.report])
-    model, recordings = read_model(options.model, options.section), read_recordings(options.data)
+    tr = translator(options.lang)
+    model, recordings = read_model(options.model, options.section), read_recordings(options.data, tr)
     for recording in recordings:
         if recording.n_joints != model.n_joints:
             allowed = f"{model.n_joints}, as {options.model} has; --model names another"
@@ -87,17 +97,18 @@ def run(options: argparse.Namespace) -> int:
     measured = [measurement_of(text) for text in options.measured]
     zeroed = [_number_of(path, options.data) for path in options.zeroed]
     tolerance = None if options.tolerance is None else math.radians(options.tolerance)
-    with progress_bar() as tell:
+    with progress_bar(tr) as tell:
         result = diagnose(
             recordings, model, tolerance=tolerance, progress=tell, measured=measured, zeroed=zeroed,
             without=options.without,
         )  # fmt: skip
     write(options.json, lambda path: write_json(result, path, _made(options)))
-    write(options.report, lambda path: write_report(result, path, _how(options)))
+    write(options.report, lambda path: write_report(result, path, _how(options, tr), tr))
     write(options.extended, lambda path: save_model(result.extended_model, path))
-    show(result)  # at last: whoever reads it may stop reading
-    print(f"\nof {_what(options)}")
-    announce([options.json, options.report, options.extended])
+    show(result, tr)  # at last: whoever reads it may stop reading
+    print()
+    print(tr("of {recordings}; model {model}", **_inputs(options)))
+    announce([options.json, options.report, options.extended], tr=tr)
     return EXIT_CODES[result.verdict.kind.value]
 
 
@@ -135,72 +146,85 @@ def _made(options: argparse.Namespace) -> dict[str, Any]:
     }
 
 
-def _what(options: argparse.Namespace) -> str:
-    """Recordings and model in one line."""
+def _inputs(options: argparse.Namespace) -> dict[str, str]:
+    """Recordings and model."""
     made = _made(options)
-    return f"{', '.join(made['recordings'])}; model {made['model']}"
+    return {"recordings": ", ".join(made["recordings"]), "model": made["model"]}
 
 
-def _how(options: argparse.Namespace) -> str:
-    """The same, by which version and on which day."""
-    day = datetime.datetime.now().astimezone().date().isoformat()
-    return f"Made on {day} by continuum {_made(options)['version']} of {_what(options)}."
+def _how(options: argparse.Namespace, tr: Translator) -> str:
+    """Recordings and model, by which version and on which day, in one sentence."""
+    day, version = datetime.datetime.now().astimezone().date().isoformat(), _made(options)["version"]
+    return tr(
+        "Made on {day} by continuum {version} of {recordings}; model {model}.",
+        day=day, version=version, **_inputs(options),
+    )  # fmt: skip
 
 
-def show(result: Diagnosis) -> None:
+def show(result: Diagnosis, tr: Translator = ENGLISH) -> None:
     """Print the verdict and what it rests on."""
     from continuum.discovery.decision import Kind
     from continuum.discovery.words import (
         errors_in_words,
         estimate_in_words,
+        known_in_words,
         shares_in_words,
         sigma_in_words,
         similar_causes,
         verdict_in_words,
     )
 
-    print(f"{result.verdict.kind.value.upper()}\n")
-    print_text(verdict_in_words(result))
+    print(f"{tr(_VERDICTS[result.verdict.kind.value])}\n")
+    print_text(verdict_in_words(result, tr))
     print()
     if result.known:
-        print_text(f"Also known: {'; '.join(result.known)}.")
+        print_text(known_in_words(result, tr))
         print()
     if result.verdict.kind is Kind.AMBIGUOUS:
         for causes, p in zip(result.sets, result.verdict.probabilities, strict=True):
-            print(
-                f"may be: {' and '.join(cause.label for cause in causes) or 'nothing'}   relative fit {100 * p:.0f} %"
-            )
+            print(tr("may be: {effects}   relative fit {percent:.0f} %", effects=_labels(causes, tr), percent=100 * p))
         print()
     estimates = [*(one for cause in result.causes for one in cause.estimates), *result.estimates]
-    print_pairs([("parameter", "value, 95 % interval"), *((str(one), estimate_in_words(one)) for one in estimates)])
+    headings = tr("parameter"), tr("value, 95 % interval")
+    print_pairs([headings, *((str(one), estimate_in_words(one, tr)) for one in estimates)])
     for causes in result.sets[1:]:
-        print(f"\n{' and '.join(cause.label for cause in causes)} instead:")
-        print_pairs([(str(one), estimate_in_words(one)) for cause in causes for one in cause.estimates])
+        _print_heading(tr("{effects} instead:", effects=_labels(causes, tr)))
+        print_pairs([(str(one), estimate_in_words(one, tr)) for cause in causes for one in cause.estimates])
     if result.is_extended:
-        print("\nShare of the open-loop error that is explained (95 %)")
-        print_pairs(shares_in_words(result))
-    models = "refitted" + " -> extended" * result.is_extended
-    print(f"\nOpen-loop error, {models} model")
-    print_pairs(errors_in_words(result))
-    print(f"\nMissing torque, {models} model")
-    print_pairs(sigma_in_words(result))
-    _show_power(result)
-    for line in (*result.notes, *similar_causes(result)):
+        _print_heading(tr("Share of the open-loop error that is explained (95 %)"))
+        print_pairs(shares_in_words(result, tr))
+    both = result.is_extended
+    _print_heading(tr("Open-loop error, refitted -> extended model") if both else tr("Open-loop error, refitted model"))
+    print_pairs(errors_in_words(result, tr))
+    _print_heading(tr("Missing torque, refitted -> extended model") if both else tr("Missing torque, refitted model"))
+    print_pairs(sigma_in_words(result, tr))
+    _show_power(result, tr)
+    for line in (*map(tr, result.notes), *similar_causes(result, tr)):
         print_text(line)
 
 
-def _show_power(result: Diagnosis) -> None:
+def _print_heading(text: str) -> None:
+    """Print a line below a blank one."""
+    print(f"\n{text}")
+
+
+def _labels(causes: Sequence[Cause], tr: Translator) -> str:
+    """The effects of a set by the names that model files have for them."""
+    return tr(" and ").join(cause.label for cause in causes) or tr("nothing")
+
+
+def _show_power(result: Diagnosis, tr: Translator) -> None:
     """Print what the recordings would have shown, and which run would tell more."""
     from continuum.discovery.power_words import experiment_in_words, power_in_words
 
-    shown, hidden = power_in_words(result)
+    shown, hidden = power_in_words(result, tr)
     if shown:
-        print("\nSmallest size that these recordings would have shown (in 80 of 100 cases)")
+        _print_heading(tr("Smallest size that these recordings would have shown (in 80 of 100 cases)"))
         print_pairs(shown)
     if hidden:
-        print("\nNot to be seen in them at its typical size")
+        _print_heading(tr("Not to be seen in them at its typical size"))
         print_pairs(hidden)
-    if text := experiment_in_words(result):
+    if text := experiment_in_words(result, tr):
         print()
-        print_text(f"Next experiment: {text}")
+        print_text(tr("Next experiment: {experiment}", experiment=text))
     print()

@@ -8,11 +8,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from continuum.cli.language_option import add_language_option
 from continuum.cli.models import add_model_option, read_model
 from continuum.cli.outputs import announce, check_outputs, write
 from continuum.cli.recordings import read_recordings
 from continuum.cli.tables import print_pairs, print_table, print_text
 from continuum.errors import InvalidValueError
+from continuum.languages import ENGLISH, Translator, translator
 from continuum.printable import printable
 
 if TYPE_CHECKING:
@@ -52,6 +54,7 @@ def add_to(commands: Any) -> None:
     parser.add_argument("--seed", metavar="N", type=int, help="of --method swarm; default 0")
     parser.add_argument("--out", metavar="MODEL.yaml", help="write the model with the identified values")
     parser.add_argument("--report", metavar="PAGE.html", help="write a page with both tables and every run's angles")
+    add_language_option(parser, "tables and page")
     parser.set_defaults(run=run)
 
 
@@ -66,23 +69,24 @@ def run(options: argparse.Namespace) -> int:
     if options.seed is not None and options.seed < 0:
         raise InvalidValueError("--seed", options.seed, "a whole number >= 0")
     fitted = chosen_runs(options.identify, options.validate, len(options.data))
-    model, recordings = read_model(options.model, options.section), read_recordings(options.data)
+    tr = translator(options.lang)
+    model, recordings = read_model(options.model, options.section), read_recordings(options.data, tr)
     from continuum.discovery.refit import check_recordings  # here, so that what is refused need not wait for numba
 
     check_recordings(recordings, model)
     began = time.process_time()
-    identified = _identified(options, [recordings[k] for k in fitted], model)
+    identified = _identified(options, [recordings[k] for k in fitted], model, tr)
     seconds = time.process_time() - began
     predicted = scores(identified.model, recordings)
     write(options.out, lambda path: save_model(identified.model, path))
     if options.report is not None:
         from continuum.discovery.report.identification_page import write_identification
 
-        made = _made(options, seconds)
-        write(options.report, lambda path: write_identification(identified, predicted, fitted, path, made))
-    show(identified, predicted, fitted)
-    print_pairs([("method", identified.method), ("processor time", f"{seconds:.1f} s")])
-    announce([options.out, options.report], "nothing written; --out names a model file")
+        made = _made(options, seconds, tr)
+        write(options.report, lambda path: write_identification(identified, predicted, fitted, path, made, tr))
+    show(identified, predicted, fitted, tr)
+    print_pairs([(tr("method"), tr(identified.method)), (tr("processor time"), f"{seconds:.1f} s")])
+    announce([options.out, options.report], tr("nothing written; --out names a model file"), tr=tr)
     return 0
 
 
@@ -127,11 +131,13 @@ def _numbers(option: str, text: str, n_runs: int) -> list[int]:
     return numbers
 
 
-def _identified(options: argparse.Namespace, recordings: Sequence[Recording], model: Model) -> Identified:
+def _identified(
+    options: argparse.Namespace, recordings: Sequence[Recording], model: Model, tr: Translator
+) -> Identified:
     """By the method that was asked for."""
     from continuum.cli.progress import progress_bar
 
-    with progress_bar() as tell:
+    with progress_bar(tr) as tell:
         if options.method == "swarm":
             from continuum.identification.thesis_swarm import swarm_parameters
 
@@ -141,21 +147,26 @@ def _identified(options: argparse.Namespace, recordings: Sequence[Recording], mo
         return fit_parameters(recordings, model, options.per_joint, tell)
 
 
-def show(identified: Identified, predicted: Sequence[Score], fitted: Sequence[int]) -> None:
+def show(identified: Identified, predicted: Sequence[Score], fitted: Sequence[int], tr: Translator = ENGLISH) -> None:
     """Print Table 3, Table 4 and what they say."""
     from continuum.discovery.report.identification_page import remarks, score_rows, value_rows
 
-    print_table(("Table 3", "unit", "start", "value", "95 % interval"), value_rows(identified))
+    headings = tr("Table 3"), tr("unit"), tr("start"), tr("value"), tr("95 % interval")
+    print_table(headings, value_rows(identified, tr))
     print()
-    print_table(("Table 4", "use", "position NRMSE", "rate NRMSE", "RMSE [deg]"), score_rows(predicted, fitted))
+    headings = tr("Table 4"), tr("use"), tr("position NRMSE"), tr("rate NRMSE"), tr("RMSE [deg]")
+    print_table(headings, score_rows(predicted, fitted, tr))
     print()
-    for line in remarks(identified, predicted, fitted):
+    for line in remarks(identified, predicted, fitted, tr):
         print_text(line)
 
 
-def _made(options: argparse.Namespace, seconds: float) -> str:
+def _made(options: argparse.Namespace, seconds: float, tr: Translator) -> str:
     """How the page was made, one line."""
     import importlib.metadata
 
     version, model = importlib.metadata.version("continuum"), printable(Path(options.model).name)
-    return f"Made by continuum {version} of model {model}; {seconds:.1f} s of processor time."
+    return tr(
+        "Made by continuum {version} of model {model}; {seconds:.1f} s of processor time.",
+        version=version, model=model, seconds=seconds,
+    )  # fmt: skip

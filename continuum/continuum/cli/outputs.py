@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+from continuum.languages import ENGLISH, Translator
 from continuum.output_files import check_apart, check_page, check_picture, check_writable, folder_of
 from continuum.printable import one_line, printable
 
@@ -46,17 +47,18 @@ def write(path: Output, write_to: Callable[[str | Path], object]) -> None:
             write_to(path)
 
 
-def announce(paths: Sequence[Output], otherwise: str = "", *, apart: bool = False) -> None:
+def announce(paths: Sequence[Output], otherwise: str = "", *, apart: bool = False, tr: Translator = ENGLISH) -> None:
     """Print a line for every file that was written.
 
     Args:
         paths: what was written, None where nothing was.
         otherwise: printed where nothing was written at all.
         apart: on stderr, as stdout holds a result for machines; then ``otherwise`` is left out.
+        tr: to the language of the output.
     """
     written = [path for path in paths if path is not None]
     for path in written:
-        print(f"written: {one_line(printable(str(path)))}", file=sys.stderr if apart else sys.stdout)
+        print(tr("written: {path}", path=one_line(printable(str(path)))), file=sys.stderr if apart else sys.stdout)
     if not written and otherwise and not apart:
         print(otherwise)
 

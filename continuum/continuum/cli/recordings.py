@@ -1,4 +1,4 @@
-"""Recordings that a command is given, with what was repaired in them printed on stderr."""
+"""Read the recordings of a command, and print notes about repairs on stderr."""
 
 from __future__ import annotations
 
@@ -6,22 +6,23 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from continuum.languages import ENGLISH, Translator
 from continuum.printable import printable
 
 if TYPE_CHECKING:
     from continuum.recordings.recording import Recording
 
 
-def read_recordings(paths: Sequence[str]) -> list[Recording]:
-    """Read all, then print the notes of each: what was not understood may be what matters.
+def read_recordings(paths: Sequence[str], tr: Translator = ENGLISH) -> list[Recording]:
+    """Read all recordings, then print the notes of each, including unknown content, which may matter.
 
     Raises:
-        FileError: one cannot be read.
+        FileError: a recording cannot be read.
     """
-    from continuum.recordings.read_recording import read_recording  # here, so that help need not wait for rosbags
+    from continuum.recordings.read_recording import read_recording  # imported here because rosbags is slow to load
 
     recordings = [read_recording(path) for path in paths]
     for recording in recordings:
         for note in recording.notes:
-            print(f"continuum: {printable(recording.name)}: {printable(note)}", file=sys.stderr)
+            print(f"continuum: {printable(recording.name)}: {printable(tr(note))}", file=sys.stderr)
     return recordings

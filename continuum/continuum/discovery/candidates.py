@@ -28,6 +28,7 @@ from continuum.discovery.search import (
 )
 from continuum.discovery.sensitivities import is_linear
 from continuum.dynamics.model import Model
+from continuum.languages import Message
 from continuum.recordings.recording import Recording
 
 
@@ -44,9 +45,9 @@ def examine(
     zeroed: Collection[int] = (),
 ) -> Examination:
     """Search for sets of effects and simulate each open loop; ``model`` includes the values measured by hand."""
-    progress("compiling", 0.0)
+    progress(Message("compiling"), 0.0)
     problem = replace(problem_for(recordings, model, effects, measured), zeroed=frozenset(zeroed))
-    progress("baseline", 0.1)
+    progress(Message("baseline"), 0.1)
     fits = _Fits(*refit(problem, recordings), progress)
     fits.search()
     base, *others = fits.examined
@@ -126,11 +127,13 @@ class _Fits:
             worth = ranked[:1]  # far from the truth few residuals are independent, and steps are too short
         gains = [(one.gain, one.hypothesis) for one in worth]
         for number, one in enumerate(with_one_more(self._problem, found, gains)):
-            self._progress(f"simulating with {one.label}", 0.3 + 0.05 * number + 0.2 * bool(found.chosen))
+            self._progress(
+                Message("simulating with {set}", set=one.label), 0.3 + 0.05 * number + 0.2 * bool(found.chosen)
+            )
             self._try(one, about)
         stays = self.nearest.found.key == about.found.key and self._is_unexplained(about)
         for one in with_unseen(self._problem, found) if stays else []:
-            self._progress(f"simulating with {one.label}", 0.7)
+            self._progress(Message("simulating with {set}", set=one.label), 0.7)
             self._try(one, about)
 
     def _mirror(self, best: Examined) -> None:
@@ -154,7 +157,7 @@ class _Fits:
                 if one.gain > (RUNNER_UP - 1) * gained and self._lacks(rest, one, best, gained)
             ]
             for one in with_linear(rest, alike):
-                self._progress(f"simulating with {one.label}", 0.8)
+                self._progress(Message("simulating with {set}", set=one.label), 0.8)
                 self._exchanged.add(one.key)
                 self.add(one, [near[one.chosen[-1]]])
 
@@ -219,7 +222,7 @@ class _Fits:
         """Continue a fit while its error falls: a set short of its optimum makes others seem as good."""
         key = one.found.key
         while self._is_unexplained(one := self._by_key[key]) and not one.fit.settled:
-            self._progress(f"simulating with {one.found.label}", 0.85)
+            self._progress(Message("simulating with {set}", set=one.found.label), 0.85)
             self._keep(one.found, self.judge.further(one.found, one.fit))
             if self._by_key[key] is one or log(one.fit.error / self._by_key[key].fit.error) < ALIKE:
                 return

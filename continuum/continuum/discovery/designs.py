@@ -18,6 +18,7 @@ from continuum.dynamics.model import InputKind, Model
 from continuum.dynamics.pulled_posture import pulled_posture
 from continuum.dynamics.tensions import LET_GO, Tensions, slack
 from continuum.errors import InvalidValueError
+from continuum.languages import Message
 from continuum.recordings.recording import Recording
 
 RATE = 120.0  # readings per second, as on the prototype
@@ -56,9 +57,11 @@ def designs(model: Model, recordings: Sequence[Recording]) -> list[Design]:
     found = [
         release,
         Design(
-            "release with zeros by protractor",
-            "Measure the angle of each joint at rest with a protractor and set the sensors' zeros to match. Then bend "
-            "the arm and let it go. Diagnose all recordings again, with --zeroed and the name of this one.",
+            Message("release with zeros by protractor"),
+            Message(
+                "Measure the angle of each joint at rest with a protractor and set the sensors' zeros to match. Then "
+                "bend the arm and let it go. Diagnose all recordings again, with --zeroed and the name of this one."
+            ),
             release.posture, let_go, release.inputs, zeroed=True,
         ),
     ]  # fmt: skip
@@ -75,16 +78,21 @@ def _release(model: Model, recordings: Sequence[Recording], times: Array) -> Des
     if model.inputs is InputKind.CABLES:
         with contextlib.suppress(InvalidValueError):  # no cable holds it there, but hands do
             posture = pulled_posture(model, side * far).theta
-    bend = f"Bend the arm by {np.degrees(far):.0f} degrees in total to the {_side(side)} side"
+    name, bend = Message("release from the other side"), {"angle": np.degrees(far), "side": _side(side)}
     if model.inputs is InputKind.CABLES:
-        text = f"{bend} with one cable, and let it go."
-        return Design("release from the other side", text, posture, times, slack())
-    text = f"{bend} by hand with the drives off, and let it go."
-    return Design("release from the other side", text, posture, times, no_torques(model.n_joints))
+        text = Message(
+            "Bend the arm by {angle:.0f} degrees in total to the {side} side with one cable, and let it go.", **bend
+        )
+        return Design(name, text, posture, times, slack())
+    text = Message(
+        "Bend the arm by {angle:.0f} degrees in total to the {side} side by hand with the drives off, and let it go.",
+        **bend,
+    )
+    return Design(name, text, posture, times, no_torques(model.n_joints))
 
 
-def _side(sign: float) -> str:
-    return "positive" if sign > 0 else "negative"
+def _side(sign: float) -> Message:
+    return Message("positive") if sign > 0 else Message("negative")
 
 
 def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iterator[tuple[str, str, InputSignal]]:
@@ -100,19 +108,29 @@ def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iter
         top = float(np.max(most))
         pair = np.column_stack([np.maximum(triangle, 0), np.maximum(-triangle, 0)])
         yield (
-            "slow pull of one cable, then of the other",
-            f"Pull cable 1 slowly to {top:.0f} N and slacken it again, then cable 2, {times[-1]:.0f} s in total.",
+            Message("slow pull of one cable, then of the other"),
+            Message(
+                "Pull cable 1 slowly to {tension:.0f} N and slacken it again, then cable 2, {time:.0f} s in total.",
+                tension=top,
+                time=times[-1],
+            ),
             Tensions(times, top * pair, held=True),
         )
         both = np.interp(share, [0, 0.5, 1], [0.07, 0.67, 0.07])[:, None] + np.column_stack([wave, -wave]) / 3
         yield (
-            "co-contraction",
-            f"Tighten both cables together and slacken them again while their difference swings, up to {top:.0f} N.",
+            Message("co-contraction"),
+            Message(
+                "Tighten both cables together and slacken them again while their difference swings, up to "
+                "{tension:.0f} N.",
+                tension=top,
+            ),
             Tensions(times, top * np.maximum(both, 0.0), held=True),
         )
         yield (
-            "multisine",
-            f"Drive the cables in turn with a sum of sines from 0.3 to 3.5 Hz up to {top:.0f} N.",
+            Message("multisine"),
+            Message(
+                "Drive the cables in turn with a sum of sines from 0.3 to 3.5 Hz up to {tension:.0f} N.", tension=top
+            ),
             Tensions(times, top * np.column_stack([np.maximum(wave, 0), np.maximum(-wave, 0)]), held=True),
         )
         return
@@ -120,13 +138,16 @@ def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iter
     waves = np.column_stack([np.roll(wave, 7 * j) for j in range(n)])
     limits = ", ".join(f"{torque:.2g}" for torque in most)
     yield (
-        "slow torque at one joint after another",
-        f"Raise and lower the torque of one joint after another slowly, to both sides, up to {limits} N m.",
+        Message("slow torque at one joint after another"),
+        Message(
+            "Raise and lower the torque of one joint after another slowly, to both sides, up to {torques} N m.",
+            torques=limits,
+        ),
         JointTorques(times, most * turns, held=True),
     )
     yield (
-        "multisine of all drives",
-        f"Drive all joints at once with sums of sines from 0.3 to 3.5 Hz up to {limits} N m.",
+        Message("multisine of all drives"),
+        Message("Drive all joints at once with sums of sines from 0.3 to 3.5 Hz up to {torques} N m.", torques=limits),
         JointTorques(times, most * waves, held=True),
     )
 

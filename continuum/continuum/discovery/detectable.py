@@ -10,6 +10,7 @@ from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.power import Power
 from continuum.discovery.problem import Problem
 from continuum.discovery.result import Detectable
+from continuum.languages import Message
 
 _MOSTLY = 0.5
 """Fraction of a change that counts as most of it."""
@@ -37,7 +38,7 @@ def detectable(problem: Problem, powers: Sequence[Power]) -> tuple[Detectable, .
         found.append(
             Detectable(
                 effect.name, None, name, spec.unit, spec.typical or 1.0, np.inf,
-                "Nothing pulls or drives the arm in these recordings.",
+                Message("Nothing pulls or drives the arm in these recordings."),
             )
         )  # fmt: skip
     return tuple(sorted(found, key=lambda one: (one.smallest / one.typical, one.label)))
@@ -51,10 +52,16 @@ def _reason(one: Power, smallest: float) -> str:
     if smallest <= 1:
         return ""
     if not one.changes > 0:
-        return "It changes nothing in these recordings."
+        return Message("It changes nothing in these recordings.")
     if one.changes < 1:
-        return f"Its typical size changes the readings by only {one.changes:.2g} times the error of the simulation."
+        return Message(
+            "Its typical size changes the readings by only {factor:.2g} times the error of the simulation.",
+            factor=one.changes,
+        )
     if one.kept < _MOSTLY:
         taken = 100 * (1 - one.kept)
-        return f"{taken:.0f} % of what it changes could also come from springs, friction, masses or sensors' zeros."
-    return "It changes the readings, but acts in too few of them."
+        return Message(
+            "{part:.0f} % of what it changes could also come from springs, friction, masses or sensors' zeros.",
+            part=taken,
+        )
+    return Message("It changes the readings, but acts in too few of them.")

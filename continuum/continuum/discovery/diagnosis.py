@@ -26,6 +26,7 @@ from continuum.discovery.search import Progress, with_library
 from continuum.dynamics.effect_lookup import effect_named, effect_names
 from continuum.dynamics.model import Model
 from continuum.errors import InvalidValueError
+from continuum.languages import Message
 from continuum.recordings.rate_ratio import odd_rates
 from continuum.recordings.recording import Recording
 
@@ -78,15 +79,15 @@ def diagnose(
     model = with_measured(model, measured)
     search = _SEARCH if with_power else 1.0
     found = examine(recordings, model, names, lambda what, part: progress(what, search * part), measured, zeroed)
-    progress("deciding", search)
+    progress(Message("deciding"), search)
     answer, best = _answer(found, recordings, model, tolerance)
     if with_power:
-        progress("power of the recordings", 0.7)
+        progress(Message("power of the recordings"), 0.7)
         named = {key for one in (*answer.verdict.sets, answer.verdict.helps) for key in one}
         library = with_library(found.problem, best.found).lin.library
         known = powers(found.judge, best.fit, library, found.baseline.fit) if best.fit.completed else []
         power = detectable(found.problem, [one for one in known if one.hypothesis.key not in named])
-        progress("next experiment", 0.85)
+        progress(Message("next experiment"), 0.85)
         compared = rivals([found.by_key[frozenset(key)] for key in answer.verdict.sets] or [best])
         answer = replace(
             answer, power=power, experiments=experiments(found, compared, library, recordings, power),
@@ -174,28 +175,36 @@ def _causes(found: Examination, one: Examined) -> tuple[Cause, ...]:
 
 
 def _notes(recordings: Sequence[Recording], found: Examination, best: Examined) -> tuple[str, ...]:
-    notes = [f"{recording.name}: {note}" for recording in recordings for note in recording.notes]
+    notes = [Message("{name}: {note}", name=run.name, note=note) for run in recordings for note in run.notes]
     if any(run.is_driven for run in recordings):
         held = all(run.held for run in found.problem.runs)
         notes.append(
-            "inputs are assumed " + ("to hold until their next row" if held else "to change linearly from row to row")
+            Message("inputs are assumed to hold until their next row")
+            if held
+            else Message("inputs are assumed to change linearly from row to row")
         )
     if len(recordings) < 3:
-        notes.append("few recordings: nothing shows that the answer holds for another run")
+        notes.append(Message("few recordings: nothing shows that the answer holds for another run"))
     notes += _pulled(found, best)
     local = sorted({h.effect for h in best.found.chosen if h.local})
     if local:
-        notes.append(f"{', '.join(local)}: each recording has its own value, which a model file leaves at zero")
+        notes.append(
+            Message(
+                "{effects}: each recording has its own value, which a model file leaves at zero",
+                effects=", ".join(local),
+            )
+        )
     return tuple(notes)
 
 
-def _pulled(found: Examination, best: Examined) -> Iterator[str]:
+def _pulled(found: Examination, best: Examined) -> Iterator[Message]:
     """Yield a note on each measured value that the recordings contradict by more than its standard deviation allows."""
     fit = best.fit
     for one in found.problem.measured:
         for unknown, value in zip(fit.unknowns.common, fit.values.common, strict=True):
             if one.key in unknown.places and abs(value - unknown.mean) > _PULLED * one.sd:
-                yield (
-                    f"{one}: the recordings call for {one.value + value:.4g} or beyond, more than {_PULLED:g} standard "
-                    "deviations away; measure it again, as no other result is certain until this is resolved"
-                )
+                yield Message(
+                    "{measured}: the recordings call for {value:.4g} or beyond, more than {limit:g} standard "
+                    "deviations away; measure it again, as no other result is certain until this is resolved",
+                    measured=str(one), value=one.value + value, limit=_PULLED,
+                )  # fmt: skip

@@ -15,6 +15,7 @@ from continuum.discovery.result import HandTest, Removal
 from continuum.discovery.zeros_by_hand import WIDENING
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import ByHand
+from continuum.languages import Message
 
 
 def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest, ...]:
@@ -40,7 +41,8 @@ def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest
         variance = by_hand.sd**2 + (WIDENING * one_sd) ** 2 + (WIDENING * other_sd) ** 2
         apart, unit = abs(one - other) / variance**0.5, effect_named(effect).parameters[name].unit
         where = joint if joint >= 0 else None
-        text = by_hand.how if where is None else f"At joint {joint + 1}: {by_hand.how[:1].lower()}{by_hand.how[1:]}"
+        how = Message(by_hand.how[:1].lower() + by_hand.how[1:])
+        text = by_hand.how if where is None else Message("At joint {joint}: {how}", joint=joint + 1, how=how)
         tests.append(HandTest(effect, name, where, unit, by_hand.sd, apart, apart > enough, text))
     return tuple(sorted(tests, key=lambda test: -test.apart))
 

@@ -29,6 +29,7 @@ from continuum.estimation.sensor_noise import white_noise_error
 from continuum.identification.estimate import Z_95, Estimate
 from continuum.identification.free import THESIS_PARAMETERS
 from continuum.identification.identified import Identified, with_identified
+from continuum.languages import Message
 from continuum.recordings.recording import Recording
 
 _DIFFERENCES = {
@@ -60,21 +61,21 @@ def fit_parameters(
         InvalidValueError: no recording, a recording twice, or recordings that do not fit the model.
     """
     check_recordings(recordings, model)
-    progress("smoothing", 0.0)
+    progress(Message("smoothing"), 0.0)
     start, judge = refitted(recordings, model)
-    progress("fitting from several starts", 0.3)
+    progress(Message("fitting from several starts"), 0.3)
     found, fit = start.found, judge.multi_start(start.found)
     if per_joint:  # for a joint that hardly swings, only the common values are a good start
         found = _with_free_joints(found)
         fit = judge.multi_start(found, [fit])
-    progress("fitting all segments", 0.8)
+    progress(Message("fitting all segments"), 0.8)
     fit = judge.along(judge.problem, recordings).followed(found, fit.start, None)
     singly = {PARAMETER[name] for name, joint in judge.problem.coordinates.all if joint >= 0}
     key = tuple(h.key for h in found.chosen)
     values = _estimates(judge.problem, fit, key, model, singly | set(_DIFFERENCES.values()) if per_joint else singly)
     limit = noise_limit(judge.floor, fit.observations, white_noise_error(judge.problem.runs))
     return Identified(
-        "output error", with_identified(model, values, "identified from recordings by output error"), values,
+        Message("output error"), with_identified(model, values, "identified from recordings by output error"), values,
         fit.error / judge.floor, limit / judge.floor, _undetermined(fit),
     )  # fmt: skip
 

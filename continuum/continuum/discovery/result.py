@@ -11,6 +11,7 @@ from continuum.discovery.decision import Kind, Verdict
 from continuum.discovery.fitted import OpenLoop
 from continuum.dynamics.model import Model
 from continuum.identification.estimate import Estimate
+from continuum.languages import Message
 from continuum.recordings.recording import Recording
 
 if TYPE_CHECKING:
@@ -196,12 +197,12 @@ class Diagnosis:
     without: tuple[str, ...] = ()
 
     @property
-    def known(self) -> tuple[str, ...]:
+    def known(self) -> tuple[Message, ...]:
         """Facts on which the answer rests in addition to the recordings, a phrase each."""
         return (
-            *(f"{one} is in every model" for one in self.measured),
-            *(f"the sensors' zeros were set by hand before {one}" for one in self.zeroed),
-            *(f"{one} was taken off the arm" for one in self.without),
+            *(Message("{measured} is in every model", measured=one) for one in self.measured),
+            *(Message("the sensors' zeros were set by hand before {recording}", recording=one) for one in self.zeroed),
+            *(Message("{effect} was taken off the arm", effect=one) for one in self.without),
         )
 
     @property

@@ -16,6 +16,7 @@ from continuum.identification.estimate import Estimate
 from continuum.identification.free import THESIS_PARAMETERS, Free, FreeSpace
 from continuum.identification.identified import Identified, with_identified
 from continuum.identification.swarm import SwarmSettings, swarm_identification
+from continuum.languages import Message
 from continuum.recordings.recording import Recording
 
 _TOLERANCES = Tolerances(1e-3, 1e-4, 0.01)  # errors stay below a hundredth of a degree
@@ -67,4 +68,6 @@ def swarm_parameters(
             )
         )  # fmt: skip
     identified = with_identified(model, estimates, "identified from recordings by a particle swarm")
-    return Identified(f"particle swarm, {found.simulations} simulations", identified, tuple(estimates))
+    return Identified(
+        Message("particle swarm, {count} simulations", count=found.simulations), identified, tuple(estimates)
+    )

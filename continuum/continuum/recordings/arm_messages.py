@@ -10,6 +10,7 @@ import numpy as np
 
 from continuum.errors import FileError
 from continuum.joint_names import cable_names, theta_joints
+from continuum.languages import Message
 from continuum.printable import printable
 from continuum.recordings.bag import stamp_ns
 
@@ -40,8 +41,13 @@ def of_an_arm(path: Path, topic: str, messages: Iterable[Any]) -> tuple[list[Any
     _refuse_two_arms(path, topic, ordered)
     if not others:
         return ordered, unstamped
-    names = printable(", ".join(sorted(strangers)[:_SHOWN])) or "without names"
-    return ordered, (*unstamped, f"{_counted(len(others))} of other publishers on {topic} ({names}), left out")
+    text = (
+        Message("{count} message of other publishers on {topic} ({names}), left out")
+        if len(others) == 1
+        else Message("{count} messages of other publishers on {topic} ({names}), left out")
+    )
+    names = printable(", ".join(sorted(strangers)[:_SHOWN])) or Message("without names")
+    return ordered, (*unstamped, Message(text, count=len(others), topic=topic, names=names))
 
 
 def _with_stamp(path: Path, topic: str, messages: list[Any]) -> tuple[list[Any], tuple[str, ...]]:
@@ -51,11 +57,13 @@ def _with_stamp(path: Path, topic: str, messages: list[Any]) -> tuple[list[Any],
         raise FileError(path, f"has no message on {topic} with a stamp; the time of measurement is not known")
     if len(found) == len(messages) or min(map(stamp_ns, found), default=0) < _DAY:
         return messages, ()
-    return found, (f"{_counted(len(messages) - len(found))} without a stamp on {topic}, left out",)
-
-
-def _counted(count: int) -> str:
-    return "1 message" if count == 1 else f"{count} messages"
+    count = len(messages) - len(found)
+    text = (
+        Message("{count} message without a stamp on {topic}, left out")
+        if count == 1
+        else Message("{count} messages without a stamp on {topic}, left out")
+    )
+    return found, (Message(text, count=count, topic=topic),)
 
 
 def _refuse_two_arms(path: Path, topic: str, joints: Sequence[Any]) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from continuum.errors import FileError
 from continuum.joint_names import bending_joints
+from continuum.languages import Message
 from continuum.recordings.bag import stamp_ns
 
 _MOST_ALONE = 0.5  # fraction of a section's messages with a stamp that others lack; beyond, stamps are unrelated
@@ -60,7 +61,9 @@ def joined_sections(path: Path, topic: str, messages: Sequence[Any]) -> tuple[li
             f"has {max(counts.values())} messages of one section on {topic}, {complete} of which have a stamp that "
             f"all {len(parts)} sections share: do the sections' nodes follow one command?",
         )
-    left = (
-        f"{alone} message{'' if alone == 1 else 's'} of single sections on {topic}, left out: others lack their stamp"
+    text = (
+        Message("{count} message of single sections on {topic}, left out: others lack their stamp")
+        if alone == 1
+        else Message("{count} messages of single sections on {topic}, left out: others lack their stamp")
     )
-    return joined, (left,) * bool(alone)
+    return joined, (Message(text, count=alone, topic=topic),) * bool(alone)

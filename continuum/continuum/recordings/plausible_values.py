@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.errors import FileError
+from continuum.languages import Message
 from continuum.recordings.motion_columns import ANGLE, RATE, TENSION, TORQUE
 from continuum.recordings.samples import Samples
 
@@ -105,10 +106,15 @@ def without_still_rates(samples: Samples) -> tuple[Samples, list[str]]:
     if not np.any(wrong):
         return samples, []
     joint = int(np.argmax(wrong))
-    description = f"{samples.rate[0, joint]:g} rad/s throughout while its angle changes"
+    rate = samples.rate[0, joint]
     if not np.all(still):
+        description = f"{rate:g} rad/s throughout while its angle changes"
         raise FileError(samples.path, f"joint {joint + 1}: its rate is {description}: was it measured?")
-    return replace(samples, rate=None), [f"no rate ever changes (joint {joint + 1}: {description}): rates left out"]
+    note = Message(
+        "no rate ever changes (joint {joint}: {rate:g} rad/s throughout while its angle changes): rates left out",
+        joint=joint + 1, rate=rate,
+    )  # fmt: skip
+    return replace(samples, rate=None), [note]
 
 
 def _motion(theta: Array) -> Array:

@@ -15,6 +15,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from continuum.arrays import Array
+from continuum.languages import Message
 from continuum.recordings.recording import Recording
 
 _ENOUGH = 0.03  # from 1, of all recordings or of one; correct ones with stick-slip deviate by up to 0.02
@@ -23,25 +24,30 @@ _DEVIATIONS = 4.0
 _QUIETED = 8  # rows over which an angle's white noise is averaged
 
 
-def odd_rates(recordings: Sequence[Recording]) -> list[str]:
+def odd_rates(recordings: Sequence[Recording]) -> list[Message]:
     """Return a sentence if angles and rates are not of one motion, or one for each recording and joint; else none."""
-    description = _described("", rate_ratio(recordings), _ENOUGH)
+    description = _described(rate_ratio(recordings), _ENOUGH)
     if description:
         return description
-    runs = [_described(f"{run.name}: ", rate_ratio([run]), _ENOUGH) for run in recordings]
+    runs = [(run.name, _described(rate_ratio([run]), _ENOUGH)) for run in recordings]
     joints = [
-        _described(f"joint {joint + 1}: ", rate_ratio(recordings, joint), _ENOUGH_OF_A_JOINT)
+        (Message("joint {joint}", joint=joint + 1), _described(rate_ratio(recordings, joint), _ENOUGH_OF_A_JOINT))
         for joint in range(recordings[0].n_joints)
     ]
-    return [sentence for found in (*runs, *joints) for sentence in found]
+    return [Message("{where}: {what}", where=where, what=one) for where, found in (*runs, *joints) for one in found]
 
 
-def _described(where: str, found: tuple[float, float], enough: float) -> list[str]:
+def _described(found: tuple[float, float], enough: float) -> list[Message]:
     ratio, deviation = found
     if abs(ratio - 1) <= max(enough, _DEVIATIONS * deviation):
         return []
-    why = "the clock, a unit or a gyro's gain is wrong, and so are fitted values"
-    return [f"{where}angles change by {ratio:.2f} times the integral of their rates: {why}"]
+    return [
+        Message(
+            "angles change by {ratio:.2f} times the integral of their rates: the clock, a unit or a gyro's gain is "
+            "wrong, and so are fitted values",
+            ratio=ratio,
+        )
+    ]
 
 
 def rate_ratio(recordings: Sequence[Recording], joint: int | None = None) -> tuple[float, float]:

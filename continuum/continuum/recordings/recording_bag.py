@@ -20,6 +20,7 @@ from continuum.dynamics.planar.cable_tension import SIDES
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
 from continuum.joint_names import cable_names, phi_joint, theta_joints
+from continuum.languages import Message
 from continuum.printable import printable
 from continuum.recordings.arm_messages import of_an_arm
 from continuum.recordings.arm_recording import TOPICS
@@ -27,7 +28,7 @@ from continuum.recordings.bag import Bag, stamp_ns
 from continuum.recordings.named_values import named_values
 from continuum.recordings.recording import Recording
 from continuum.recordings.recording_checks import repaired
-from continuum.recordings.samples import Samples
+from continuum.recordings.samples import MESSAGE, Samples
 
 _JOINTS, _CABLES = "/joint_states", "/cable_states"
 _IN_PLANE = 1e-3  # rad, by which the bending plane may turn
@@ -51,7 +52,10 @@ def read_recording_bag(path: str | Path) -> Recording:
         theta = _table(bag, joints, "position", names)
         rate = _table(bag, joints, "velocity", names) if any(len(one.velocity) for one in joints) else None
         if rate is not None and not np.any(np.isfinite(rate)):
-            rate, others = None, (*others, f"no velocity on {_JOINTS} is a finite number: rates left out")
+            rate, others = (
+                None,
+                (*others, Message("no velocity on {topic} is a finite number: rates left out", topic=_JOINTS)),
+            )
         torque = _torque(joints, names)
         pull, other_cables = _pull(bag, section, start, times)
         if pull is not None and torque is not None:
@@ -59,12 +63,12 @@ def read_recording_bag(path: str | Path) -> Recording:
                 bag.path, f"has efforts on {_JOINTS} and on {_CABLES}: an arm is driven by one or the other"
             )
     numbers = np.arange(1, len(joints) + 1)
-    good, notes = repaired(Samples(bag.path, numbers, times, theta, rate, pull, "message", torque))
+    good, notes = repaired(Samples(bag.path, numbers, times, theta, rate, pull, MESSAGE, torque))
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
     torques = None if good.torque is None else JointTorques(good.times, good.torque)
     notes = (*others, *other_cables, *notes)
     if tensions is None and torques is None:
-        notes = (*notes, f"no efforts on {_CABLES}: cables assumed slack")
+        notes = (*notes, Message("no efforts on {topic}: cables assumed slack", topic=_CABLES))
     return Recording(
         printable(bag.path.name if bag.path.is_dir() else bag.path.stem),
         good.times,

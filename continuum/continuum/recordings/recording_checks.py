@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from continuum.errors import FileError
+from continuum.languages import Message
 from continuum.recordings.plausible_values import MOST_BAD, outliers, refuse_units, without_still_rates
-from continuum.recordings.samples import Samples
+from continuum.recordings.samples import MESSAGE, Samples
 
 _SAME_TIME = 1e-7  # s: no sensor is that fast
 _FEWEST_ROWS = 30
@@ -31,16 +32,22 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     notes: list[str] = []
     good, held = _without_held(samples)
 
-    def leave_out(bad: NDArray[np.bool_], why: str) -> Samples:
+    def leave_out(bad: NDArray[np.bool_], why: Message) -> Samples:
         if np.any(bad):
-            notes.append(f"{good.described(bad)} {why}")
+            notes.append(Message(why, rows=good.described(bad)))
         return good.chosen(~bad)
 
-    good = leave_out(~_complete(good), "without a finite value in every column")
+    is_message = good.row == MESSAGE
+    same_time = (
+        Message("{rows} with the time of the message before")
+        if is_message
+        else Message("{rows} with the time of the row before")
+    )
+    good = leave_out(~_complete(good), Message("{rows} without a finite value in every column"))
     _refuse_backward(good)
-    good = leave_out(np.diff(good.times, prepend=-np.inf) < _SAME_TIME, f"with the time of the {good.row} before")
-    good = leave_out(_clipped(good), "with a clipped rate")
-    good = leave_out(outliers(good), "with a value that no arm has")
+    good = leave_out(np.diff(good.times, prepend=-np.inf) < _SAME_TIME, same_time)
+    good = leave_out(_clipped(good), Message("{rows} with a clipped rate"))
+    good = leave_out(outliers(good), Message("{rows} with a value that no arm has"))
     if good.times.size < _FEWEST_ROWS:
         summary = "; ".join(["", *notes])
         raise FileError(
@@ -56,10 +63,13 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     refuse_units(good)
     good, unmeasured = without_still_rates(good)
     if held:
-        pushing.append(
-            f"{held} {good.row}s repeat the angles of the {good.row} before, as from a slower sensor; left out"
+        repeats = (
+            Message("{count} messages repeat the angles of the message before, as from a slower sensor; left out")
+            if is_message
+            else Message("{count} rows repeat the angles of the row before, as from a slower sensor; left out")
         )
-    return good, (*(f"{note}, left out" for note in notes), *pushing, *unmeasured)
+        pushing.append(Message(repeats, count=held))
+    return good, (*(Message("{note}, left out", note=note) for note in notes), *pushing, *unmeasured)
 
 
 def _without_held(samples: Samples) -> tuple[Samples, int]:
@@ -142,7 +152,13 @@ def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:
         )
         raise FileError(samples.path, f"{where}: {pushed}")
     if np.max(samples.pull) <= _ZERO_TENSION:  # as far above as below: noise of load cells on loose cables
-        summary = f"tensions from {np.min(least):.2g} to {np.max(samples.pull):.2g} N are of cables that hang loose"
-        return replace(samples, pull=np.zeros_like(samples.pull)), [f"{summary}, all set to zero"]
-    note = f"{samples.described(least < 0)} with a tension below zero, by {-np.min(least):.2g} N at most, set to zero"
+        loose = Message(
+            "tensions from {low:.2g} to {high:.2g} N are of cables that hang loose, all set to zero",
+            low=np.min(least), high=np.max(samples.pull),
+        )  # fmt: skip
+        return replace(samples, pull=np.zeros_like(samples.pull)), [loose]
+    note = Message(
+        "{rows} with a tension below zero, by {tension:.2g} N at most, set to zero",
+        rows=samples.described(least < 0), tension=-np.min(least),
+    )  # fmt: skip
     return replace(samples, pull=np.maximum(samples.pull, 0.0)), [note]

@@ -17,6 +17,7 @@ from continuum.arrays import Array
 from continuum.dynamics.joint_torques import JointTorques
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
+from continuum.languages import Message
 from continuum.printable import printable
 from continuum.recordings.csv_layout import hint_of_cell, number_of
 from continuum.recordings.motion_columns import ANGLE, QUANTITIES, RATE, TENSION, TIME, TORQUE, Quantity
@@ -54,10 +55,11 @@ def read_recording_csv(path: str | Path) -> Recording:
     torques = None if good.torque is None else JointTorques(good.times, good.torque)
     for quantity in QUANTITIES:
         if any(name and name[0] == 0 for name in map(quantity.names, header)):
-            notes = (*notes, f"{quantity.letter}0 is read as number 1: numbers count from 0 in this file")
+            text = Message("{letter}0 is read as number 1: numbers count from 0 in this file")
+            notes = (*notes, Message(text, letter=quantity.letter))
     if others:
-        named = (name or "one without a name" for name in others)
-        notes = (*notes, f"unknown columns, not used: {', '.join(named)}")
+        named = ", ".join(name or "one without a name" for name in others)
+        notes = (*notes, Message("unknown columns, not used: {names}", names=named))
     return Recording(printable(path.stem), good.times, good.theta, good.rate, tensions, notes, torques)
 
 

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from continuum.arrays import Array
+from continuum.languages import Message
+
+MESSAGE: Final = "message"
+"""Word for a row of a recording of messages."""
 
 
 @dataclass(frozen=True)
@@ -55,8 +60,12 @@ class Samples:
             torque=torque,
         )
 
-    def described(self, rows: NDArray[np.bool_]) -> str:
+    def described(self, rows: NDArray[np.bool_]) -> Message:
         """Format as `row 7`, or `rows 7, 8, 9, ..`."""
         numbers = [str(number) for number in self.numbers[rows]]
         shown = ", ".join(numbers[:8]) + (", .." if len(numbers) > 8 else "")
-        return f"{self.row}{'' if len(numbers) == 1 else 's'} {shown}"
+        if self.row == MESSAGE:
+            one, several = Message("message {numbers}"), Message("messages {numbers}")
+        else:
+            one, several = Message("row {numbers}"), Message("rows {numbers}")
+        return Message(one if len(numbers) == 1 else several, numbers=shown)

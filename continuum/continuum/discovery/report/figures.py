@@ -12,10 +12,13 @@ from continuum.discovery.fitted import OpenLoop
 from continuum.discovery.report.chart import Axes, Chart, Line, chart, shared
 from continuum.discovery.result import Diagnosis
 from continuum.identification.estimate import Z_95
+from continuum.languages import ENGLISH, Message, Translator
 
 BEFORE, AFTER, MEASURED = "before", "after", "measured"
 """Classes of the page's style sheet."""
-TIME = "time [s]"
+TIME = Message("time [s]")
+ANGLE = Message("angle [°]")
+_RESIDUAL, _TORQUE = Message("residual [°]"), Message("missing torque [mN m]")
 _FIRST = (400.0, 230.0)  # width and height [px]: two side by side on a screen, one below the other on a phone
 SMALL = (320.0, 130.0)
 
@@ -47,24 +50,29 @@ def worst_place(result: Diagnosis) -> Place:
     return Place(int(np.nanargmax(errors)) if np.any(np.isfinite(errors)) else 0, joint)
 
 
-def first_charts(result: Diagnosis) -> tuple[Chart, Chart]:
+def first_charts(result: Diagnosis, tr: Translator) -> tuple[Chart, Chart]:
     """Return charts of measured and simulated angles and of the missing torque, both at the worst place."""
     place = worst_place(result)
-    return chart(_angles(result, place), *_FIRST), chart(_torques(result, place), *_FIRST)
+    return chart(_angles(result, place, tr), *_FIRST), chart(_torques(result, place, tr), *_FIRST)
 
 
-def charts_of_run(result: Diagnosis, run: int) -> list[JointCharts]:
+def charts_of_run(result: Diagnosis, run: int, tr: Translator = ENGLISH) -> list[JointCharts]:
     """Return the charts of all joints of a recording."""
     places = [Place(run, joint) for joint in range(result.recordings[run].n_joints)]
-    kinds = ([kind(result, place) for place in places] for kind in (_angles, _residuals, _torques))
+    kinds = ([kind(result, place, tr) for place in places] for kind in (_angles, _residuals, _torques))
     return [JointCharts(*(chart(one, *SMALL) for one in three)) for three in zip(*map(shared, kinds), strict=True)]
 
 
-def torques_over_angle(result: Diagnosis) -> list[Chart]:
+def torques_over_angle(result: Diagnosis, tr: Translator) -> list[Chart]:
     """Return charts of the missing torque of each joint over its angle, with all recordings."""
     n = result.n_joints
-    axes = [Axes(f"joint {j + 1}: missing torque [mN m]", "angle [°]", tuple(_over_angle(result, j))) for j in range(n)]
+    axes = [Axes(title(j, _TORQUE, tr), tr(ANGLE), tuple(_over_angle(result, j))) for j in range(n)]
     return [chart(one, *SMALL) for one in shared(axes)]
+
+
+def title(joint: int, what: Message, tr: Translator) -> str:
+    """Return what is above the axes of a joint, from 0."""
+    return tr("joint {joint}: {what}", joint=joint + 1, what=what)
 
 
 def _over_angle(result: Diagnosis, joint: int) -> list[Line]:
@@ -75,30 +83,35 @@ def _over_angle(result: Diagnosis, joint: int) -> list[Line]:
     ]
 
 
-def _angles(result: Diagnosis, place: Place) -> Axes:
+def _angles(result: Diagnosis, place: Place, tr: Translator) -> Axes:
     measured = result.recordings[place.run].theta
     curves = [(MEASURED, measured), *((style, loop.angles[place.run]) for style, loop in _loops(result))]
-    return _over_time(result, place, "angle [°]", [(style, np.degrees(angle)) for style, angle in curves])
+    return _over_time(result, place, ANGLE, tr, [(style, np.degrees(angle)) for style, angle in curves])
 
 
-def _residuals(result: Diagnosis, place: Place) -> Axes:
+def _residuals(result: Diagnosis, place: Place, tr: Translator) -> Axes:
     """Return the axes of the residuals, simulated minus measured."""
     measured = result.recordings[place.run].theta
     curves = [(style, np.degrees(loop.angles[place.run] - measured)) for style, loop in _loops(result)]
-    return _over_time(result, place, "residual [°]", curves, noise_band(result))
+    return _over_time(result, place, _RESIDUAL, tr, curves, noise_band(result))
 
 
-def _torques(result: Diagnosis, place: Place) -> Axes:
+def _torques(result: Diagnosis, place: Place, tr: Translator) -> Axes:
     curves = [(style, 1e3 * courses[place.run]) for style, courses in _courses(result)]
-    return _over_time(result, place, "missing torque [mN m]", curves)
+    return _over_time(result, place, _TORQUE, tr, curves)
 
 
 def _over_time(
-    result: Diagnosis, place: Place, what: str, curves: Sequence[tuple[str, Array]], band: float = 0.0
+    result: Diagnosis,
+    place: Place,
+    what: Message,
+    tr: Translator,
+    curves: Sequence[tuple[str, Array]],
+    band: float = 0.0,
 ) -> Axes:
     times = result.recordings[place.run].times
     lines = tuple(Line(style, times, values[:, place.joint]) for style, values in curves)
-    return Axes(f"joint {place.joint + 1}: {what}", TIME, lines, band, (float(times[0]), float(times[-1])))
+    return Axes(title(place.joint, what, tr), tr(TIME), lines, band, (float(times[0]), float(times[-1])))
 
 
 def _loops(result: Diagnosis) -> list[tuple[str, OpenLoop]]:

@@ -8,23 +8,25 @@ from continuum.discovery.report.quantities import meaning_in_words, scale_of, wi
 from continuum.discovery.result import Cause
 from continuum.discovery.words import matter_in_words, places
 from continuum.identification.estimate import Estimate
+from continuum.languages import Translator
 
 _MOST: Final = 2
 """Most values in a sentence."""
 
 
-def matter_with_value(cause: Cause) -> str:
+def matter_with_value(cause: Cause, tr: Translator) -> str:
     """Say what is wrong, where, and how large it is if one or two numbers show that; without a full stop."""
     shown = cause.estimates if len(cause.estimates) <= _MOST else ()
-    details = [places(cause), *(_value(one, is_alone=len(shown) == 1) for one in shown)]
+    details = [places(cause, tr), *(_value(one, len(shown) == 1, tr) for one in shown)]
     text = ", ".join(filter(None, details))
-    return matter_in_words(cause).rstrip(".") + (f" ({text})" if text else "")
+    return matter_in_words(cause, tr).rstrip(".") + (f" ({text})" if text else "")
 
 
-def _value(one: Estimate, is_alone: bool) -> str:
+def _value(one: Estimate, is_alone: bool, tr: Translator) -> str:
     scale = scale_of(one.unit, one.meaning, one.name)
-    value, interval = with_interval(scale(one.value), scale(one.low), scale(one.high), digits=1)
+    value, interval = with_interval(scale(one.value), scale(one.low), scale(one.high), tr, digits=1)
     unit = scale.unit if scale.unit.startswith("°") or not scale.unit else f" {scale.unit}"
-    what = "" if scale.unit and is_alone else f"{meaning_in_words(one.meaning)}: "
+    what = "" if scale.unit and is_alone else f"{meaning_in_words(one.meaning, tr)}: "
     sign = "+" if scale.unit == "%" and one.value > 0 else ""
-    return f"{what}{sign}{value}{unit}" + (f", 95 % interval {interval}{unit}" if interval != "–" else "")
+    size, ends = f"{what}{sign}{value}{unit}", f"{interval}{unit}"
+    return size if interval == "–" else tr("{size}, 95 % interval {interval}", size=size, interval=ends)

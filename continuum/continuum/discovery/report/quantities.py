@@ -6,6 +6,7 @@ import math
 from typing import Final, NamedTuple
 
 from continuum.dynamics.parameters import RATIO
+from continuum.languages import ENGLISH, Translator
 
 _DEGREES: Final = 180 / math.pi
 _UNITS: Final = {
@@ -45,11 +46,11 @@ def scale_of(unit: str, meaning: str, name: str = "") -> Scale:
     return Scale(*_UNITS.get(unit, (1.0, unit.translate(_EXPONENTS))))
 
 
-def meaning_in_words(meaning: str) -> str:
+def meaning_in_words(meaning: str, tr: Translator = ENGLISH) -> str:
     """Return the meaning of a parameter; that of a ratio minus one, shown in percent, is worded as a comparison."""
     if not meaning.endswith(RATIO):
-        return meaning
-    return meaning.removesuffix(RATIO).replace(" by ", " compared with ", 1)
+        return tr(meaning)
+    return tr(meaning.removesuffix(RATIO).replace(" by ", " compared with ", 1))
 
 
 def decimals_of(step: float, digits: int = 2) -> int:
@@ -66,9 +67,9 @@ def number(value: float, digits: int = 3) -> str:
     return with_decimals(value, decimals_of(abs(value), digits))
 
 
-def bound(value: float) -> str:
+def bound(value: float, tr: Translator = ENGLISH) -> str:
     """Format to three digits without trailing zeros; "none" if infinite."""
-    return f"{float(f'{value:.3g}'):g}".replace("-", "−") if math.isfinite(value) else "none"
+    return f"{float(f'{value:.3g}'):g}".replace("-", "−") if math.isfinite(value) else tr("none")
 
 
 def with_decimals(value: float, decimals: int) -> str:
@@ -79,31 +80,45 @@ def with_decimals(value: float, decimals: int) -> str:
     return (text.lstrip("-") if float(text) == 0 else text).replace("-", "−")
 
 
-def with_interval(value: float, low: float, high: float, digits: int = 2) -> tuple[str, str]:
+def with_interval(value: float, low: float, high: float, tr: Translator = ENGLISH, digits: int = 2) -> tuple[str, str]:
     """Format a value and its interval, "low to high", to so many digits of its half-width; a dash if there is none."""
     if not (math.isfinite(low) and math.isfinite(high) and high > low):
         return number(value), "–"
     places = decimals_of((high - low) / 2, digits)
-    return with_decimals(value, places), f"{with_decimals(low, places)} to {with_decimals(high, places)}"
+    interval = from_to(with_decimals(low, places), with_decimals(high, places), tr)
+    return with_decimals(value, places), interval
 
 
-def percent(part: float) -> str:
+def from_to(low: str, high: str, tr: Translator = ENGLISH) -> str:
+    """Write a range."""
+    return tr("{low} to {high}", low=low, high=high)
+
+
+def percent(part: float, tr: Translator = ENGLISH) -> str:
     """Format a fraction in whole percent, without sign; never 0 or 100, which would claim certainty."""
     if not math.isfinite(part):
         return "–"
     rounded = round(100 * part)
-    return "under 1" if rounded < 1 else "over 99" if rounded > 99 else f"{rounded}"
+    return _under(1, tr) if rounded < 1 else _over(99, tr) if rounded > 99 else f"{rounded}"
 
 
-def percent_interval(low: float, high: float) -> str:
+def percent_interval(low: float, high: float, tr: Translator = ENGLISH) -> str:
     """Format the interval of a fraction in percent; a dash if none is known."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return "–"
-    ends = percent(low), percent(high)
-    return ends[0] if ends[0] == ends[1] else " to ".join(ends)
+    first, last = percent(low, tr), percent(high, tr)
+    return first if first == last else from_to(first, last, tr)
 
 
-def tenths(part: float) -> str:
+def tenths(part: float, tr: Translator = ENGLISH) -> str:
     """Format a fraction in percent, rounded to ten; never 0 or 100, which would claim certainty."""
     rounded = 10 * round(10 * part)
-    return f"{rounded}" if 0 < rounded < 100 else "under 10" if part < 0.5 else "over 90"
+    return f"{rounded}" if 0 < rounded < 100 else _under(10, tr) if part < 0.5 else _over(90, tr)
+
+
+def _under(limit: int, tr: Translator) -> str:
+    return tr("under {limit}", limit=limit)
+
+
+def _over(limit: int, tr: Translator) -> str:
+    return tr("over {limit}", limit=limit)

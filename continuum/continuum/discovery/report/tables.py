@@ -14,7 +14,9 @@ from continuum.discovery.report.matter import matter_with_value
 from continuum.discovery.report.names import capital, label_in_words, sets_in_words, small
 from continuum.discovery.report.quantities import percent, percent_interval, with_decimals
 from continuum.discovery.result import Cause, Diagnosis, Share
+from continuum.discovery.words import joints_in_words
 from continuum.identification.nrmse import nrmse
+from continuum.languages import Translator
 
 
 class ShareRow(NamedTuple):
@@ -54,26 +56,28 @@ class JointRow(NamedTuple):
     is_worse: bool
 
 
-def share_rows(result: Diagnosis) -> list[ShareRow]:
+def share_rows(result: Diagnosis, tr: Translator) -> list[ShareRow]:
     """Return how much of the open-loop error each effect of the best set closes, and how much stays unexplained."""
-    rows = [_share(capital(label_in_words(c.label, result.n_joints)), c.label, c.share, [c]) for c in result.causes]
-    return [*rows, _share("Stays unexplained", "", result.shares["unknown"])]
+    rows = [
+        _share(capital(label_in_words(c.label, result.n_joints, tr)), c.label, c.share, [c], tr) for c in result.causes
+    ]
+    return [*rows, _share(tr("Stays unexplained"), "", result.shares["unknown"], [], tr)]
 
 
-def set_rows(result: Diagnosis) -> list[ShareRow]:
+def set_rows(result: Diagnosis, tr: Translator) -> list[ShareRow]:
     """Return how much of the open-loop error each possible set closes."""
     rows = []
-    for causes, name in zip(result.sets, names_of_sets(result), strict=True):
+    for causes, name in zip(result.sets, names_of_sets(result, tr), strict=True):
         shares = [cause.share for cause in causes]
         whole = Share(*(math.fsum(getattr(s, end) for s in shares) for end in ("value", "low", "high")))
-        rows.append(_share(capital(name), ids(causes), whole, causes))
+        rows.append(_share(capital(name), ids(causes), whole, causes, tr))
     return rows
 
 
-def names_of_sets(result: Diagnosis) -> list[str]:
+def names_of_sets(result: Diagnosis, tr: Translator) -> list[str]:
     """Return the names of each set's effects, with those common to all sets at the end."""
-    names, common = sets_in_words([[cause.label for cause in causes] for causes in result.sets], result.n_joints)
-    return [name + f" with {common}" * bool(common) for name in names]
+    names, common = sets_in_words([[cause.label for cause in causes] for causes in result.sets], result.n_joints, tr)
+    return [tr(" with ").join(filter(None, [name, common])) for name in names]
 
 
 def ids(causes: Sequence[Cause]) -> str:
@@ -97,12 +101,12 @@ def error_rows(result: Diagnosis) -> list[ErrorRow]:
     return rows
 
 
-def joint_rows(result: Diagnosis) -> list[JointRow]:
+def joint_rows(result: Diagnosis, tr: Translator) -> list[JointRow]:
     """Return the errors and missing torques of each joint, over all recordings."""
     errors = [_by_joint(result, one) for one in (result.before, result.after)]
     return [
         JointRow(
-            f"joint {joint + 1}", _pair(np.degrees([before, after]), 2),
+            joints_in_words([joint], tr), _pair(np.degrees([before, after]), 2),
             _pair([1e3 * sigma[joint] for sigma in result.sigma], 1), is_worse(result, before, after),
         )
         for joint, (before, after) in enumerate(zip(*errors, strict=True))
@@ -116,10 +120,11 @@ def is_worse(result: Diagnosis, before: float, after: float) -> bool:
     return not math.isfinite(after) or after**2 - before**2 > result.before.floor**2
 
 
-def _share(name: str, label: str, share: Share, causes: Sequence[Cause] = ()) -> ShareRow:
-    matter = capital("; ".join(small(matter_with_value(cause)) for cause in causes)) + "." * bool(causes)
+def _share(name: str, label: str, share: Share, causes: Sequence[Cause], tr: Translator) -> ShareRow:
+    matter = capital("; ".join(small(matter_with_value(cause, tr)) for cause in causes)) + "." * bool(causes)
     width = 100 * min(max(share.value, 0.0), 1.0) if math.isfinite(share.value) else 0.0
-    return ShareRow(name, label, matter, percent(share.value), percent_interval(share.low, share.high), round(width, 1))
+    interval = percent_interval(share.low, share.high, tr)
+    return ShareRow(name, label, matter, percent(share.value, tr), interval, round(width, 1))
 
 
 def _pair(values: Iterable[float], decimals: int) -> Pair:

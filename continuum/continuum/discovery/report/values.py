@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from continuum.discovery.report.names import capital, effect_in_words, value_in_words
+from continuum.discovery.report.names import capital, effect_in_words, parameter_in_words, value_in_words
 from continuum.discovery.report.quantities import (
     bound,
+    from_to,
     meaning_in_words,
     number,
     scale_of,
@@ -17,6 +18,7 @@ from continuum.discovery.report.quantities import (
 )
 from continuum.discovery.result import Cause, Diagnosis
 from continuum.identification.estimate import Estimate
+from continuum.languages import Translator
 
 
 class ValueRow(NamedTuple):
@@ -41,35 +43,37 @@ class CorrelationRow(NamedTuple):
     cells: list[tuple[str, float]]
 
 
-def value_rows(result: Diagnosis, causes: Sequence[Cause]) -> list[ValueRow]:
+def value_rows(result: Diagnosis, causes: Sequence[Cause], tr: Translator) -> list[ValueRow]:
     """Return the values of some effects."""
-    return [_value(one, result, cause) for cause in causes for one in cause.estimates]
+    return [_value(one, result, cause, tr) for cause in causes for one in cause.estimates]
 
 
-def model_rows(result: Diagnosis) -> list[ValueRow]:
+def model_rows(result: Diagnosis, tr: Translator) -> list[ValueRow]:
     """Return the values of the model."""
-    return [_value(one, result, None) for one in result.estimates]
+    return [_value(one, result, None, tr) for one in result.estimates]
 
 
-def correlation_rows(result: Diagnosis) -> list[CorrelationRow]:
+def correlation_rows(result: Diagnosis, tr: Translator) -> list[CorrelationRow]:
     """Return the correlations of the best set's values."""
     return [
-        CorrelationRow(value_in_words(name), name, [(with_decimals(float(r), 2), float(r)) for r in row])
+        CorrelationRow(value_in_words(name, tr), name, [(with_decimals(float(r), 2), float(r)) for r in row])
         for name, row in zip(*result.correlation, strict=True)
     ]
 
 
-def _value(one: Estimate, result: Diagnosis, cause: Cause | None) -> ValueRow:
+def _value(one: Estimate, result: Diagnosis, cause: Cause | None, tr: Translator) -> ValueRow:
     scale = scale_of(one.unit, one.meaning, one.name)
-    value, interval = with_interval(scale(one.value), scale(one.low), scale(one.high))
+    value, interval = with_interval(scale(one.value), scale(one.low), scale(one.high), tr)
     if cause is None:
-        name = one.name.replace("_", " ") + (f" of joint {one.joint + 1}" if one.joint is not None else "")
+        name = capital(parameter_in_words(one.name, one.joint, tr))
     else:
         joints = cause.joints if one.joint is None else (one.joint,)
-        name = effect_in_words(cause.effect, joints, result.n_joints)
-    bounds = [bound(scale(end)) for end in (one.lower, one.upper)]
+        name = capital(effect_in_words(cause.effect, joints, result.n_joints, tr))
+    if one.recording:
+        name = tr("{value}, in {recording}", value=name, recording=one.recording)
+    lower, upper = (bound(scale(end), tr) for end in (one.lower, one.upper))
     return ValueRow(
-        capital(name) + (f", in {one.recording}" if one.recording else ""), str(replace(one, recording="")),
-        meaning_in_words(one.meaning), number(scale(one.start)), value, interval, scale.unit, " to ".join(bounds),
+        name, str(replace(one, recording="")), meaning_in_words(one.meaning, tr), number(scale(one.start)), value,
+        interval, scale.unit, from_to(lower, upper, tr),
         bool(one.is_at_bound) and one.value != one.start,
     )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Catalogues of translations: collected from the code, compiled for it."""
