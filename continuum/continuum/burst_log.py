@@ -1,4 +1,4 @@
-"""Events of one cause that come in bursts: all are counted, and a few lines say so."""
+"""Log bursts of events with one cause: every event is counted, and a few lines summarise a burst."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ class _Burst:
 
 
 class BurstLog:
-    """Counts events by cause and logs a burst of one cause in a few lines: its first event at once, the rest summed up.
+    """Counts events by cause and logs a burst in a few lines: its first event at once, then summaries.
 
-    A burst is over when its cause was quiet for ``quiet`` seconds; a long one is summed up every ``every`` seconds. Any
-    thread may use it.
+    A burst ends when no event of its cause has occurred for ``quiet`` seconds; a long burst is summarised every
+    ``every`` seconds. The methods are thread-safe.
 
     Args:
-        log: writes one line.
-        now: a clock that never goes back [s].
-        prefix: put before every line.
-        quiet: [s]
-        every: [s]
+        log: function that writes one line.
+        now: monotonic clock [s].
+        prefix: text at the start of every line.
+        quiet: time without an event that ends a burst [s].
+        every: interval between the summaries of a long burst [s].
     """
 
     def __init__(
@@ -51,22 +51,22 @@ class BurstLog:
 
     @property
     def counts(self) -> Counter[str]:
-        """Events by cause so far."""
+        """Number of events so far, by cause."""
         with self._lock:
             return Counter(self._counts)
 
     @property
     def total(self) -> int:
-        """Events of all causes."""
+        """Number of events of all causes."""
         return self.counts.total()
 
     def note(self, cause: str, detail: str, events: int = 1) -> bool:
-        """Count an event, or several at once; whether a burst begins with it."""
+        """Count one event or several, and return whether a burst starts with it."""
         with self._lock:
             return self._note(cause, detail, events)
 
     def tick(self) -> None:
-        """Say what is due; to be called about once a second."""
+        """Log the summaries that are due; call this about once a second."""
         with self._lock:
             self._tick()
 

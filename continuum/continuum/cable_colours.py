@@ -1,4 +1,4 @@
-"""Colours of cables, the same in pictures, in RViz and in the browser."""
+"""Colours of the cables in pictures, in RViz and in the browser."""
 
 from __future__ import annotations
 
@@ -18,5 +18,5 @@ _COLOURS: tuple[Colour, ...] = (
 
 
 def cable_colour(number: int) -> Colour:
-    """Of cable ``number`` of a section, from 0: blue, green, red, black as in the thesis's Fig. 14, then others."""
+    """Return the colour of cable ``number`` of a section, from 0; the first four are those of thesis Fig. 14."""
     return _COLOURS[number % len(_COLOURS)]

@@ -1,4 +1,4 @@
-"""Files that carry a digest: what was damaged, cut short or written for something else is not read."""
+"""Files with a digest, which detects damaged and truncated files and files written for another purpose."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from pathlib import Path
 
 from continuum.whole_file import write_whole
 
-_DIGEST_SIZE = hashlib.sha256().digest_size  # bytes, at the end of the file: loaders of libraries do not mind them
+_DIGEST_SIZE = hashlib.sha256().digest_size  # bytes at the end of the file, which loaders of libraries ignore
 
 
 def read_checked(path: Path, key: str = "") -> bytes | None:
-    """The content of a file; None where it is missing, unreadable, damaged or was written with another ``key``."""
+    """Return the content of a file, or None if it is missing, unreadable, damaged or written with another ``key``."""
     try:
         data = path.read_bytes()
     except OSError:
@@ -21,10 +21,10 @@ def read_checked(path: Path, key: str = "") -> bytes | None:
 
 
 def write_checked(path: Path, content: bytes, key: str = "") -> None:
-    """Write the content and its digest as a whole or not at all; the folder is made if it is missing.
+    """Write the content and its digest atomically; create the folder if it is missing.
 
     Raises:
-        OSError: it cannot be written.
+        OSError: the file cannot be written.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path, content + _digest(content, key))

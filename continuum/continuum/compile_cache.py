@@ -1,4 +1,4 @@
-"""Where compiled code is kept, so that the next program need not compile it."""
+"""Cache of compiled code, so that later programs need not compile it again."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from continuum.checked_file import read_checked, write_checked
 from continuum.errors import FileError
 
 config: Any = numba.config
-"""Numba's, which has no types."""
+"""An object of numba, which has no type annotations."""
 
 _log = logging.getLogger("continuum")
 
@@ -32,7 +32,7 @@ _announced = threading.Event()
 
 
 def user_cache_folder() -> Path:
-    """``$XDG_CACHE_HOME/continuum``, without that variable ``~/.cache/continuum``; it need not exist.
+    """Return ``$XDG_CACHE_HOME/continuum``, or ``~/.cache/continuum`` without that variable; it need not exist.
 
     Raises:
         FileError: the user has no home folder.
@@ -44,31 +44,31 @@ def user_cache_folder() -> Path:
 
 
 def warn_not_kept(error: Exception) -> None:
-    """Say, once in a program, that compiled code is not kept."""
+    """Warn once per program that compiled code cannot be cached."""
     if not _warned.is_set():
         _warned.set()
-        text = f"compiled code cannot be kept, every program compiles again ({error}); set XDG_CACHE_HOME"
+        text = f"compiled code cannot be cached, so every program compiles it again ({error}); set XDG_CACHE_HOME"
         warnings.warn(text, RuntimeWarning, stacklevel=2)
 
 
 def announce_compilation() -> None:
-    """Log, once in a program, that it compiles: the first call takes half a minute, later programs none of it."""
+    """Log once per program that it compiles: the first call takes half a minute; later programs use the cache."""
     if not _announced.is_set():
         _announced.set()
-        _log.info("compiling for this machine; this takes up to a minute, once")
+        _log.info("compiling for this machine; this happens once and takes up to a minute")
 
 
 @dataclass(frozen=True)
 class CompiledFunction:
-    """The file that holds numba's cache of one function.
+    """The file with numba's cache of one function.
 
-    It lies next to the function's source, in ``__pycache__``, or where that cannot be written in the user's cache
-    folder. ``NUMBA_CACHE_DIR`` names another folder in place of both.
+    It is in the ``__pycache__`` folder beside the function's source, or in the user's cache folder if that is not
+    writable. ``NUMBA_CACHE_DIR`` replaces both.
 
     Attributes:
-        source: file that the function is written in.
-        name: of the function, unlike any other of that file.
-        key: changes when compiled code of before may no longer be used.
+        source: source file of the function.
+        name: name of the function, unique within that file.
+        key: key that changes when earlier compiled code becomes invalid.
     """
 
     source: Path
@@ -76,12 +76,12 @@ class CompiledFunction:
     key: str
 
     def unpack(self, folder: Path) -> bool:
-        """Fill the empty ``folder`` with what was packed; False if no valid file was found.
+        """Unpack the cached files into the empty ``folder``; return False if there is no valid cache file.
 
         Raises:
             OSError: the folder cannot be written.
         """
-        for file in reversed([*self._files()]):  # what had to be kept elsewhere has all of the first and more
+        for file in reversed([*self._files()]):  # a file in the second place contains all of the first and more
             packed = read_checked(file, self._full_key())
             if packed is not None:
                 with zipfile.ZipFile(io.BytesIO(packed)) as archive:
@@ -90,10 +90,10 @@ class CompiledFunction:
         return False
 
     def pack(self, folder: Path) -> None:
-        """Keep everything that is in ``folder``.
+        """Pack all files of ``folder`` into the cache file.
 
         Raises:
-            OSError: no place can be written.
+            OSError: no place is writable.
         """
         packed = io.BytesIO()
         with zipfile.ZipFile(packed, "w") as archive:
@@ -111,7 +111,7 @@ class CompiledFunction:
             raise refused
 
     def _files(self) -> Iterator[Path]:
-        """Places for the file, the best first."""
+        """Yield the possible places of the file, the preferred one first."""
         versions = f"{sys.implementation.cache_tag}-numba-{numba.__version__}-numpy-{np.__version__}"
         name = f"{self.source.stem}.{self.name}.{versions}.compiled"
         folder = f"{self.source.parent.name}-{hashlib.sha256(str(self.source.parent).encode()).hexdigest()[:16]}"

@@ -1,9 +1,9 @@
-"""Functions compiled by numba and kept on disk, by a key that follows all of their sources.
+"""Functions compiled by numba and cached on disk, with a key that depends on all of their sources.
 
-Numba's cache follows the file of the compiled function alone, and loads machine code unchecked: a damaged file ends the
-program. So what numba keeps of an entry point is packed into one file with a digest of its content and of all sources.
-Numba works in a temporary folder of this program, which is filled from that file if the digest fits, and packed again
-after something was compiled. Programs that start at the same time never see a file that is half written.
+Numba's cache depends only on the file of the compiled function, and loads machine code unchecked: a damaged file
+crashes the program. Here, the cache of an entry point is packed into one file with a digest of its content and of all
+sources. Numba works in a temporary folder of the program, which is filled from that file if the digest matches, and
+packed again after a compilation. Programs that start at the same time never read a partly written file.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ import numba
 from continuum.compile_cache import CompiledFunction, announce_compilation, config, warn_not_kept
 
 compiled = numba.njit(error_model="numpy")
-"""Compiles a function that is called from compiled code alone; not cached by itself."""
+"""Decorator of a function that only compiled code calls; it has no separate cache."""
 
 ErrorModel = Literal["numpy", "python"]
 
@@ -38,7 +38,7 @@ _cache_dir_is_set = threading.Lock()
 
 @functools.cache
 def sources_digest(*places: Path) -> str:
-    """Digest of Python files, and of all of them below folders."""
+    """Return a digest of Python files and of all Python files in folders."""
     digest = hashlib.sha256()
     for place in places:
         for path in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
@@ -47,10 +47,10 @@ def sources_digest(*places: Path) -> str:
 
 
 def entry_point(*sources: Path, error_model: ErrorModel = "numpy") -> Callable[[Callable[..., Any]], Any]:
-    """Decorate a function that Python calls: compiled when it is first called, and kept on disk.
+    """Decorate a function that Python calls: it is compiled at its first call and cached on disk.
 
     Args:
-        sources: files, and folders of files, that the compiled code may come from.
+        sources: files and folders with the sources of the compiled code.
         error_model: numba's; with ``python``, division by zero is an error.
     """
 
@@ -61,7 +61,7 @@ def entry_point(*sources: Path, error_model: ErrorModel = "numpy") -> Callable[[
 
 
 class EntryPoint:
-    """A compiled function; call it as the one that it was made of, by position."""
+    """A compiled function; its arguments are those of the original function, by position."""
 
     def __init__(self, function: Callable[..., Any], sources: tuple[Path, ...], error_model: ErrorModel) -> None:
         functools.update_wrapper(self, function)
@@ -75,7 +75,7 @@ class EntryPoint:
         dispatcher = self._dispatcher or self._started()
         try:
             result = dispatcher(*arguments)
-        except OSError as error:  # of numba, before the call: it cannot keep what it compiled
+        except OSError as error:  # raised by numba before the call, if it cannot store the compiled code
             if self._folder is None:
                 raise
             self._start_in_memory(error)
@@ -86,12 +86,12 @@ class EntryPoint:
 
     @property
     def signatures(self) -> list[Any]:
-        """Types of arguments that it is compiled for in this program."""
+        """Argument types for which this program has compiled or loaded the function."""
         return list(self._dispatcher.signatures) if self._dispatcher else []
 
     @property
     def n_compiled(self) -> int:
-        """For how many types of arguments this program had to compile it, which found nothing on disk."""
+        """Number of argument types for which this program had to compile it, because the cache had no code."""
         return sum(self._dispatcher.stats.cache_misses.values()) if self._dispatcher else 0
 
     @functools.cached_property
@@ -102,7 +102,7 @@ class EntryPoint:
         )
 
     def _started(self) -> Any:
-        """The function as numba calls it, with a folder that holds what was kept."""
+        """Return numba's dispatcher of the function, with a folder filled from the cache."""
         with self._lock:
             if self._dispatcher is None:
                 try:
@@ -121,7 +121,7 @@ class EntryPoint:
         self._dispatcher = numba.njit(error_model=self._error_model)(self._function)
 
     def _keep(self) -> None:
-        """Pack what numba keeps if there is more of it than before."""
+        """Pack numba's cache if it has grown."""
         with self._lock:
             self._n_known = len(self._dispatcher.overloads)
             if self._folder is not None and self._n_compiled != self.n_compiled:
@@ -133,10 +133,10 @@ class EntryPoint:
 
 
 def _temporary_folder() -> tuple[Path, BinaryIO]:
-    """A folder, and the lock by which this program holds it; those of programs that were killed are removed.
+    """Return a new folder and the lock by which this program holds it; remove folders of programs that were killed.
 
-    A lock is seen where the number of a process is not: from another container that shares the folder for temporary
-    files. It is there by its name only once it is held.
+    Unlike a process id, a lock is also visible from other containers that share the folder for temporary files. A lock
+    file gets its name only after it is locked.
     """
     for lock in Path(tempfile.gettempdir()).glob(f"{_FOLDER}*/{_LOCK}"):
         _remove_unless_held(lock)
@@ -149,13 +149,13 @@ def _temporary_folder() -> tuple[Path, BinaryIO]:
 
 
 def _remove_unless_held(lock: Path) -> None:
-    with contextlib.suppress(OSError), open(lock, "rb", opener=_without_waiting) as left:  # or it is somebody else's
+    with contextlib.suppress(OSError), open(lock, "rb", opener=_without_waiting) as left:  # or it is another user's
         fcntl.flock(left, fcntl.LOCK_SH | fcntl.LOCK_NB)
         shutil.rmtree(lock.parent, ignore_errors=True)
 
 
 def _without_waiting(path: str, flags: int) -> int:
-    """Open a file, also a pipe that nobody writes to."""
+    """Open a file without blocking, even a pipe without a writer."""
     return os.open(path, flags | os.O_NONBLOCK)
 
 
@@ -165,7 +165,7 @@ def _let_go(folder: Path, held: BinaryIO) -> None:
 
 
 def _with_cache(function: Callable[..., Any], error_model: ErrorModel, folder: Path) -> Any:
-    """The function as numba compiles it, which chooses the folder of its cache now and keeps to it."""
+    """Return the function compiled by numba, which chooses its cache folder at this moment."""
     with _cache_dir_is_set:
         before = config.CACHE_DIR
         config.CACHE_DIR = str(folder)

@@ -1,4 +1,4 @@
-"""The names that a misspelt one is near to."""
+"""Suggestions for misspelt names."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 _ONE_LETTER = 0.8
-"""Similarity of two names of five characters, as the option --out is, of which one character differs."""
+"""Similarity of two names of five characters, such as the option --out, that differ in one character."""
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """``; did you mean one or other?``, to be put behind what is wrong with ``word``; empty where no name is near.
+    """Return ``; did you mean one or other?`` to append to a message about ``word``; empty if no name is similar.
 
-    Names that one letter may separate from the word are all given, else the nearest one.
+    The suggestion contains all names that may differ from the word in one letter, otherwise the most similar name.
     """
     names = sorted({*known})
     near = get_close_matches(word, names, 3, _ONE_LETTER) or get_close_matches(word, names, 1)

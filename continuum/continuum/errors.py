@@ -1,4 +1,4 @@
-"""The one exception family of the library."""
+"""The exceptions of the library."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from continuum.printable import one_line
 
 
 class ContinuumError(Exception):
-    """Base of every error that this library raises on purpose."""
+    """Base class of all errors that this library raises deliberately."""
 
 
 class InvalidValueError(ContinuumError, ValueError):
-    """A value that was given from outside is not one that is allowed.
+    """A value from the user or a file is not allowed.
 
     Args:
-        name: what the value is called where it was given, e.g. ``arm.section_1.a``.
+        name: name of the value in its source, e.g. ``arm.section_1.a``.
         value: the offending value.
-        allowed: what would have been right, in words, with its unit.
+        allowed: the allowed values in words, with their unit.
     """
 
     def __init__(self, name: str, value: object, allowed: str) -> None:
@@ -30,7 +30,7 @@ class InvalidValueError(ContinuumError, ValueError):
 
 
 class FileError(ContinuumError, OSError):
-    """A file is missing, unreadable or not of the expected form."""
+    """A file is missing, unreadable or malformed."""
 
     def __init__(self, path: object, problem: str) -> None:
         self.path = path
@@ -43,4 +43,4 @@ class FileError(ContinuumError, OSError):
 
 
 class MeasurementError(ContinuumError):
-    """What was measured cannot give what was asked of it, for example a bias while the arm moves."""
+    """The measurement does not contain the requested quantity, for example a bias while the arm moves."""

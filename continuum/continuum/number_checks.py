@@ -1,4 +1,4 @@
-"""Numbers that were given from outside, checked: arrays of finite floats, and of a shape."""
+"""Checks of numbers from users and files: arrays of finite floats with a given shape."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
 
-_FEW = 20  # numbers that Python looks through sooner than NumPy
+_FEW = 20  # up to so many numbers, Python checks faster than NumPy
 
 
 def finite_array(name: str, given: object, allowed: str) -> Array:
-    """``given`` as a new array of floats in C order.
+    """Return ``given`` as a new array of floats in C order.
 
     Raises:
-        InvalidValueError: it holds what is no number, or is not finite; the name tells the row where there are many.
+        InvalidValueError: an item is not a number or not finite; for arrays with rows the message names the row.
     """
     try:
         array = np.array(given, order="C")
-    except (TypeError, ValueError, OverflowError):  # rows of different lengths, say
+    except (TypeError, ValueError, OverflowError):  # for example rows of different lengths
         raise InvalidValueError(name, given, allowed) from None
     if array.dtype.kind not in "iuf" or (isinstance(given, list | tuple) and _holds_a_truth_value(given)):
         raise InvalidValueError(name, given, allowed)
@@ -35,13 +35,13 @@ def finite_array(name: str, given: object, allowed: str) -> Array:
 
 
 def finite_of_shape(name: str, given: object, shape: tuple[int, ...]) -> Array:
-    """``given`` as a new array of ``shape``, -1 for any number, all finite, in C order as compiled code expects it.
+    """Return ``given`` as a new finite array of ``shape`` (-1 for any size) in C order, as compiled code expects it.
 
     Raises:
-        InvalidValueError: it is none.
+        InvalidValueError: ``given`` is not such an array.
     """
     if type(given) is np.ndarray and given.dtype == np.float64 and _fits(given.shape, shape) and _is_finite(given):
-        return given.copy("C")  # the usual case, in little time
+        return given.copy("C")  # fast path for the usual case
     array = finite_array(name, given, _words(shape))
     if not _fits(array.shape, shape):
         raise InvalidValueError(name, array.tolist(), _words(shape))
@@ -49,10 +49,10 @@ def finite_of_shape(name: str, given: object, shape: tuple[int, ...]) -> Array:
 
 
 def finite_number(name: str, given: object, allowed: str = "a finite number") -> float:
-    """``given`` as a float.
+    """Return ``given`` as a float.
 
     Raises:
-        InvalidValueError: it is none.
+        InvalidValueError: it is not a finite number.
     """
     if type(given) is not float:
         given = finite_array(name, given, allowed)

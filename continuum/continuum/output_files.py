@@ -1,4 +1,4 @@
-"""Files that a command is asked to write, checked before it begins its work."""
+"""Checks of a command's output files before the command starts its work."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from continuum.whole_file import target_of
 
 
 def check_writable(path: str | Path | None) -> None:
-    """Open the file for writing, and leave everything as it was; nothing where there is no ``path``.
+    """Check that a file can be opened for writing, without changing anything; do nothing if ``path`` is None.
 
-    Missing folders are made for that, and removed.
+    Missing folders are created for the check, and removed.
 
     Raises:
-        FileError: it cannot be written, or its folders cannot be made.
+        FileError: the file cannot be written, or its folders cannot be created.
     """
     if path is None:
         return
@@ -28,7 +28,7 @@ def check_writable(path: str | Path | None) -> None:
             file = target_of(path)
             there = file.exists()
             if there and not file.is_file() and not file.is_dir():
-                return  # a pipe or a terminal: whoever reads would see it closed
+                return  # a pipe or a terminal: its reader would see it closed
             with file.open("ab"):
                 pass
             if not there:
@@ -39,10 +39,10 @@ def check_writable(path: str | Path | None) -> None:
 
 @contextmanager
 def folder_of(path: str | Path) -> Iterator[None]:
-    """Make the folders that a file needs; those that are still empty afterwards are removed.
+    """Create the folders that a file needs; remove those that are still empty afterwards.
 
     Raises:
-        FileError: one cannot be made.
+        FileError: a folder cannot be created.
     """
     folder = Path(path).parent
     missing: list[Path] = []
@@ -56,17 +56,17 @@ def folder_of(path: str | Path) -> Iterator[None]:
         yield
     finally:
         for one in missing:
-            with suppress(OSError):  # something is in it
+            with suppress(OSError):  # the folder is not empty
                 one.rmdir()
 
 
 def check_apart(outputs: Sequence[str | Path | None], inputs: Sequence[str | Path | None]) -> None:
-    """Every file that is written is another one, and none that is read, nor within a folder that is.
+    """Check that the output files are distinct, and that none is an input file or in an input folder.
 
-    Names do not matter: links, symbolic and hard ones, are the file that they lead to.
+    Symbolic and hard links count as the files that they refer to.
 
     Raises:
-        FileError: one is not.
+        FileError: an output file is not distinct.
     """
     read = [target_of(path) for path in inputs if path is not None]
     written: list[Path] = []
@@ -74,7 +74,7 @@ def check_apart(outputs: Sequence[str | Path | None], inputs: Sequence[str | Pat
         if path is None:
             continue
         file = target_of(path)
-        if file.exists() and not file.is_file():  # pipes, and what is refused anyhow
+        if file.exists() and not file.is_file():  # pipes, and paths that are refused elsewhere
             continue
         if any(one in (file, *file.parents) for one in read) or _is_among(file, _files_of(read)):
             raise FileError(path, "is read, and would be overwritten: write to another file")
@@ -84,10 +84,10 @@ def check_apart(outputs: Sequence[str | Path | None], inputs: Sequence[str | Pat
 
 
 def check_page(path: str | Path | None) -> None:
-    """As :func:`check_writable`; it must end in .html too.
+    """As :func:`check_writable`, and check that the name ends in .html.
 
     Raises:
-        FileError: it cannot be written, or does not end in .html.
+        FileError: the file cannot be written, or its name does not end in .html.
     """
     if path is not None and Path(path).suffix.lower() != ".html":
         raise FileError(path, "does not end in .html: a report is a page for a browser")
@@ -95,15 +95,15 @@ def check_page(path: str | Path | None) -> None:
 
 
 def check_picture(path: str | Path | None) -> None:
-    """As :func:`check_writable`; its suffix must be that of a picture too.
+    """As :func:`check_writable`, and check that the suffix is that of a picture format.
 
     Raises:
-        FileError: it cannot be written, or the format is not known.
+        FileError: the file cannot be written, or the format is unknown.
     """
     if path is None:
         return
     check_writable(path)
-    from matplotlib.figure import Figure  # here: it takes its time to load
+    from matplotlib.figure import Figure  # imported here because it is slow to load
 
     known = Figure().canvas.get_supported_filetypes()
     suffix = Path(path).suffix.removeprefix(".")
@@ -112,11 +112,11 @@ def check_picture(path: str | Path | None) -> None:
 
 
 def _files_of(read: Sequence[Path]) -> Iterator[Path]:
-    """Files, and those in folders."""
+    """Yield files, and all files in folders."""
     for one in read:
         yield from one.rglob("*") if one.is_dir() else [one]
 
 
 def _is_among(file: Path, others: Iterator[Path] | Sequence[Path]) -> bool:
-    """Whether a file that is there is one of the others under another name."""
+    """Return whether an existing file is one of the others, possibly under another name."""
     return file.exists() and any(other.exists() and file.samefile(other) for other in others)

@@ -1,4 +1,4 @@
-"""What a named parameter may be: type, unit, range and meaning, said once for files, nodes and messages."""
+"""Specification of a named parameter: type, unit, range and description, shared by files, nodes and messages."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ class ParameterSpec:
     """One parameter.
 
     Attributes:
-        name: as written in files and on the command line.
-        kind: type of the value, or of the items where ``is_list``.
+        name: name in files and on the command line.
+        kind: type of the value, or of the items if ``is_list``.
         description: one sentence without the unit.
         unit: SI unit, empty for a pure number.
         lower, upper: bounds, inclusive unless ``lower_open``; ignored for texts.
-        lower_open: the lower bound itself is not allowed.
-        is_list: a list of ``kind``.
-        default: value when none is given; None makes the parameter required.
-        choices: the allowed texts, empty for any.
+        lower_open: whether the lower bound is excluded.
+        is_list: whether the value is a list of ``kind``.
+        default: default value; None makes the parameter required.
+        choices: the allowed texts; empty allows any text.
     """
 
     name: str
@@ -60,11 +60,11 @@ class ParameterSpec:
         """Return ``value`` in the parameter's type, or raise.
 
         Args:
-            value: what was given.
-            prefix: put before the name in the message, e.g. ``arm.section_1.``.
+            value: the value to check.
+            prefix: prefix of the name in the message, e.g. ``arm.section_1.``.
 
         Raises:
-            InvalidValueError: wrong type, not finite, or out of range.
+            InvalidValueError: the value has the wrong type, is not finite, or is out of range.
         """
         if self.is_list:
             return self.check_list(value, prefix)

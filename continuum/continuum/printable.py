@@ -1,4 +1,4 @@
-"""Names of files as text that can be printed and written: not every name on a disk is in UTF-8."""
+"""Printable text for file names, which are not always valid UTF-8."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import os
 
 
 def printable(name: str) -> str:
-    """The name, bytes that are no text told as hexadecimal numbers."""
+    """Return the name with bytes that are not valid text as hexadecimal numbers."""
     return os.fsencode(name).decode("utf-8", "backslashreplace")
 
 
 def one_line(text: str) -> str:
-    """What files and users name may hold any character; one that is not printable is escaped as Python does."""
+    """Return the text with every non-printable character escaped as in Python."""
     return "".join(mark if mark.isprintable() else mark.encode("unicode_escape").decode() for mark in text)

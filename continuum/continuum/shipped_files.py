@@ -1,4 +1,4 @@
-"""Files that come with the library, arms and models: a command takes their names in place of a path."""
+"""Arm and model files in the library, which commands accept by name instead of a path."""
 
 from __future__ import annotations
 
@@ -8,30 +8,30 @@ from continuum.did_you_mean import did_you_mean
 from continuum.errors import FileError
 
 ARMS = Path(__file__).parent / "arms"
-"""Parameter files of arms; `continuum_description/config` has links to them."""
+"""Folder of the arms' parameter files; `continuum_description/config` contains links to them."""
 
 MODELS = Path(__file__).parent / "dynamics" / "models"
-"""Model files of planar arms."""
+"""Folder of the model files of planar arms."""
 
 _FOLDERS = (ARMS, MODELS)
 
 
 def shipped_names(folder: Path) -> list[str]:
-    """Names of the files in one of the two folders."""
+    """Return the names of the files in one of the two folders."""
     return sorted(path.name for path in folder.glob("*.yaml"))
 
 
 def find_file(name: str | Path, folder: Path) -> Path:
-    """``name`` itself where it is there, else the shipped file of that name; one of the other kind is found too.
+    """Return ``name`` if that path exists, otherwise the library's file of that name, which may be of the other kind.
 
-    A path that leads to nothing is returned as it is: whoever reads it says why it cannot be read.
+    A path with a folder that does not exist is returned unchanged, so that its reader reports the error.
 
     Args:
-        name: a path, or the name of a shipped file, with or without its suffix.
-        folder: ARMS or MODELS, whichever is meant.
+        name: a path, or the name of a file in the library, with or without its suffix.
+        folder: ARMS or MODELS, the folder that is searched first.
 
     Raises:
-        FileError: a name without a folder that no file has, neither here nor in the library.
+        FileError: no file has this name without a folder, neither in the current folder nor in the library.
     """
     path = Path(name)
     if path.exists():
@@ -47,7 +47,7 @@ def find_file(name: str | Path, folder: Path) -> Path:
 
 
 def _shipped(name: str | Path, folder: Path) -> Path | None:
-    """The file in the folder."""
+    """Return the file of that name in the folder, or None."""
     if not str(name) or Path(name).name != str(name):
         return None
     return next((path for end in ("", ".yaml") if (path := folder / f"{name}{end}").is_file()), None)

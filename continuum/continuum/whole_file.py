@@ -1,4 +1,4 @@
-"""How files are written: as a whole or not at all; what was there before stays until the new one is complete."""
+"""Write files atomically: an existing file stays unchanged until the new one is complete."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _NO_PLACE_IN_FOLDER = (errno.EACCES, errno.EPERM, errno.EROFS, errno.EBUSY)
-"""A folder that one may not write to, or a file that is mounted by itself."""
+"""Error numbers of a folder without write permission, or of a file that is a mount point."""
 
 _NO_GLYPH = r"Glyph \d+ .*missing from "
 """Matplotlib's warning of a character that its font does not have."""
 
 
 def write_whole(path: str | Path, content: str | bytes) -> None:
-    """Write a file, text in UTF-8, in place of one that may be there, by a temporary file in the same folder.
+    """Write a file, text in UTF-8, through a temporary file in the same folder that replaces an existing file.
 
-    A full disk leaves the file that was there. A symbolic link stays one: what it points to is written, also where that
-    is not there yet. A pipe or a terminal is written to as it is.
+    If the disk is full, the existing file remains. A symbolic link is preserved: its target is written, even if it does
+    not exist yet. Pipes and terminals are written to directly.
 
     Raises:
-        FileError: it cannot be written.
+        FileError: the file cannot be written.
     """
     try:
         data = content.encode("utf-8") if isinstance(content, str) else content
@@ -48,10 +48,10 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
 
 
 def write_table(path: str | Path, rows: Iterable[Iterable[object]]) -> None:
-    """Write a CSV file, the names of its columns being the first row.
+    """Write a CSV file whose first row holds the names of the columns.
 
     Raises:
-        FileError: it cannot be written.
+        FileError: the file cannot be written.
     """
     text = io.StringIO(newline="")
     csv.writer(text).writerows(rows)
@@ -59,12 +59,12 @@ def write_table(path: str | Path, rows: Iterable[Iterable[object]]) -> None:
 
 
 def write_figure(path: str | Path, figure: Figure, dpi: int) -> None:
-    """Write a picture in the format that the suffix names, PNG without one.
+    """Write a picture in the format of the suffix, or PNG without a suffix.
 
-    A character of a name that Matplotlib's font does not have is drawn as an empty box, without a warning.
+    Characters that Matplotlib's font lacks are drawn as empty boxes, without a warning.
 
     Raises:
-        FileError: it cannot be written, or Matplotlib does not know the format.
+        FileError: the file cannot be written, or Matplotlib does not know the format.
     """
     picture = io.BytesIO()
     try:
@@ -77,14 +77,14 @@ def write_figure(path: str | Path, figure: Figure, dpi: int) -> None:
 
 
 def target_of(path: str | Path) -> Path:
-    """The file that is meant: what a symbolic link points to, whether it is there or not.
+    """Return the file that a path refers to: for a symbolic link its target, which need not exist.
 
     Raises:
-        FileError: links lead round a circle.
+        FileError: the links form a cycle.
     """
     file = Path(os.path.realpath(path))
     if file.is_symlink():
-        raise FileError(path, "is a symbolic link that leads back to itself")
+        raise FileError(path, "is a symbolic link that refers to itself")
     return file
 
 
@@ -103,7 +103,7 @@ def _write_and_rename(file: Path, data: bytes) -> None:
         with temporary.open("xb") as opened:
             opened.write(data)
             opened.flush()
-            os.fsync(opened.fileno())  # some disks say only now that they are full
+            os.fsync(opened.fileno())  # some disks report only now that they are full
         if file.exists():
             shutil.copymode(file, temporary)
         temporary.replace(file)

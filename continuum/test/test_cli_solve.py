@@ -146,8 +146,8 @@ def test_columns_of_targets_may_stand_in_any_order(capsys: Captured, tmp_path: P
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("", "holds no targets"),
-        ("x y z\n", "holds no targets"),
+        ("", "contains no targets"),
+        ("x y z\n", "contains no targets"),
         ("1 2\n", "line 1 has 2 columns; expected are lines of 3"),
         ("\n1 2 3\n1 2 3 4 5 6\n", "line 3 has 6 columns; expected are lines of 3"),
         ("a b c\n", "line 1 names the columns a b c; allowed: x y z"),

@@ -1,4 +1,4 @@
-"""Completion of the command line in bash and zsh: argcomplete, called by the shell while somebody types."""
+"""Completion of the command line in bash and zsh by argcomplete, which the shell calls while the user types."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _ASKED = "_ARGCOMPLETE"
 
 
 def complete(parser: argparse.ArgumentParser) -> None:
-    """Answer the shell and end the process, where it is a shell that asks."""
+    """Answer a shell's request for completions and end the process; do nothing without such a request."""
     if _ASKED in os.environ:
         import argcomplete
 
@@ -21,7 +21,7 @@ def complete(parser: argparse.ArgumentParser) -> None:
 
 
 def completes_files(action: argparse.Action, folder: Path, *suffixes: str) -> None:
-    """Let an argument be completed by names of shipped files, by YAML files, and by files of other ``suffixes``."""
+    """Complete an argument by names of files in the library, YAML files, and files of other ``suffixes``."""
 
     def names(prefix: str) -> list[str]:
         from argcomplete.completers import FilesCompleter
@@ -34,7 +34,7 @@ def completes_files(action: argparse.Action, folder: Path, *suffixes: str) -> No
 
 
 def completes(action: argparse.Action, names: Callable[[str], Iterable[str]]) -> None:
-    """Let an argument be completed by what ``names`` gives for its beginning."""
+    """Complete an argument by the names that ``names`` returns for its beginning."""
 
     def completer(prefix: str, **_: Any) -> Iterable[str]:
         return names(prefix)

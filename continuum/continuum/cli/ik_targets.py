@@ -1,4 +1,4 @@
-"""Targets of the tip as they come from the command line or from a file."""
+"""Targets of the tip from the command line or from a file."""
 
 from __future__ import annotations
 
@@ -19,30 +19,30 @@ from continuum.recordings.table_file import read_text
 
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,?\d+([eE][+-]?\d+)?")
 _BROKEN = re.compile(r"[+-]?\d+,\d+")
-_CUT = re.compile(r"0\d+")  # of a decimal, behind its comma
+_CUT = re.compile(r"0\d+")  # digits after a decimal comma
 _POSITION, _DIRECTION, _QUATERNION = ("x", "y", "z"), ("dx", "dy", "dz"), ("qx", "qy", "qz", "qw")
 _COLUMNS = "lines of 3 (x y z), 6 (and a direction) or 7 numbers (and a quaternion x y z w), all alike"
 
 
 def target_of(position: list[float], options: argparse.Namespace) -> Target:
-    """The one target of the command line.
+    """Return the target of the command line.
 
     Raises:
-        InvalidValueError: it is malformed, or has a direction and a quaternion.
+        InvalidValueError: the target is malformed, or has both a direction and a quaternion.
     """
     if options.quaternion and options.direction:
-        raise InvalidValueError("--direction", options.direction, "none beside --quaternion, which has it already")
+        raise InvalidValueError("--direction", options.direction, "none with --quaternion, which sets it too")
     rotation = _rotations("--quaternion", [options.quaternion])[0] if options.quaternion else None
     return Target(position, options.direction, rotation)
 
 
 def read_targets(path: str) -> Targets:
-    """Targets of a text file, numbers between blanks, commas, semicolons or tabs; what follows a # is a remark.
+    """Return the targets of a text file: numbers separated by blanks, commas, semicolons or tabs; # starts a comment.
 
     A heading may name the columns, in any order: `_POSITION`, then `_DIRECTION` or `_QUATERNION`.
 
     Raises:
-        FileError: it cannot be read, has no targets, or a line, which is named, holds none.
+        FileError: the file cannot be read or has no targets, or a line, named in the message, is not a target.
     """
     lines = read_text(Path(path)).splitlines()
     for k, line in enumerate(lines, start=1):
@@ -63,7 +63,7 @@ def read_targets(path: str) -> Targets:
                 raise FileError(path, f"line {k} has {len(row)} columns, the heading {len(heading)}")
         written = [(k, [row[i] for i in order]) for k, row in written]
     if not written:
-        raise FileError(path, f"holds no targets; wanted are {_COLUMNS}")
+        raise FileError(path, f"contains no targets; expected are {_COLUMNS}")
     width = len(written[0][1])
     rows = np.array([_numbers(path, k, row, width) for k, row in written])
     for (k, _), row in zip(written, rows[:, 3:], strict=True):
@@ -75,9 +75,9 @@ def read_targets(path: str) -> Targets:
 
 
 def _words(line: str) -> list[str]:
-    """Cells of a line; commas are decimal ones where semicolons, or tabs without blanks or commas, separate cells.
+    """Split a line into cells; if semicolons, or tabs without blanks or commas, separate them, commas are decimal.
 
-    An empty cell is one, unless it is the last of its line.
+    An empty cell counts, unless it is the last of its line.
     """
     line = line.replace('"', "").rstrip(" \t,;")
     for separator in ";\t":
@@ -88,7 +88,7 @@ def _words(line: str) -> list[str]:
 
 
 def _order(path: str, k: int, heading: list[str]) -> list[int]:
-    """Where the columns stand that a heading names, positions in metres as ``x`` or ``x_m``."""
+    """Return the positions of the columns that a heading names; lengths are in metres, as ``x`` or ``x_m``."""
     names = [word.lower().removesuffix("_m") for word in heading]
     for wanted in (_POSITION, (*_POSITION, *_DIRECTION), (*_POSITION, *_QUATERNION)):
         if sorted(names) == sorted(wanted):
@@ -100,15 +100,15 @@ def _order(path: str, k: int, heading: list[str]) -> list[int]:
 
 
 def _numbers(path: str, k: int, words: list[str], width: int) -> list[float]:
-    """The ``width`` numbers of line ``k``."""
+    """Return the ``width`` numbers of line ``k``."""
     if len(words) != width or width not in (3, 6, 7):
-        raise FileError(path, f"line {k} has {len(words)} columns; wanted are {_COLUMNS}")
+        raise FileError(path, f"line {k} has {len(words)} columns; expected are {_COLUMNS}")
     numbers = []
     for word in words:
         try:
             numbers.append(number_of(word))
         except ValueError:
-            raise FileError(path, f"line {k}: {word!r} is no number") from None
+            raise FileError(path, f"line {k}: {word!r} is not a number") from None
         if not math.isfinite(numbers[-1]):
             raise FileError(path, f"line {k}: {word!r}; allowed: a finite number")
     return numbers

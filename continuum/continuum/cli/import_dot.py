@@ -1,4 +1,4 @@
-"""`continuum import-dot`: joint angles from exported recordings of Xsens DOT sensors, as a run that diagnose reads."""
+"""`continuum import-dot`: compute joint angles from exported Xsens DOT recordings and write a run for diagnose."""
 
 from __future__ import annotations
 
@@ -26,32 +26,32 @@ def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
         "import-dot", help="joint angles from exported recordings of inertial sensors", description=__doc__,
-        epilog="Times are those of the printed rests: seconds since the first sensor began. A run without tensions is "
-        "one of slack cables, so let it --begin after the cable was let go. "
+        epilog="Times count in seconds from the start of the first sensor, as in the printed rests. A run without "
+        "tensions has slack cables, so let it --begin after the release of the cable. "
         "Exit codes: 0 done, 1 written, but diagnose would refuse it, 2 wrong usage, file or value.",
     )  # fmt: skip
-    parser.add_argument("files", nargs="+", metavar="FILE.csv", help="of one sensor each, in order from the base")
-    parser.add_argument("--out", metavar="RUN.csv", help="write time, joint angles and rates there")
+    parser.add_argument("files", nargs="+", metavar="FILE.csv", help="one export per sensor, in order from the base")
+    parser.add_argument("--out", metavar="RUN.csv", help="write time, joint angles and rates to this file")
     parser.add_argument(
         "--first-turn", choices=("1", "2"), metavar="CABLE",
-        help="1 or 2: the cable towards which the arm first turns in the recording; finds the sensors' axes",
+        help="1 or 2: the cable towards which the arm first turns in the recording; needed to find the sensors' axes",
     )  # fmt: skip
     parser.add_argument(
-        "--zero", metavar="S:S", help="from when to when the arm rests straight, or in --posture, for example 0:5"
+        "--zero", metavar="S:S", help="interval in which the arm rests straight, or in --posture, for example 0:5"
     )
     parser.add_argument("--posture", metavar="DEG", help="joint angles [degrees] at --zero, q1,q2,..; default straight")
     parser.add_argument(
         "--calibration", metavar="FILE.yaml",
         help="axes and zero of an earlier recording with the sensors in the same places; the bias is estimated again",
     )  # fmt: skip
-    parser.add_argument("--save-calibration", metavar="OUT.yaml", help="write bias, axes and zero there")
-    parser.add_argument("--begin", metavar="S", type=float, default=-math.inf, help="leave out what is earlier")
-    parser.add_argument("--end", metavar="S", type=float, default=math.inf, help="leave out what is later")
+    parser.add_argument("--save-calibration", metavar="OUT.yaml", help="write bias, axes and zero to this file")
+    parser.add_argument("--begin", metavar="S", type=float, default=-math.inf, help="omit earlier rows")
+    parser.add_argument("--end", metavar="S", type=float, default=math.inf, help="omit later rows")
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Import, tell what was found, and write what was asked for."""
+    """Import the recordings, print a summary, and write the requested files."""
     from continuum.inertial.calibration import save_calibration
     from continuum.inertial.common_clock import check_common_clock, on_one_clock
     from continuum.inertial.dot_export import read_dot_export
@@ -84,7 +84,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _show(recording: ImuRecording, found: list[Span], streams: Sequence[Stream]) -> None:
-    """What was read. A missing reading leaves two common instants without values where instants differ."""
+    """Print a summary. If sampling times differ, a missing reading leaves two common instants without values."""
     lasts = recording.times[-1] - recording.times[0]
     unknown, clipped = (block.mean(axis=0) for block in (~recording.valid, recording.clipped))
     spans = ", ".join(f"{begin:.2f} to {end:.2f}" for begin, end in found)
@@ -111,21 +111,21 @@ def _calibration(options: argparse.Namespace, recording: ImuRecording, found: li
     if options.calibration is not None:
         known = load_calibration(options.calibration)
         if known.n_sensors != recording.n_sensors:
-            raise FileError(options.calibration, f"is of {known.n_sensors} sensors, not {recording.n_sensors}")
+            raise FileError(options.calibration, f"has {known.n_sensors} sensors, not {recording.n_sensors}")
         steps = CalibrationSteps.of(known)
     if not found:
-        raise MeasurementError("the sensors never rest for a second, so their bias cannot be found")
+        raise MeasurementError("the sensors never rest for a second, so their bias cannot be estimated")
     steps = steps.with_bias(recording.part(*max(found, key=lambda span: span[1] - span[0])))
     if options.first_turn is not None:
         steps = steps.with_axis(recording, 1 if options.first_turn == "1" else -1)
     if options.posture is not None and options.zero is None:
-        raise InvalidValueError("--posture", options.posture, "only with --zero, which says when the arm had it")
+        raise InvalidValueError("--posture", options.posture, "only with --zero, the interval of this posture")
     if options.zero is not None:
         steps = steps.with_zero(recording.part(*_span(options.zero)), _posture(options.posture))
     calibration = steps.complete()
     if calibration is None:
         option = "--first-turn" if "axis" in steps.missing else "--zero"
-        raise MeasurementError(f"the {steps.missing[0]} of the sensors is not known: give {option}, or a --calibration")
+        raise MeasurementError(f"the {steps.missing[0]} of the sensors is not known: give {option} or --calibration")
     return calibration
 
 
@@ -141,7 +141,7 @@ def _span(text: str) -> Span:
 
 
 def _posture(text: str | None) -> list[float] | None:
-    """Joint angles [rad]."""
+    """Parse joint angles [degrees] and return them [rad]; None without text."""
     try:
         return None if text is None else [math.radians(float(part)) for part in text.split(",")]
     except ValueError:
@@ -149,22 +149,22 @@ def _posture(text: str | None) -> list[float] | None:
 
 
 def _good_rows(angles: RecordedAngles, begin: float, end: float) -> tuple[Array, Array, Array]:
-    """Times (n,) [s], angles and rates (n, n_joints) [rad, rad/s] of the rows in which all joints are good.
+    """Return times (n,) [s], angles and rates (n, n_joints) [rad, rad/s] of the rows with valid angles of all joints.
 
     Raises:
-        MeasurementError: there is none from ``begin`` to ``end`` [s].
+        MeasurementError: there is no such row from ``begin`` to ``end`` [s].
     """
     inside = (angles.times >= begin) & (angles.times <= end)
     good = inside & angles.good.all(axis=1)
     if not good.any():
-        raise MeasurementError("no instant between --begin and --end has good angles of all joints")
+        raise MeasurementError("no instant between --begin and --end has valid angles of all joints")
     left = int(inside.sum() - good.sum())
-    print(f"{good.sum()} rows" + (f"; {left} without good angles left out" if left else ""))
+    print(f"{good.sum()} rows" + (f"; {left} without valid angles omitted" if left else ""))
     return angles.times[good], angles.theta[good], angles.theta_rate[good]
 
 
 def _write(out: str, times: Array, theta: Array, theta_rate: Array) -> int:
-    """Write the rows, and read them as `diagnose` does; 1 where that refuses them."""
+    """Write the rows and read them as `diagnose` does; return 1 if it would refuse them."""
     from continuum.recordings.motion_table import write_measured_motion
     from continuum.recordings.recording_csv import read_recording_csv
 

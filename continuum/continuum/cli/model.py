@@ -34,9 +34,9 @@ def add_to(commands: Any) -> None:
 
 def _add_new(ways: Any) -> None:
     new = ways.add_parser(
-        "new", help="from values, asked for where they are left out",
+        "new", help="from values; missing ones are asked for",
         description="Write a model file from values: one for all joints, or one for each, as 0.3,0.2. At a terminal, "
-        "what is required and was left out is asked for.",
+        "the command asks for required values that are missing.",
     )  # fmt: skip
     new.add_argument("--joints", metavar="N", help="number of joints")
     new.add_argument(
@@ -56,13 +56,14 @@ def _add_urdf(ways: Any) -> None:
     urdf = ways.add_parser(
         "from-urdf", help="from a URDF of a serial arm that moves in one plane",
         description="Write a model file from a URDF: masses, inertias, lengths, damping and friction of one chain of "
-        "joints with parallel axes. What a model's angles are in the URDF's is printed, and stands in the file.",
+        "joints with parallel axes. The relation between the angles of the model and of the URDF is printed, and "
+        "written to the file.",
     )  # fmt: skip
     urdf.add_argument("urdf", metavar="ARM.urdf", help="the description; xacro files have to be expanded first")
     urdf.add_argument("--tip", metavar="LINK", help="link whose frame is the tip; default the last on the last link")
     urdf.add_argument(
         "--gravity", metavar="X,Y,Z", default="0,0,-9.81",
-        help="acceleration in the frame of the URDF's root [m/s2]; default %(default)s",
+        help="acceleration of gravity in the frame of the URDF's root [m/s2]; default %(default)s",
     )  # fmt: skip
     urdf.add_argument("--out", metavar="MODEL.yaml", required=True, help="the file to write")
     urdf.set_defaults(run=_from_urdf)
@@ -79,7 +80,7 @@ def _new(options: argparse.Namespace) -> int:
     check_outputs((), [options.out])
     given = {name: text for name in PARAMETERS if (text := getattr(options, name)) is not None}
     if options.joints is not None:
-        _whole(options.joints)  # before anything is asked for
+        _whole(options.joints)  # before the command asks for values
     joints, given = _completed(options, given)
     n_joints = _whole(joints)
     values: dict[str, list[float]] = {name: _numbers(name, text) for name, text in given.items()}
@@ -90,13 +91,13 @@ def _new(options: argparse.Namespace) -> int:
 
 
 def _from_urdf(options: argparse.Namespace) -> int:
-    # Here, so that the other commands need not wait for what reads URDFs.
+    # Imported here because the URDF reader is slow to load.
     from continuum.dynamics.urdf_chain import chain_from_urdf
 
     check_outputs([options.urdf], [options.out])
     gravity = _numbers("gravity", options.gravity)
     if len(gravity) != 3:
-        raise InvalidValueError("--gravity", options.gravity, "three numbers, as 0,0,-9.81")
+        raise InvalidValueError("--gravity", options.gravity, "three numbers such as 0,0,-9.81")
     chain = chain_from_urdf(options.urdf, options.tip, gravity)
     named = chain.model.parameters.named()
     values = {name: [float(one) for one in named[name]] for name in _FROM_URDF}
@@ -106,7 +107,7 @@ def _from_urdf(options: argparse.Namespace) -> int:
 
 
 def _angles(names: Sequence[str], signs: Sequence[float], zeros: Sequence[float]) -> list[str]:
-    """What the model's angles are in the description's."""
+    """Return the model's angles as functions of those of the description."""
     lines = []
     for number, (name, sign, zero) in enumerate(zip(names, signs, zeros, strict=True), 1):
         offset = f" {'-' if zero < 0 else '+'} {abs(math.degrees(zero)):.6g} deg" if abs(zero) > 1e-9 else ""
@@ -117,7 +118,7 @@ def _angles(names: Sequence[str], signs: Sequence[float], zeros: Sequence[float]
 def _write(
     path: str, n_joints: int, inputs: str, values: Mapping[str, list[float]], source: str, lines: Sequence[str] = ()
 ) -> int:
-    """Write the checked model, with lines that are printed too."""
+    """Write the checked model with comment lines, and print these lines."""
     from continuum.dynamics.commented_model import commented_model
     from continuum.dynamics.model_file import model_from_mapping
 
@@ -135,51 +136,51 @@ def _write(
 
 
 def _completed(options: argparse.Namespace, given: Mapping[str, str]) -> tuple[str, dict[str, str]]:
-    """Number of joints and values; those that are required and were left out are asked for at a terminal.
+    """Return the number of joints and the values; at a terminal, ask for missing required values.
 
     Raises:
-        ContinuumError: there is no terminal, or no answer.
+        ContinuumError: a required value is missing and there is no terminal, or the input ended.
     """
     wanted = [name for name, one in PARAMETERS.items() if one.default is None and not one.optional]
     if not any(name in given for name in _LENGTHS):
         wanted.append("link_length")
     missing = {} if options.joints is not None else {"joints": "number of joints"}
     missing |= {name: f"{PARAMETERS[name].meaning} [{PARAMETERS[name].unit}]" for name in wanted if name not in given}
-    if missing and not sys.stdin.isatty():  # nobody is there to be asked
+    if missing and not sys.stdin.isatty():  # no user to ask
         names = ", ".join(f"--{name.replace('_', '-')}" for name in missing)
         raise ContinuumError(f"required are {names}; at a terminal, the command asks for them")
     try:
         answers = {name: input(f"{meaning}: ") for name, meaning in missing.items()}
     except EOFError:
-        print(file=sys.stderr)  # behind the question
+        print(file=sys.stderr)  # end the line of the question
         raise ContinuumError("the input ended before every value was given") from None
     return answers.pop("joints", options.joints), {**given, **answers}
 
 
 def _whole(text: str) -> int:
-    """Number of joints."""
+    """Parse the number of joints."""
     if not text.strip().isdecimal() or not 1 <= len(text.strip()) <= 4 or not 1 <= int(text) <= _MOST_JOINTS:
         raise InvalidValueError("--joints", text, f"a whole number from 1 to {_MOST_JOINTS}")
     return int(text)
 
 
 def _numbers(name: str, text: str) -> list[float]:
-    """Numbers apart by commas."""
+    """Parse numbers separated by commas."""
     try:
         return [float(one) for one in text.split(",")]
     except ValueError as error:
-        raise InvalidValueError(f"--{name.replace('_', '-')}", text, "a number, or several as 0.3,0.2") from error
+        raise InvalidValueError(f"--{name.replace('_', '-')}", text, "a number, or several such as 0.3,0.2") from error
 
 
 def _about_centre(joints: int, values: dict[str, list[float]]) -> list[float]:
-    """Inertias about the centres of mass from those about the joints, by the parallel axes [kg m2]."""
+    """Return inertias about the centres of mass from those about the joints, by the parallel axis theorem [kg m2]."""
     mass, centre, inertia = (
         value * joints if len(value) == 1 else value
         for value in (values["mass"], values["center_of_mass"], values["inertia"])
     )
     if not len(mass) == len(centre) == len(inertia) == joints:
-        raise InvalidValueError("--inertia", inertia, f"one number, or {joints}, as of --mass and --center-of-mass")
+        raise InvalidValueError("--inertia", inertia, f"one number, or {joints}, as for --mass and --center-of-mass")
     found = [i - m * c * c for m, c, i in zip(mass, centre, inertia, strict=True)]
     if min(found) < 0:
-        raise InvalidValueError("--inertia", inertia, "about the joint at least mass times centre of mass squared")
+        raise InvalidValueError("--inertia", inertia, "at least mass times centre of mass squared, about the joint")
     return found

@@ -1,4 +1,4 @@
-"""Negative numbers on the command line: argparse takes ``-1e-2`` and ``-1,2`` for options, ``-0.01`` for a number."""
+"""Negative numbers on the command line: argparse treats ``-1e-2`` and ``-1,2`` as options, ``-0.01`` as a number."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ _LIST = re.compile(r"-[\d.][-+\d.eE]*(,[-+\d.eE]+)+")
 
 
 def written_out(arguments: Sequence[str]) -> list[str]:
-    """The arguments, negative numbers with an exponent written without it, digit for digit.
+    """Return the arguments, with negative numbers in exponent notation written as exact decimals.
 
-    A list of numbers that begins with a minus is joined to the option before it.
+    A list of numbers that starts with a minus sign is joined to the option before it.
     """
     written: list[str] = []
     for text in arguments:

@@ -1,4 +1,4 @@
-"""argparse's parser with each mistake in one line, and with the names that a misspelt one is near to."""
+"""argparse's parser with one-line error messages and suggestions for misspelt names."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from continuum.did_you_mean import did_you_mean
 from continuum.printable import one_line
 
 _OPTION = re.compile(r"(--?[A-Za-z][^\s=]*)(=.*)?", re.DOTALL)
-"""What argparse takes for an option: no negative number, and no words with blanks between them."""
+"""Words that argparse treats as options: not negative numbers, and not words that contain blanks."""
 
 
 class Parser(argparse.ArgumentParser):
-    """Refuses wrong options before anything else is wrong: a value without its option may be missing elsewhere."""
+    """Parser that reports unknown options first: their values would otherwise cause misleading messages."""
 
     def error(self, message: str) -> NoReturn:
-        """End with exit code 2 and one line; a name that is suggested is help enough."""
+        """End with exit code 2 and one line, which refers to --help unless it suggests a name."""
         further = "" if message.endswith("?") else f"; see {self.prog} --help"
         self.exit(2, f"continuum: {one_line(message)}{further}\n")
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:
-        """As argparse's; words that are left over are refused by the command that they were given to."""
+        """As argparse's method, but surplus words are refused by the command that received them."""
         words: list[str] = list(args or ())
         self._refuse_unknown_options(words)
         found, left = super().parse_known_args(words, namespace)
@@ -32,7 +32,7 @@ class Parser(argparse.ArgumentParser):
         return found, left
 
     def _refuse_unknown_options(self, words: Sequence[str]) -> None:
-        """Those before the command, if there is one: what comes after it is the command's."""
+        """Refuse unknown options up to the command, if there is one; later words belong to the command."""
         known = [option for action in self._actions for option in action.option_strings]
         for word in words:
             option = _OPTION.fullmatch(word)
@@ -41,14 +41,14 @@ class Parser(argparse.ArgumentParser):
             if option is None or option[1] in known:
                 continue
             beginning = option[1].startswith("--") and any(one.startswith(option[1]) for one in known)
-            if not beginning:  # argparse completes those, or names all that begin so
+            if not beginning:  # argparse completes an abbreviation, or lists its completions
                 self.error(f"{self.prog} has no option {option[1]}{did_you_mean(option[1], known)}")
 
     def _has_commands(self) -> bool:
         return any(action.nargs == argparse.PARSER for action in self._actions)
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        """Refuse what is not among an argument's choices; argparse's own line names no near one."""
+        """Refuse a value that is not among the choices, with a suggestion, which argparse's message lacks."""
         if action.choices is None or value in action.choices:
             return
         known = [str(one) for one in action.choices]
@@ -58,7 +58,7 @@ class Parser(argparse.ArgumentParser):
 
 
 class ShowVersion(argparse.Action):
-    """Prints the installed version, which is read from the package's metadata then and not at every start."""
+    """Print the installed version, read from the package's metadata only on request."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
         """Print and end."""

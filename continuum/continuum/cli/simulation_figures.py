@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 def figures(
     motion: Trajectory, held: PulledPosture | None, loading_time: float, integration_time: float
 ) -> dict[str, Any]:
-    """All figures in SI units; None for those of a motion that was not integrated to its end.
+    """Return all figures in SI units; those of an incomplete motion are None.
 
     Args:
-        motion: what was simulated.
-        held: the posture that a cable held before, if one did.
-        loading_time: until the equations were loaded [s].
-        integration_time: of the integration [s].
+        motion: the simulated motion.
+        held: the posture that a cable held before the motion, if any.
+        loading_time: time to load the equations [s].
+        integration_time: time of the integration [s].
     """
     found: dict[str, Any] = {
         "status": motion.status.name,
@@ -43,7 +43,7 @@ def figures(
 
 
 def in_words(found: dict[str, Any], status: str) -> list[tuple[str, str]]:
-    """The same for a table, angles in degrees; ``status`` says how the integration ended."""
+    """Return the figures for a table, with angles in degrees; ``status`` describes how the integration ended."""
     pairs = []
     if found["held_tension"] is not None:
         angles = ", ".join(f"{math.degrees(angle):.2f}" for angle in found["held_angles"])

@@ -1,4 +1,4 @@
-"""What looks as if other units were meant, in what `continuum simulate` is given and in what comes of it."""
+"""Hints at probably wrong units in the arguments and results of `continuum simulate`."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from continuum.dynamics.model import InputKind
 from continuum.dynamics.parameters import Parameters
 
 _SMALL_BEND = 3.2
-"""Total bend [degrees] up to which a number looks like one in radians: half a turn is 3.14."""
+"""Total bend [degrees] below which a number was probably given in radians: half a turn is 3.14."""
 
 _LONG, _RARE = 100.0, 1.0
-"""Length of a table, and time between its rows [s], from which on its times look like milliseconds."""
+"""Duration of a table, and time between its rows [s], above which its times are probably in milliseconds."""
 
 
 def hints(posture: Array, inputs: InputSignal, p: Parameters, times: Array) -> Iterator[str]:
-    """Lines about the start (n_joints,) [rad], the inputs, and the times simulated (n_times,) [s]."""
+    """Yield hints about the start (n_joints,) [rad], the inputs, and the simulated times (n_times,) [s]."""
     bend = float(np.abs(np.degrees(posture)).sum())
     if 0 < bend <= _SMALL_BEND:
         yield f"--release is in degrees, and {bend:.3g} in total is little: were these radians?"
@@ -38,17 +38,17 @@ def hints(posture: Array, inputs: InputSignal, p: Parameters, times: Array) -> I
 
 
 def enough_tension(p: Parameters) -> float:
-    """Tension [N] whose torque about any joint bends its spring by half a turn, and lifts the whole arm held out."""
+    """Return a tension [N] that bends any joint's spring by half a turn and lifts the whole outstretched arm."""
     weight = float(p.gravity[0] * np.sum(p.mass) * np.sum(p.joint_spacing))
     return float((np.pi * np.max(p.stiffness) + weight) / np.min(p.hole_radius))
 
 
 def beyond_contact(theta: Array, p: Parameters) -> str:
-    """In words, the joint that is bent furthest beyond the contact of its discs in (n_times, n_joints) [rad]; or ''."""
+    """Describe the joint bent furthest beyond contact of its discs in ``theta`` (n_times, n_joints) [rad], or ''."""
     furthest = np.abs(theta).max(axis=0)
     excess = furthest - p.contact_angle
     joint = int(np.argmax(excess))
     if not excess[joint] > 0:
         return ""
     angle, contact = np.degrees([furthest[joint], p.contact_angle[joint]])
-    return f"joint {joint + 1} is bent by {angle:.0f} degrees; from {contact:.0f} on its discs are in each other's way"
+    return f"joint {joint + 1} is bent by {angle:.0f} degrees; its discs touch at {contact:.0f}"

@@ -1,4 +1,4 @@
-"""`continuum solve`: inverse kinematics of one target, or of all in a file."""
+"""`continuum solve`: inverse kinematics for one target, or for all targets in a file."""
 
 from __future__ import annotations
 
@@ -33,15 +33,17 @@ _WORDS = {
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser("solve", help="bring the tip of an arm to a point", description=__doc__)
-    arm = parser.add_argument("arm", metavar="ARM.yaml", help="parameter file of the arm, or one of the library's")
+    arm = parser.add_argument(
+        "arm", metavar="ARM.yaml", help="parameter file of the arm, or name of an arm in the library"
+    )
     completes_files(arm, ARMS)
     for axis in ("X", "Y", "Z"):
         parser.add_argument(axis.lower(), metavar=axis, type=float, nargs="?", help="target of the tip [m]")
     parser.add_argument(
-        "--direction", metavar=("X", "Y", "Z"), nargs=3, type=float, help="where the tip's z axis shall point"
+        "--direction", metavar=("X", "Y", "Z"), nargs=3, type=float, help="direction of the tip's z axis"
     )
     parser.add_argument(
-        "--quaternion", metavar=("X", "Y", "Z", "W"), nargs=4, type=float, help="the tip's whole orientation"
+        "--quaternion", metavar=("X", "Y", "Z", "W"), nargs=4, type=float, help="orientation of the tip"
     )
     parser.add_argument(
         "--targets",
@@ -53,13 +55,13 @@ def add_to(commands: Any) -> None:
         metavar="DEG",
         nargs="+",
         type=float,
-        help="bend and azimuth of every section [degrees], near which to answer; default straight",
+        help="bend and azimuth of every section [degrees], near which to search; default straight",
     )
     parser.add_argument(
         "--objective",
         choices=("first", "near_start", "least_bending"),
         default="near_start",
-        help="how to use the freedom that a target leaves: the answer nearest to the start, which is the straight arm "
+        help="choice among several solutions: the one nearest to the start, which is the straight arm "
         "unless --start names another, the least bent one, or the first one found; default %(default)s",
     )
     parser.add_argument("--tolerance", type=float, default=1e-6, help="[m] and [rad]; default %(default)g")
@@ -68,14 +70,14 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Solve and print; 1 where a target is not reached."""
-    from continuum.kinematics.inverse_kinematics import InverseKinematics  # here: numba takes its time to load
+    """Solve and print; return 1 if a target is not reached."""
+    from continuum.kinematics.inverse_kinematics import InverseKinematics  # imported here because numba is slow to load
 
     point = [value for value in (options.x, options.y, options.z) if value is not None]
     if len(point) != (0 if options.targets else 3):
-        options.refuse("a target is X Y Z, or there is a file of --targets")
+        options.refuse("give a target X Y Z, or a file with --targets")
     if options.targets and (options.direction or options.quaternion):
-        options.refuse("--direction and --quaternion are of X Y Z; a file of --targets has them in its lines")
+        options.refuse("--direction and --quaternion belong to X Y Z; a file of --targets contains them in its lines")
     if not options.tolerance > 0:
         raise InvalidValueError("--tolerance", options.tolerance, "a number > 0 [m] and [rad]")
     arm = load_arm(options.arm)
@@ -101,7 +103,7 @@ def _position(targets: Targets, k: int) -> str:
 
 
 def _start(arm: Arm, degrees: list[float]) -> Array:
-    """Configuration (n_sections, 2) [rad] of bends and azimuths [degrees]; bends beyond a limit are told."""
+    """Return the configuration (n_sections, 2) [rad] of bends and azimuths [degrees]; warn of bends beyond a limit."""
     if len(degrees) != 2 * arm.n_sections or not all(map(math.isfinite, degrees)):
         allowed = f"finite numbers, bend and azimuth of each of {arm.n_sections} sections [degrees]"
         raise InvalidValueError("--start", degrees, allowed)
@@ -110,15 +112,15 @@ def _start(arm: Arm, degrees: list[float]) -> Array:
         if bend > section.bend_limit + 1e-9:
             bent, limit = math.degrees(bend), math.degrees(section.bend_limit)
             print(
-                f"continuum: --start bends {section.name} by {bent:g} degrees; its limit is {limit:g}, and the answer "
-                "keeps it",
+                f"continuum: --start bends {section.name} by {bent:g} degrees; its limit is {limit:g}, and the "
+                "solution respects it",
                 file=sys.stderr,
             )
     return allen_from_jones(pairs[:, 1], pairs[:, 0])
 
 
 def _plain(arm: Arm, targets: Targets, k: int, result: IkResult) -> dict[str, object]:
-    """All of an answer in SI units, and the k-th target that it is of."""
+    """Return the solution in SI units together with the k-th target."""
     target = {"position": targets.positions[k].tolist()}
     if targets.directions is not None:
         target["direction"] = targets.directions[k].tolist()

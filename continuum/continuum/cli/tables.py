@@ -14,14 +14,14 @@ _WIDTH = 80
 
 
 def print_text(text: str) -> None:
-    """Print a paragraph in lines that are no longer than the terminal is wide; words stay whole."""
+    """Print a paragraph, wrapped at words to the width of the terminal."""
     print(textwrap.fill(text, _WIDTH, break_long_words=False, break_on_hyphens=False))
 
 
 def print_table(headings: Sequence[str], rows: Iterable[Sequence[str]], title: str | None = None) -> None:
-    """Print rows under headings, the first column to the left and figures to the right.
+    """Print rows under headings, with the first column left-aligned and figures right-aligned.
 
-    All words are shown as they are: brackets, as around units, are nothing special.
+    Text is printed literally: brackets, for example around units, are not markup.
     """
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     for i, heading in enumerate(headings):
@@ -34,7 +34,7 @@ def print_table(headings: Sequence[str], rows: Iterable[Sequence[str]], title: s
 
 
 def print_pairs(pairs: Iterable[tuple[str, str]]) -> None:
-    """Print what is known, one thing a line, its name first."""
+    """Print pairs of name and value, one per line."""
     table = Table(box=None, show_header=False, padding=(0, 3, 0, 0), pad_edge=False)
     table.add_column(no_wrap=True)
     table.add_column()
