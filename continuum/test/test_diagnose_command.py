@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from html import unescape
 from pathlib import Path
 
@@ -11,11 +12,12 @@ import pytest
 from dynamics_laws import prototype_model
 from identification_laws import BENDS, FINE, N, recorded
 
-from continuum.cli import main
+from continuum.cli import main, view
 from continuum.cli.diagnose import EXIT_CODES
 from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.simulator import Simulator
 from continuum.recordings.motion_table import write_measured_motion
+from continuum.viewer.page import Page
 
 pytestmark = pytest.mark.slow
 
@@ -68,7 +70,9 @@ def releases(folder: Path, **truth: float) -> list[str]:
     return files
 
 
-def test_a_diagnosis_is_reported_and_written(tmp_path: Path, model: Path, capsys: Captured) -> None:
+def test_a_diagnosis_is_reported_and_written(
+    tmp_path: Path, model: Path, capsys: Captured, monkeypatch: pytest.MonkeyPatch
+) -> None:
     files = releases(tmp_path, stiffness=1.3)
     out = {name: tmp_path / "new" / f"out.{name}" for name in ("json", "html", "yaml")}
     words = ["--json", str(out["json"]), "--report", str(out["html"]), "--extended", str(out["yaml"])]
@@ -77,13 +81,19 @@ def test_a_diagnosis_is_reported_and_written(tmp_path: Path, model: Path, capsys
     assert code == EXIT_CODES[output["verdict"]]
     printed = capsys.readouterr().out
     assert printed.startswith(output["verdict"].upper() + "\n")
-    assert {f"written: {file}" for file in out.values()} == {*printed.splitlines()[-3:]}
+    *_, last = printed.splitlines()
+    assert {f"written: {file}" for file in out.values()} == {*printed.splitlines()[-4:-1]}
     made = output["made"]
     assert (made["recordings"], made["model"]) == (["run_1.csv", "run_2.csv"], "small.yaml")
     page = unescape(out["html"].read_text(encoding="utf-8"))
     assert "of run_1.csv, run_2.csv; model small.yaml." in page
     assert "<svg" in page
     assert load_model(out["yaml"]).n_joints == N
+    monkeypatch.setattr(view.signal, "signal", lambda *_: None)
+    monkeypatch.setattr(Page, "run", lambda page, stop: page.draw())
+    program, *command = shlex.split(last.removeprefix("see before and after: "))
+    assert program == "continuum"
+    assert main([*command, "--port", "0", "--no-browser"]) == 0
 
 
 def test_what_is_known_besides_the_recordings_is_used_and_said(

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from continuum.cli.before_after import before_after_command
 from continuum.cli.completion import completes
 from continuum.cli.language_option import add_language_option
 from continuum.cli.models import add_model_option, read_model
@@ -109,6 +110,9 @@ def run(options: argparse.Namespace) -> int:
     print()
     print(tr("of {recordings}; model {model}", **_inputs(options)))
     announce([options.json, options.report, options.extended], tr=tr)
+    if options.extended is not None:
+        shown = before_after_command(options.data[0], options.model, options.section, options.extended)
+        print(tr("see before and after: {command}", command=printable(shown)))
     return EXIT_CODES[result.verdict.kind.value]
 
 
