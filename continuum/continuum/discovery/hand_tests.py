@@ -41,8 +41,8 @@ def hand_tests(found: Examination, rivals: Sequence[Examined]) -> tuple[HandTest
         variance = by_hand.sd**2 + (WIDENING * one_sd) ** 2 + (WIDENING * other_sd) ** 2
         apart, unit = abs(one - other) / variance**0.5, effect_named(effect).parameters[name].unit
         where = joint if joint >= 0 else None
-        how = Message(by_hand.how[:1].lower() + by_hand.how[1:])
-        text = by_hand.how if where is None else Message("At joint {joint}: {how}", joint=joint + 1, how=how)
+        how = by_hand.how[:1].lower() + by_hand.how[1:]
+        text = by_hand.how if where is None else Message("At joint {joint}: {how}", joint=joint + 1, how=Message(how))
         tests.append(HandTest(effect, name, where, unit, by_hand.sd, apart, apart > enough, text))
     return tuple(sorted(tests, key=lambda test: -test.apart))
 
