@@ -69,7 +69,7 @@ def command(installed: Path, *words: str) -> str:
 def test_the_library_is_the_installed_one_with_its_data(installed: Path) -> None:
     file = alone(installed, "-c", "import continuum; print(continuum.__file__)")
     assert file.startswith(str(installed / "site"))
-    wanted = {path.relative_to(PACKAGE) for pattern in ("*.yaml", "*.html", "*.css", "*.json", "*.xacro")
+    wanted = {path.relative_to(PACKAGE) for pattern in ("*.yaml", "*.html", "*.css", "*.json", "*.xacro", "*.mo")
               for path in (PACKAGE / "continuum").rglob(pattern)}  # fmt: skip
     assert wanted
     assert all((installed / "site" / path).exists() for path in wanted)

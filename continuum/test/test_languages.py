@@ -130,6 +130,7 @@ def everything(kind: Kind, sets: Sequence[Any] = ()) -> Diagnosis:
         )
         for k, plan in enumerate(plans, start=0 if kind is Kind.CAUSE else 3)
     )
+    own = tuple(replace(one, recording="run_1") for one in cause("angle_offset", 1).estimates)
     notes = (
         Message(
             "{name}: {note}",
@@ -141,7 +142,8 @@ def everything(kind: Kind, sets: Sequence[Any] = ()) -> Diagnosis:
         ),
     )
     return replace(
-        result, experiments=runs, notes=notes, measured=("tip_payload.mass = 0.003 +- 0.0005 kg",), zeroed=("run_2",),
+        result, experiments=runs, notes=notes, estimates=(*result.estimates, *own), zeroed=("run_2",),
+        measured=("tip_payload.mass = 0.003 +- 0.0005 kg",),
         verdict=replace(result.verdict, steady=kind is Kind.ADEQUATE, complete=False),
     )  # fmt: skip
 

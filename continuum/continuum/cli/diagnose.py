@@ -171,6 +171,7 @@ def show(result: Diagnosis, tr: Translator = ENGLISH) -> None:
     from continuum.discovery.words import (
         errors_in_words,
         estimate_in_words,
+        estimate_name,
         known_in_words,
         shares_in_words,
         sigma_in_words,
@@ -190,10 +191,12 @@ def show(result: Diagnosis, tr: Translator = ENGLISH) -> None:
         print()
     estimates = [*(one for cause in result.causes for one in cause.estimates), *result.estimates]
     headings = tr("parameter"), tr("value, 95 % interval")
-    print_pairs([headings, *((str(one), estimate_in_words(one, tr)) for one in estimates)])
+    print_pairs([headings, *((estimate_name(one, tr), estimate_in_words(one, tr)) for one in estimates)])
     for causes in result.sets[1:]:
         _print_heading(tr("{effects} instead:", effects=_labels(causes, tr)))
-        print_pairs([(str(one), estimate_in_words(one, tr)) for cause in causes for one in cause.estimates])
+        print_pairs(
+            [(estimate_name(one, tr), estimate_in_words(one, tr)) for cause in causes for one in cause.estimates]
+        )
     if result.is_extended:
         _print_heading(tr("Share of the open-loop error that is explained (95 %)"))
         print_pairs(shares_in_words(result, tr))

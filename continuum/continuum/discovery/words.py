@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -120,6 +121,12 @@ def errors_in_words(result: Diagnosis, tr: Translator = ENGLISH) -> list[tuple[s
         scores = " -> ".join(f"{nrmse(one.angles[r], run.theta):.3f}" for one in models)
         rows.append((run.name, tr("{error} deg   NRMSE {nrmse}", error=degrees, nrmse=scores)))
     return rows
+
+
+def estimate_name(one: Estimate, tr: Translator = ENGLISH) -> str:
+    """The name that files have for a value, and its recording where each has its own."""
+    name = str(replace(one, recording=""))
+    return tr("{value} in {recording}", value=name, recording=one.recording) if one.recording else name
 
 
 def estimate_in_words(one: Estimate, tr: Translator = ENGLISH) -> str:
