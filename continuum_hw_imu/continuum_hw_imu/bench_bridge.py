@@ -1,4 +1,4 @@
-"""Lifecycle node between the workspace and a bench: sensors in, joint and cable states out; tension commands in."""
+"""Lifecycle node between ROS and a bench: publishes joint and cable states, and forwards tension commands."""
 
 from __future__ import annotations
 
@@ -42,10 +42,10 @@ COMMANDS = "cable_tension_cmd"
 RCLError = rclpy_implementation.RCLError
 
 OPEN_TIME = 0.3
-"""Within which a port that is there opens [s]."""
+"""Time within which an existing port opens [s]."""
 
 AUTOSTART_PERIOD = 1.0
-"""Between two attempts to begin [s]."""
+"""Time between two automatic transitions [s]."""
 
 DONE, FAILED = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
 
@@ -53,12 +53,12 @@ Answer = Trigger.Response
 
 
 class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
-    """A bench's sensors to ``imu_N/data_raw``, ``joint_states``, ``cable_states``; ``cable_tension_cmd`` to its cables.
+    """Publishes a bench's sensors as ``imu_N/data_raw``, ``joint_states`` and ``cable_states``, and forwards commands.
 
-    A lifecycle node: configured, it has the port and publishes; only while active it lets tension through. It becomes
-    inactive by itself, cables slack, when the link is lost, the bench begins anew, another one commands it, or
-    ``~/stop`` was called, which ``~/reset_stop`` ends. ``~/release`` drops all tension at once; later commands pull
-    again. Joint states are published while every joint is known: first ``~/calibrate_bias`` (at rest), ``~/find_axes``
+    Commands arrive on ``cable_tension_cmd``. The configured lifecycle node has the port and publishes; only the active
+    node forwards tension. It returns to inactive, with slack cables, if the link is lost, the bench restarts, another
+    host commands it, or ``~/stop`` is called, which ``~/reset_stop`` ends. ``~/release`` drops all tension at once.
+    Joint states are published while every joint is known. This requires ``~/calibrate_bias`` (at rest), ``~/find_axes``
     (after bending towards cable 1 and back) and ``~/zero`` (at rest, straight), or a calibration file.
     """
 
@@ -68,7 +68,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     def __init__(self) -> None:
         CheckedNode.__init__(self)
         if self.get_parameter("use_sim_time").value:
-            raise InvalidValueError("use_sim_time", True, "false; a bench lives in real time")
+            raise InvalidValueError("use_sim_time", True, "false; a bench runs in real time")
         section = str(self.values["section"])
         model = load_model(self.values["model"], section)
         self._planar = PlanarArm(section, model)
@@ -79,7 +79,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._limits = tension_parameters.limits_from(self.values)
         most = LARGEST * STEP
         if self._limits.max_tension > most:
-            raise InvalidValueError("max_tension", self._limits.max_tension, f"up to {most:g} N, what the line carries")
+            raise InvalidValueError("max_tension", self._limits.max_tension, f"up to {most:g} N, the protocol's limit")
         self._commander = BenchCommander(self._limits, len(self._planar.cables))
         self._streams = self._offered_streams(section)
         self._to_come = self.values["autostart"] != AUTOSTARTS[0]
@@ -123,7 +123,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     # --- life cycle
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """Open the port and wait for a bench that fits."""
+        """Open the port and wait for a matching bench."""
         client = BenchClient(str(self.values["port"]), int(self.values["baud_rate"]), self._streams.take)
         self._commander.client = client
         client.start()
@@ -154,7 +154,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return self._reached("activate")
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """Let the cables go."""
+        """Release the cables."""
         self._commander.end()
         return DONE
 
@@ -169,17 +169,17 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return self.on_cleanup(state)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """A transition broke off; rclpy does not tell why."""
-        self.get_logger().error(f"a transition from {state.label} broke off; the port is closed")
+        """Close the port after a failed transition; rclpy does not report the reason."""
+        self.get_logger().error(f"a transition from {state.label} failed; the port is closed")
         return self.on_shutdown(state)
 
     @property
     def _state(self) -> int:
-        """Of the life cycle, one of `lifecycle_msgs/State`."""
+        """State of the life cycle, one of `lifecycle_msgs/State`."""
         return int(self._state_machine.current_state[0])
 
     def _refuse_what_is_none(self) -> None:
-        """Let a transition that the state does not have be answered with no; rclpy would end the node."""
+        """Refuse transitions that do not exist in the present state; rclpy would terminate the node."""
         change = self._service_change_state.callback
 
         def change_if_possible(request: ChangeState.Request, response: ChangeState.Response) -> ChangeState.Response:
@@ -203,7 +203,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._streams.forget()
 
     def _autostart(self, now: float) -> None:
-        """Go on towards where the node is to be by itself, until it was there once: it never pulls again by itself."""
+        """Advance to the state of ``autostart`` once; after that, the node never activates by itself again."""
         if not self._to_come or now < self._autostart_at:
             return
         self._autostart_at = now + AUTOSTART_PERIOD
@@ -213,7 +213,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             self.trigger_activate()
 
     def _reached(self, where: str) -> TransitionCallbackReturn:
-        """The node is where a transition leads."""
+        """Record that a transition has reached its state."""
         if AUTOSTARTS.index(where) >= AUTOSTARTS.index(self.values["autostart"]):
             self._to_come = False
         return DONE
@@ -221,14 +221,14 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     # --- tension
 
     def _tick(self) -> None:
-        """Keep the line up, look after safety, and send what is let through."""
+        """Maintain the link, check the safety conditions, and send the set points that the gate lets through."""
         now = time.monotonic()
         self._autostart(now)
         commander = self._commander
         commander.deviance = self._streams.problem
         if commander.keep_up(now):
             self._to_come = False
-            self.diagnostics.warnings.note("stopped", "by the bench; until ~/reset_stop")
+            self.diagnostics.warnings.note("stopped", "by the bench, until ~/reset_stop")
         if self._state != State.PRIMARY_STATE_ACTIVE:
             return
         problem = commander.problem()
@@ -244,18 +244,18 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     def _on_command(self, message: CableStates) -> None:
         speakers = self.count_publishers(self.resolve_topic_name(COMMANDS))
         if speakers > 1:
-            raise MessageFault("several commanders", f"{speakers} publishers; one at a time may command")
+            raise MessageFault("several commanders", f"{speakers} publishers; only one may command at a time")
         now = self.get_clock().now().nanoseconds
         wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
         age = max(0, now - nanoseconds(message.header.stamp)) / NANOSECONDS
         if not self._commander.gate.command(wanted, time.monotonic() - age):
-            raise MessageFault("not active", "a tension command; the node has to be activated first")
+            raise MessageFault("not active", "a tension command arrived; activate the node first")
         tension_parameters.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
 
     # --- services
 
     def _serve(self, carry_out: Callable[[], str], _request: Trigger.Request, response: Answer) -> Answer:
-        """What was done in words, or why nothing was."""
+        """Carry out a request, and answer with the result or the reason of the failure."""
         try:
             response.message, response.success = carry_out(), True
         except ContinuumError as error:
@@ -265,32 +265,32 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     def _calibrate(self, step: Callable[[SensorWatch], None]) -> str:
         watch, problem = self._streams.watch, self._commander.line_problem()
         if watch is None or problem:
-            raise InvalidValueError("bench", problem or "unknown", "one that fits, configured, and heard now")
+            raise InvalidValueError("bench", problem or "unknown", "a matching bench that is configured and connected")
         step(watch)
         self._streams.steps = watch.steps
         calibration, file = watch.steps.complete(), self.values["calibration"]
         if calibration is None:
             return f"found; still to find: {', '.join(watch.steps.missing)}"
         if not file:
-            return "found; the calibration is complete, and not kept: the parameter calibration is empty"
+            return "found; the calibration is complete, but not saved: the parameter calibration is empty"
         save_calibration(calibration, file)
-        return f"found; the calibration is complete, and written to {file}"
+        return f"found; the calibration is complete and written to {file}"
 
     def _release(self) -> str:
         _refuse_unless_done("the cables are not released", self._commander.let_go())
         return "all cables are slack"
 
     def _stop(self) -> str:
-        self._to_come = False  # what was stopped becomes active by a person's word alone
+        self._to_come = False  # after a stop, only the user may activate the node
         self._commander.stop()
-        return "stopped, until ~/reset_stop; then the node has to be activated again"
+        return "stopped until ~/reset_stop; afterwards activate the node again"
 
     def _reset_stop(self) -> str:
-        _refuse_unless_done("the stop holds on", self._commander.reset_stop())
-        return "the stop is over; tension goes through after the node is activated"
+        _refuse_unless_done("the stop persists", self._commander.reset_stop())
+        return "the stop has ended; activate the node to command tension"
 
     def close(self) -> None:
-        """Let the cables go and close the port before the node ends."""
+        """Release the cables and close the port before the node ends."""
         self.on_shutdown(LifecycleState(*reversed(self._state_machine.current_state)))
         super().close()
 

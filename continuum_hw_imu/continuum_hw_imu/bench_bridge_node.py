@@ -6,6 +6,6 @@ from continuum_manipulator.nodekit.run import run
 
 
 def main() -> int:
-    # Small matrices, many times a second: two BLAS threads take longer than one. Read when NumPy is imported.
+    # For small matrices, two BLAS threads are slower than one. NumPy reads this variable on import.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     return run("continuum_hw_imu.bench_bridge:BenchBridgeNode")

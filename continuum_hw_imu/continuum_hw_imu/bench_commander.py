@@ -1,4 +1,4 @@
-"""Command of a bench: who has it, what keeps tension from going through, and a stop that holds at both ends."""
+"""Command of a bench: the claim, the conditions that block tension, and a stop that is latched at both ends."""
 
 from __future__ import annotations
 
@@ -13,35 +13,35 @@ from continuum_hw_imu.link.bench_client import BenchClient
 from continuum_hw_imu.protocol.messages import GuardState, Result
 
 SILENT = 0.5
-"""Time without a frame from which a bench is silent [s]."""
+"""Time without a frame after which a bench counts as silent [s]."""
 
 REOPEN = 3.0
-"""Time without a frame after which the port is opened anew, in case its name is another device's by now [s]."""
+"""Time without a frame after which the port is reopened, in case its name now belongs to another device [s]."""
 
 ANSWER_TIME = 0.5
-"""Within which a bench answers [s]; for slack cables it is waited longer."""
+"""Time within which a bench answers [s]; the wait for slack cables is longer."""
 
 NO_HELLO = "the port is open, but no bench says who it is"
 STOPPED = "stopped, until ~/reset_stop"
 
 
 class BenchError(ContinuumError):
-    """A bench did not do what it was asked."""
+    """A bench did not carry out a request."""
 
 
 class BenchCommander:
-    """Without a client, until the port is opened.
+    """Commands a bench; it has no client until the port is opened.
 
     Args:
-        limits: of tension; the bench keeps its own besides.
+        limits: limits of tension; the bench applies its limits too.
         n_cables: number of cables.
-        clock: shows what `time.monotonic` does, but to tests [s].
+        clock: `time.monotonic`, except in tests [s].
 
     Attributes:
-        gate: what goes through.
-        client: the line to the bench, while it is kept up.
-        misfit: why the bench at the other end is not the right one; empty where it is.
-        refused: why the port was not kept at the last attempt; empty where it was.
+        gate: passes or blocks commands.
+        client: client of the bench while the link is maintained, else None.
+        deviance: reason why the connected bench does not match the arm; empty if it does.
+        refused: reason why the last attempt to keep the port failed; empty if it succeeded.
     """
 
     def __init__(self, limits: TensionLimits, n_cables: int, clock: Callable[[], float] = time.monotonic) -> None:
@@ -52,7 +52,7 @@ class BenchCommander:
         self.refused = ""
 
     def line_problem(self) -> str:
-        """What is wrong with the line; empty where frames come from a bench that fits."""
+        """Problem of the link; empty while frames arrive from a matching bench."""
         client = self.client
         if client is None:
             return "not configured"
@@ -65,25 +65,25 @@ class BenchCommander:
         return self.deviance or (f"the bench is silent for {silence:.1f} s" if silence > SILENT else "")
 
     def problem(self) -> str:
-        """What keeps tension from going through to a bench that is claimed; empty if nothing does."""
+        """Problem that blocks tension to a claimed bench; empty if there is none."""
         problem = self.line_problem() or (STOPPED if self.gate.stopped else "")
         return problem or ("" if self.client.commands else "this node is no longer the bench's commander")
 
     def begin(self) -> str:
-        """Claim the bench, waiting for slack cables, and open the gate; why that did not work, empty if it did."""
+        """Claim the bench, waiting for slack cables, and open the gate; return the reason of a failure, or ""."""
         problem = self.line_problem() or (STOPPED if self.gate.stopped else "") or self._claim()
         if not problem:
             self.gate.open()
         return problem
 
     def end(self) -> None:
-        """Let the cables go, and command no more."""
+        """Release the cables and give back the claim."""
         self.gate.shut()
         if self.client is not None and self.client.commands:
             self.client.release(ANSWER_TIME)
 
     def let_go(self) -> str:
-        """Slack cables at once, as for a release test; why that did not work, empty if it did."""
+        """Make the cables slack at once, as for a release test; return the reason of a failure, or ""."""
         problem = self.problem()
         self.gate.let_go()
         if problem:
@@ -92,13 +92,13 @@ class BenchCommander:
         return "" if result is Result.DONE else _refusal(result)
 
     def stop(self) -> None:
-        """Slack, here and there, until it is reset."""
+        """Latch slack cables at both ends until a reset."""
         self.gate.stop()
         if self.client is not None:
             self.client.stop()
 
     def reset_stop(self) -> str:
-        """End a stop at both ends; why that did not work, empty if it did."""
+        """End a stop at both ends; return the reason of a failure, or ""."""
         problem = self.line_problem() or self._claim()
         if problem:
             return problem
@@ -112,7 +112,7 @@ class BenchCommander:
         return ""
 
     def keep_up(self, now: float) -> bool:
-        """Keep the line up and a stop at both ends; True if a stop that began at the bench was found just now."""
+        """Maintain the link, and a stop at both ends; return True if a stop of the bench was just detected."""
         client = self.client
         if client is None:
             return False
@@ -128,7 +128,7 @@ class BenchCommander:
         return False
 
     def send(self, now: float) -> None:
-        """Send what the gate lets through; for a bench that is claimed."""
+        """Send the set points that the gate lets through to a claimed bench."""
         set_point = self.gate.move_on(now)
         self.client.set_tension(set_point.tolist(), self.gate.decided)
 
@@ -140,7 +140,7 @@ class BenchCommander:
         return "" if result is Result.DONE else _refusal(result)
 
     def _state_there(self) -> GuardState | None:
-        """The bench's state, None while it is not known."""
+        """Return the bench's state; None while it is unknown."""
         status = None if self.client is None else self.client.conversation.status
         return None if status is None else status.state
 

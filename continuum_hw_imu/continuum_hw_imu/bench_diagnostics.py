@@ -1,4 +1,4 @@
-"""What `/diagnostics` says of a bench: one status for each subject. docs/bench.md says what each one means."""
+"""Diagnostics of a bench: one status on `/diagnostics` for each subject. docs/bench.md explains each one."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ from continuum_hw_imu.recent import RateMeter, Recent
 OK, WARN, ERROR, STALE = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR, DiagnosticStatus.STALE
 
 LATE = 0.05
-"""Age of a sample on its arrival from which it is late [s]."""
+"""Age on arrival above which a sample counts as late [s]."""
 
 SLOW = 0.01
-"""Latency of the slowest percent that is told [s]."""
+"""Latency of the slowest percent above which a warning is given [s]."""
 
 MOST_DRIFT = 200e-6
-"""A quartz drifts less."""
+"""Drift that a quartz does not exceed."""
 
 LOW, EMPTY = 20, 5
-"""Charge of a sensor's battery [%]."""
+"""Battery charges of a sensor that give a warning and an error [%]."""
 
 NOT_CONFIGURED = "not configured"
 
 Complaint = tuple[bytes, str]
-"""Level, and what is wrong."""
+"""Level and description of a problem."""
 
 
 class BenchDiagnostics:
@@ -38,8 +38,8 @@ class BenchDiagnostics:
 
     Args:
         prefix: name of the node.
-        streams: what is published.
-        commander: of the bench; without a client while the node is not configured.
+        streams: the published streams.
+        commander: commander of the bench; it has no client while the node is not configured.
         port: name of the port.
         n_sensors: number of sensors.
     """
@@ -57,7 +57,7 @@ class BenchDiagnostics:
         self._frames, self._samples = RateMeter(), [RateMeter() for _ in range(n_sensors)]
 
     def subjects(self) -> list[Callable[[], DiagnosticStatus]]:
-        """One for each status."""
+        """Return one function for each status."""
         sensors = [lambda k=k: self._sensor(k) for k in range(len(self._samples))]
         return [self._link, self._clock, *sensors, self._angles, self._tension]
 
@@ -68,7 +68,7 @@ class BenchDiagnostics:
             why = (ERROR, refused) if refused else (STALE, NOT_CONFIGURED)
             return self._status("link", [why], {"port": self._port})
         latency, now = self._streams.latency, time.monotonic()
-        talk = client.conversation  # the reading thread may begin another at any time
+        talk = client.conversation  # the reading thread may start another one at any time
         damage = {f"damaged: {kind}": count for kind, count in client.decoder.errors.copy().items()}
         counts = {
             "frames lost": client.arrivals.lost,
@@ -104,7 +104,7 @@ class BenchDiagnostics:
     def _clock(self) -> DiagnosticStatus:
         client = self._commander.client
         if client is None or not client.clock.known:
-            return self._status("clock", [(STALE, NOT_CONFIGURED if client is None else "nothing heard yet")], {})
+            return self._status("clock", [(STALE, NOT_CONFIGURED if client is None else "nothing received yet")], {})
         clock, age = client.clock, self._streams.age
         complaints = list(self._grown("clock", {"leaps of a clock": clock.leaps}))
         oldest, self._streams.oldest = self._streams.oldest, 0.0  # since the last report
@@ -127,7 +127,7 @@ class BenchDiagnostics:
             return self._status(subject, [(STALE, NOT_CONFIGURED if client is None else "no bench")], {})
         missing, clipped = int(watch.missing[k]), int(watch.clipped[k])
         at = next((i for i, sensor in enumerate(hello.sensors) if sensor.link == k + 1), None)
-        if at is None:  # another bench has said who it is just now
+        if at is None:  # another bench has just identified itself
             return self._status(subject, [(STALE, "no bench")], {})
         status = client.conversation.status
         battery = status.batteries[at] if status is not None and at < len(status.batteries) else None
@@ -137,7 +137,7 @@ class BenchDiagnostics:
         if not watch.received[k] or self._commander.line_problem():
             complaints.append((ERROR, "no data"))
         elif rate < 0.95 * expected:
-            complaints.append((WARN, f"{rate:.1f} Hz in the place of {expected:g} Hz"))
+            complaints.append((WARN, f"{rate:.1f} Hz instead of {expected:g} Hz"))
         if battery is not None and battery <= LOW:
             complaints.append((ERROR if battery <= EMPTY else WARN, f"battery at {battery} %"))
         values = {
@@ -165,7 +165,7 @@ class BenchDiagnostics:
         complaints += self._unheard()
         values: dict[str, object] = {"samples withheld": streams.withheld}
         if estimate is not None:
-            values["error of the worst joint, as reckoned [deg]"] = f"{np.degrees(estimate.errors.max()):.2f}"
+            values["estimated error of the worst joint [deg]"] = f"{np.degrees(estimate.errors.max()):.2f}"
             values["at rest"] = "yes" if estimate.resting.all() else "no"
         values |= {f"calibration of imu {k}": text for k, text in enumerate(watch.steps.sources, start=1)}
         return self._status("angles", complaints, values, "joint angles are known")
@@ -185,9 +185,9 @@ class BenchDiagnostics:
         }
         complaints += [*self._grown("tension", refused), *self._unheard()]
         values: dict[str, object] = {
-            "node": "lets commands through" if self._commander.gate.is_open else "lets nothing through",
+            "node": "forwards commands" if self._commander.gate.is_open else "forwards nothing",
             "bench": status.state.name.lower(),
-            "let go the last time by": status.cause.name.lower(),
+            "cause of the last release": status.cause.name.lower(),
             "commander": "this node" if client.commands else "another" if status.claimed else "nobody",
             **refused,
         }
@@ -198,11 +198,11 @@ class BenchDiagnostics:
         return self._status("tension", complaints, values, status.state.name.lower().replace("_", " "))
 
     def _unheard(self) -> list[Complaint]:
-        """What was heard last says nothing of now while the line is down."""
-        return [(STALE, f"as last heard: {problem}")] if (problem := self._commander.line_problem()) else []
+        """Mark the last received values as stale while the link is down."""
+        return [(STALE, f"last received values: {problem}")] if (problem := self._commander.line_problem()) else []
 
     def _grown(self, subject: str, counts: dict[str, int]) -> Iterable[Complaint]:
-        """A warning for each count that grew lately."""
+        """Yield a warning for each count that has grown recently."""
         now = time.monotonic()
         for cause, count in counts.items():
             if self._recent.grew(f"{subject}: {cause}", count, now):
@@ -211,7 +211,7 @@ class BenchDiagnostics:
     def _status(
         self, subject: str, complaints: Iterable[Complaint], values: dict[str, object], well: str = ""
     ) -> DiagnosticStatus:
-        """The worst of the complaints gives the level, and stands first."""
+        """Return a status; the worst of the complaints sets the level and comes first."""
         ordered = sorted(complaints, key=lambda complaint: -_WEIGHT.index(complaint[0]))
         return DiagnosticStatus(
             level=ordered[0][0] if ordered else OK,
@@ -226,8 +226,8 @@ _WEIGHT = (OK, WARN, STALE, ERROR)
 
 
 def _faults(status: Status) -> Iterable[Complaint]:
-    """Of the bench itself, as far as they are not told under another subject."""
+    """Yield the faults of the bench that no other subject reports."""
     for code in FaultCode:
         if status.faults >> code & 1 and code not in (FaultCode.SENSOR_LOST, FaultCode.BATTERY_LOW):
             level = ERROR if code is FaultCode.ACTUATOR else WARN
-            yield level, f"the bench tells: {code.name.lower().replace('_', ' ')}"
+            yield level, f"the bench reports: {code.name.lower().replace('_', ' ')}"

@@ -1,4 +1,4 @@
-"""Parameters of the node ``bench_bridge``, and what its calibration file says."""
+"""Parameters of the node ``bench_bridge``, and its calibration file."""
 
 from __future__ import annotations
 
@@ -13,40 +13,40 @@ from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_manipulator.nodekit import tension_parameters
 
 AUTOSTARTS = ("none", "configure", "activate")
-"""How far a node goes by itself. Sensors do no harm, so by default it opens the port; tension takes a person's word."""
+"""States that a node may enter by itself. By default it opens the port; only the user enables tension."""
 
 PARAMETERS = (
     ParameterSpec("port", str, "serial port of the bench controller, or a link to it"),
     ParameterSpec("baud_rate", int, "speed of the port", "bit/s", 1200, 4_000_000, default=921_600),
-    ParameterSpec("autostart", str, "how far the node goes by itself; tension takes activate",
+    ParameterSpec("autostart", str, "transition up to which the node starts by itself; tension needs activate",
                   choices=AUTOSTARTS, default="configure"),
-    ParameterSpec("model", str, "model file of the arm, or the name of one that comes with the library",
+    ParameterSpec("model", str, "model file of the arm, or name of a model in the library",
                   default="lamecc_prototype.yaml"),
-    ParameterSpec("section", str, "name of the section, with which those of joints and cables begin",
+    ParameterSpec("section", str, "name of the section, the prefix of the names of joints and cables",
                   default="section_1"),
-    ParameterSpec("calibration", str, "file of the sensors' calibration, read at the start if it is there, and "
-                  "written when a calibration is complete; none without", default=""),
-    ParameterSpec("keep_bias", bool, "take the file's bias as it is: for a node that begins again within minutes",
+    ParameterSpec("calibration", str, "file of the sensors' calibration, read at the start if it exists, and "
+                  "written when a calibration is complete; empty for no file", default=""),
+    ParameterSpec("keep_bias", bool, "use the bias in the file: for a node that restarts within minutes",
                   default=False),
-    ParameterSpec("rest_time", float, "time at rest that bias and zero are taken from", "s", 1.0, 15.0,
+    ParameterSpec("rest_time", float, "time at rest from which bias and zero are estimated", "s", 1.0, 15.0,
                   default=3.0),
     ParameterSpec("rate_noise", float, "noise of the angular rates, standard deviation", "rad/s", 0.0, 1.0,
                   default=SensorQuality().rate_noise),
     ParameterSpec("force_noise", float, "noise of the accelerations, standard deviation", "m/s^2", 0.0, 10.0,
                   default=SensorQuality().force_noise),
-    ParameterSpec("command_rate", float, "set points a second", "Hz", 20.0, 200.0, default=60.0),
+    ParameterSpec("command_rate", float, "set points per second", "Hz", 20.0, 200.0, default=60.0),
     *tension_parameters.PARAMETERS,
 )  # fmt: skip
 
 
 def steps_from(file: str, n_joints: int, keep_bias: bool = False) -> CalibrationSteps:
-    """What a calibration file says of the sensors of an arm; nothing where there is no file yet, or no name.
+    """Read a calibration file of an arm's sensors; return empty steps if there is no file yet, or no name.
 
-    Axes and zero last as long as the sensors sit where they are. The bias is another one every day, and 0.1 degrees/s
-    of it would be 2 degrees in a release, told as good.
+    Axes and zero are valid as long as the sensors are not moved. The bias changes from day to day, and an error of
+    0.1 degrees/s would cause an unnoticed error of 2 degrees in a release.
 
     Raises:
-        ContinuumError: it cannot be read, is of another arm, or there is no folder to write it to.
+        ContinuumError: the file cannot be read, belongs to another arm, or its folder does not exist.
     """
     if not file:
         return CalibrationSteps()

@@ -1,4 +1,4 @@
-"""What a bench says, published as it comes: by the thread that reads the port, so that nothing else delays it."""
+"""Publish the data of a bench as it arrives, in the thread that reads the port, so that nothing delays it."""
 
 from __future__ import annotations
 
@@ -27,35 +27,36 @@ from continuum_manipulator.nodekit.two_clocks import read_together
 Publish = Callable[[object], None]
 
 SAME = 1e-5
-"""Times this near [s] are one; an estimator that passes a sample over keeps the estimate before."""
+"""Times that differ by less [s] are equal; an estimator that skips a sample keeps the previous estimate."""
 
 FRESH = 0.1
-"""Joint angles older than this are not those of a measured tension [s]."""
+"""Largest age of joint angles that are combined with a measured tension [s]."""
 
 
 class BenchStreams:
     """Publishes joint and cable states and the sensors' raw data.
 
-    Joint states are those of which every joint is good; otherwise none is published. Stamps are ROS time, without the
-    jitter of the way.
+    Joint states are published only if the angles of all joints are valid. Stamps are ROS times, without the jitter of
+    the transmission.
 
     Args:
         planar: the arm's names and messages.
-        sensors: messages of the sensors, from base to tip.
-        clock: of the node.
-        steps: what is known of the sensors.
-        joints, cables: publish joint and cable states.
-        imus: publish the sensors' data, from base to tip.
+        sensors: message factories of the sensors, from base to tip.
+        clock: clock of the node.
+        steps: calibration of the sensors.
+        joints, cables: functions that publish joint and cable states.
+        imus: functions that publish the sensors' data, from base to tip.
 
     Attributes:
-        steps: what is known of the sensors; taken over with the next bench that says who it is.
-        watch: of the sensors of the bench at the other end; None before it said who it is, and where it does not fit.
-        problem: why it does not fit, in words.
-        latency: from the last byte of a frame to its published joint states.
-        withheld: samples whose joint states were not published.
-        age: of the newest sample when its bytes were there [s].
+        steps: calibration of the sensors, used when the next bench identifies itself.
+        watch: watch of the connected bench's sensors; None before it identifies itself, and if it does not match.
+        problem: description of why the bench does not match.
+        latency: latency from the last byte of a frame to its published joint states.
+        withheld: number of samples whose joint states were not published.
+        age: age of the newest sample when its bytes arrived [s].
+        oldest: largest such age since the last diagnostics [s].
         tension: the latest tension frame.
-        unfit: frames of another number of sensors or cables than the bench said that it has.
+        unfit: number of frames with numbers of sensors or cables that differ from the bench's announcement.
     """
 
     def __init__(
@@ -81,7 +82,7 @@ class BenchStreams:
         self.tension: TensionFrame | None = None
 
     def take(self, received: Received) -> None:
-        """A message came."""
+        """Process a message."""
         if isinstance(received.message, Hello) and received.conversation != self._conversation:
             self._greet(received.message)
             self._conversation = received.conversation
@@ -100,17 +101,17 @@ class BenchStreams:
                 self.unfit += 1
 
     def forget(self) -> None:
-        """The line is closed."""
+        """Forget the bench after the line was closed."""
         self._conversation, self.watch, self.problem, self.tension = 0, None, "", None
 
     def _greet(self, hello: Hello) -> None:
-        """Another bench is there, or the same one has begun anew: nothing of what was before goes on."""
+        """Start over with another bench, or with the same one after its restart."""
         self.problem = deviance(hello, len(self._sensors), len(self._planar.cables))
         self.watch = None if self.problem else SensorWatch(hello, self.steps)
         self.tension = None
 
     def _stamp(self, received: Received) -> TimeMessage:
-        """ROS time of what was heard."""
+        """Return the ROS time of a received message."""
         instant, now = read_together(time.monotonic, lambda: self._clock.now().nanoseconds)
         return Time(nanoseconds=max(0, now - round((instant - received.time) * NANOSECONDS))).to_msg()
 
@@ -131,9 +132,9 @@ class BenchStreams:
                 publish(self._sensors[k].message(stamp, rate, force, bool(sample.clipped[k])))
 
     def _publish_cables(self, watch: SensorWatch, received: Received, frame: TensionFrame) -> None:
-        """Lengths are those of the latest joint states; a cable pulls, so what is measured below zero is zero."""
+        """Publish cable states with the lengths of the latest joint states; negative measured tensions become zero."""
         if any(tension is None for tension in frame.measured):
-            tensions = np.array([])  # not known
+            tensions = np.array([])  # unknown
         else:
             tensions = np.maximum(np.array(frame.measured, dtype=float), 0.0)
         estimate = _good_estimate(watch, received, FRESH)
@@ -142,7 +143,7 @@ class BenchStreams:
 
 
 def _good_estimate(watch: SensorWatch, received: Received, within: float) -> AngleEstimate | None:
-    """The latest, where all of its angles are good and it is as old as what was heard, to within a time [s]."""
+    """Return the latest estimate if all angles are valid and its time is that of the message to ``within`` [s]."""
     estimate = watch.estimate
     if estimate is None or not estimate.good.all():
         return None

@@ -1,4 +1,4 @@
-"""What of the commanded tensions a node lets through to a bench, and when it lets nothing through."""
+"""Gate between tension commands and a bench: limits the commands, or blocks them."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ from continuum.arrays import Array
 from continuum.dynamics.live.tension_limit import TensionLimiter, TensionLimits
 
 LONGEST = 0.05
-"""Time [s] for which tension changes in one go: after a stall it goes on from where it was, no faster than before."""
+"""Longest time step of a tension change [s]: after a stall, tension continues at its normal rate."""
 
 
 class CommandGate:
-    """Shut at the start. Open, it lets commands through within limits; it shuts to zero at once.
+    """Passes commands within limits while open; initially shut. Shutting sets the tension to zero at once.
 
-    Zero at once is what the node asks for: how fast tension then falls is the bench controller's to keep.
-    Times [s] are of any one clock that does not go back.
+    This is the set point of the node; the bench controller limits the rate at which the tension then falls.
+    Times [s] are those of one monotonic clock.
 
     Args:
-        limits: of tension.
+        limits: limits of tension.
         n_cables: number of cables.
 
     Attributes:
-        is_open: commands pass.
-        stopped: latched; it does not open before :meth:`reset`.
+        is_open: whether commands pass.
+        stopped: whether a stop is latched, which blocks :meth:`open` until :meth:`reset`.
     """
 
     def __init__(self, limits: TensionLimits, n_cables: int) -> None:
@@ -36,19 +36,20 @@ class CommandGate:
 
     @property
     def set_point(self) -> Array:
-        """Tension asked of each cable now, (n_cables,) [N]."""
+        """Current set point of each cable, (n_cables,) [N]."""
         return self._limiter.tension
 
     @property
     def abandoned(self) -> bool:
-        """Commands stopped coming while a cable was tight."""
+        """Whether commands stopped while a cable was tight."""
         return self._limiter.abandoned
 
     @property
     def decided(self) -> float | None:
-        """When what is asked for was decided; None for just now.
+        """Time at which the set point was decided [s]; None for the present.
 
-        Of tension that falls since commands stopped: when they did, so that the bench, too, ends it in its own time.
+        For tension that falls after commands stopped, the time at which they stopped, so that the time-out of the bench
+        applies too.
         """
         if self._commanded is None or not self.abandoned:
             return self._commanded
@@ -59,40 +60,40 @@ class CommandGate:
         return bool(np.any(self.set_point > 0))
 
     def open(self) -> bool:
-        """Let commands through from now on, from zero; False while a stop is latched."""
+        """Open the gate, starting from zero tension; return False while a stop is latched."""
         if not self.stopped:
             self.let_go()
             self._last, self.is_open = None, True
         return self.is_open
 
     def shut(self) -> None:
-        """Zero, and nothing through."""
+        """Set the tension to zero and block commands."""
         self.is_open = False
         self.let_go()
 
     def let_go(self) -> None:
-        """Zero; later commands go through as before."""
+        """Set the tension to zero; later commands pass as before."""
         self._limiter.release()
         self._commanded = None
 
     def stop(self) -> None:
-        """Shut and latch."""
+        """Shut the gate and latch the stop."""
         self.stopped = True
         self.shut()
 
     def reset(self) -> None:
-        """Forget the stop; the gate stays shut."""
+        """Clear the stop; the gate stays shut."""
         self.stopped = False
 
     def command(self, wanted: Array, at: float) -> bool:
-        """Go for tensions (n_cables,) [N], finite and none negative, said at ``at``; False where nothing passes."""
+        """Set goal tensions (n_cables,) [N], finite and >= 0, decided at ``at`` [s]; False if the gate is shut."""
         if self.is_open:
             self._limiter.command(wanted, at)
             self._commanded = at
         return self.is_open
 
     def move_on(self, now: float) -> Array:
-        """Follow the commands up to ``now``: the set point, (n_cables,) [N]."""
+        """Advance to ``now`` [s] and return the set point, (n_cables,) [N]."""
         passed = 0.0 if self._last is None else min(now - self._last, LONGEST)
         self._last = now
         if self.is_open:

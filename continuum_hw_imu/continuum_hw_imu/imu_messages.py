@@ -1,4 +1,4 @@
-"""Samples of inertial sensors as `sensor_msgs/Imu`, by REP-145: raw data, no orientation."""
+"""Samples of inertial sensors as `sensor_msgs/Imu` according to REP-145: raw data without orientation."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from continuum.arrays import Array
 from continuum_hw_imu.sensor_quality import SensorQuality
 
 NO_ORIENTATION = np.array([-1.0, *[0.0] * 8])
-"""Of REP-145: the sensor says nothing of it."""
+"""Value of REP-145 for a quantity that the sensor does not measure."""
 
 
 class ImuMessages:
-    """Makes the messages of one sensor.
+    """Creates the messages of one sensor.
 
     Args:
-        frame: name of the sensor's own frame, in which it measures.
-        quality: of the sensor: its noise and its ranges.
+        frame: name of the sensor's frame, in which it measures.
+        quality: noise and ranges of the sensor.
     """
 
     def __init__(self, frame: str, quality: SensorQuality) -> None:
@@ -28,7 +28,10 @@ class ImuMessages:
         self._clipped = _covariance(quality.rate_range), _covariance(quality.force_range)
 
     def message(self, stamp: Time, rate: Array, force: Array, clipped: bool) -> Imu:
-        """Angular rate (3,) [rad/s] and specific force (3,) [m/s^2]; where clipped, they may be anything in range."""
+        """Return the message of an angular rate (3,) [rad/s] and a specific force (3,) [m/s^2].
+
+        The covariances of clipped values cover the whole range.
+        """
         message = Imu(angular_velocity=_vector(rate), linear_acceleration=_vector(force))
         message.header.stamp, message.header.frame_id = stamp, self._frame
         message.orientation_covariance = NO_ORIENTATION
@@ -43,5 +46,5 @@ def _vector(values: Array) -> Vector3:
 
 
 def _covariance(deviation: float) -> Array:
-    """Of three independent axes, row by row, (9,)."""
+    """Return the covariance of three independent axes, row by row, (9,)."""
     return (deviation**2 * np.eye(3)).ravel()

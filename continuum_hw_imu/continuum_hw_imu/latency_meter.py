@@ -1,4 +1,4 @@
-"""How long frames take through a process: a quantile of the latest ones."""
+"""Latency of frames through a process: quantiles of the latest frames."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ from collections import deque
 import numpy as np
 
 KEPT = 1800
-"""Frames looked at: 30 s at 60 Hz."""
+"""Number of evaluated frames: 30 s at 60 Hz."""
 
 
 class LatencyMeter:
-    """The latest latencies [s], and the largest ever."""
+    """The latest latencies [s], and the largest one since the start."""
 
     def __init__(self) -> None:
         self._latest: deque[float] = deque(maxlen=KEPT)
         self.largest = 0.0
 
     def note(self, latency: float) -> None:
-        """One frame took ``latency`` [s]."""
+        """Record the ``latency`` [s] of one frame."""
         self._latest.append(latency)
         self.largest = max(self.largest, latency)
 
     def quantile(self, part: float) -> float:
-        """Latency that ``part`` (0 to 1) of the latest frames do not exceed [s]; 0 before the first."""
-        latest = self._latest.copy()  # the reading thread goes on
+        """Return the latency [s] that ``part`` (0 to 1) of the latest frames do not exceed; 0 before the first."""
+        latest = self._latest.copy()  # the reading thread continues to write
         return float(np.quantile(latest, part)) if latest else 0.0

@@ -1,25 +1,25 @@
-"""Counts over the last seconds: whether they grew, and how fast."""
+"""Growth of counts over the last seconds."""
 
 from __future__ import annotations
 
 from collections import deque
 
 RECENT = 5.0
-"""For so long a count that grew is worth a warning [s]."""
+"""Time for which the growth of a count gives a warning [s]."""
 
 SPAN = 3.0
-"""Over which a rate is taken [s]."""
+"""Time over which a rate is averaged [s]."""
 
 
 class Recent:
-    """Which of several counts, by name, grew lately. A count that fell has begun anew."""
+    """Detects recent growth of several counts, by name. A count that falls has restarted."""
 
     def __init__(self) -> None:
         self._counts: dict[str, int] = {}
         self._until: dict[str, float] = {}
 
     def grew(self, name: str, count: int, now: float) -> bool:
-        """Look at a count; whether it grew now or within the last :data:`RECENT` seconds."""
+        """Record a count; return whether it grew now or within the last :data:`RECENT` seconds."""
         if count > self._counts.get(name, 0):
             self._until[name] = now + RECENT
         self._counts[name] = count
@@ -27,13 +27,13 @@ class Recent:
 
 
 class RateMeter:
-    """How fast one count grows."""
+    """Growth rate of one count."""
 
     def __init__(self) -> None:
         self._marks: deque[tuple[float, int]] = deque()
 
     def rate(self, count: int, now: float) -> float:
-        """Look at the count; what it grew by a second [Hz] over the last seconds, 0 before there are two looks."""
+        """Record the count; return its growth per second [Hz] over the last seconds, 0 before the second call."""
         if self._marks and count < self._marks[-1][1]:
             self._marks.clear()
         self._marks.append((now, count))

@@ -1,7 +1,7 @@
-"""How good inertial sensors are, the Xsens DOT's by default: for messages' covariances, and for the emulator.
+"""Quality of inertial sensors, by default of the Xsens DOT, for the covariances of messages and for the emulator.
 
-+-2000 deg/s and +-16 g, noise of 0.007 deg/s/sqrt(Hz) and 120 ug/sqrt(Hz) (data sheet), over the half of 60 Hz that a
-mean over 1/60 s lets through.
++-2000 deg/s and +-16 g, noise of 0.007 deg/s/sqrt(Hz) and 120 ug/sqrt(Hz) (data sheet), over the bandwidth of 30 Hz
+of a mean over 1/60 s.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ _G = 9.80665
 
 @dataclass(frozen=True)
 class SensorQuality:
-    """How good the sensors are. Standard deviations but for the ranges; the constant ones are drawn at the start.
+    """Quality of the sensors: standard deviations and ranges; constant errors are drawn at the start.
 
     Attributes:
-        rate_noise: of each angular rate [rad/s].
-        force_noise: of each specific force [m/s^2].
-        rate_bias: constant, of each axis [rad/s].
-        bias_walk: by which the bias wanders [rad/s/sqrt(s)].
-        force_bias: constant, of each axis [m/s^2].
-        mounting: by which a sensor is turned on its disc about each axis [rad].
-        rate_range: beyond which it clips [rad/s].
-        force_range: the same [m/s^2].
+        rate_noise: noise of each angular rate [rad/s].
+        force_noise: noise of each specific force [m/s^2].
+        rate_bias: constant bias of each rate axis [rad/s].
+        bias_walk: random walk of the rate bias [rad/s/sqrt(s)].
+        force_bias: constant bias of each force axis [m/s^2].
+        mounting: misalignment of a sensor on its disc about each axis [rad].
+        rate_range: angular rate beyond which it clips [rad/s].
+        force_range: specific force beyond which it clips [m/s^2].
     """
 
     rate_noise: float = np.radians(0.007 * np.sqrt(30.0))
@@ -38,5 +38,5 @@ class SensorQuality:
     force_range: float = 16.0 * _G
 
     def perfect(self) -> SensorQuality:
-        """The same ranges, without any error."""
+        """Return the same ranges without errors."""
         return SensorQuality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, rate_range=self.rate_range, force_range=self.force_range)

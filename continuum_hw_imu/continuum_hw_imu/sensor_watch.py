@@ -1,4 +1,4 @@
-"""From frames of the sensors to joint angles, and the latest seconds of samples for whoever calibrates."""
+"""Estimate joint angles from frames of the sensors, and keep the latest samples for the calibration."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ from continuum_hw_imu.protocol.device_time import MICROSECONDS
 from continuum_hw_imu.protocol.messages import Hello, ImuFrame
 
 KEPT = 60.0
-"""Samples of so many seconds are kept."""
+"""Time for which samples are kept [s]."""
 
 
 class SensorWatch:
-    """Of one arm's sensors. Frames come by one thread, calibration is done by another.
+    """Watch over one arm's sensors. One thread supplies frames, another one calibrates.
 
     Args:
-        hello: of the bench; its sensors sit on the links 1 to n, each on one.
-        steps: what is known of the sensors.
+        hello: identification of the bench; each of its sensors is on one of the links 1 to n.
+        steps: calibration of the sensors.
 
     Attributes:
-        steps: what is known of the sensors now.
-        samples: how many there were.
-        missing, clipped: samples in which each sensor was, (n,).
-        heard: sensors that were in the latest sample, (n,).
-        estimate: the latest; None before the first, and while the calibration is not complete.
+        steps: present calibration of the sensors.
+        samples: number of samples so far.
+        missing, clipped: number of samples in which each sensor was missing or clipped, (n,).
+        heard: whether each sensor was in the latest sample, (n,).
+        estimate: latest estimate; None before the first, and while the calibration is incomplete.
 
     Raises:
-        InvalidValueError: the steps do not fit each other.
+        InvalidValueError: the calibration steps are inconsistent.
     """
 
     def __init__(self, hello: Hello, steps: CalibrationSteps) -> None:
@@ -51,13 +51,13 @@ class SensorWatch:
         self.received = np.zeros(len(hello.sensors), dtype=bool)
         self.estimate: AngleEstimate | None = None
         self.steps = steps
-        self._zeroed: float | None = None  # the arm was straight and at rest then, by the samples' times [s]
+        self._zeroed: float | None = None  # time of the samples [s] at which the arm was straight and at rest
         self._use(steps)
 
     def take(self, received: Received, frame: ImuFrame) -> ImuSample:
-        """A frame came, later than the one before; its sample, sensors from base to tip.
+        """Process a frame, newer than the previous one, and return its sample, with sensors from base to tip.
 
-        Samples have the device's own time, which has no jitter [s].
+        The time of a sample is that of the device, which has no jitter [s].
         """
         sample = ImuSample(
             received.device_time / MICROSECONDS,
@@ -76,7 +76,7 @@ class SensorWatch:
         return sample
 
     def find_bias(self, rest_time: float) -> None:
-        """From the latest samples, over ``rest_time`` [s].
+        """Estimate the bias from the latest ``rest_time`` [s] of samples.
 
         Raises:
             MeasurementError: the arm moved, or there are too few samples.
@@ -84,26 +84,26 @@ class SensorWatch:
         self._step(CalibrationSteps.with_bias, self._latest(rest_time))
 
     def find_zero(self, rest_time: float) -> None:
-        """As `find_bias`."""
+        """Estimate the zero, as in `find_bias`."""
         rest = self._latest(rest_time)
         self._step(CalibrationSteps.with_zero, rest)
         self._zeroed = float(rest.times[-1])
 
     def find_axes(self) -> None:
-        """From all samples since the zero was found.
+        """Estimate the axes from all samples since the zero was found.
 
-        To which side the arm turns first can only be told of a motion that is known from its beginning on: one that
-        was cut anywhere else may begin with the way back, and would turn the sign of all angles.
+        The side to which the arm turns first is only known for a complete motion: an incomplete one may start with the
+        return, which would invert the sign of all angles.
 
         Raises:
-            MeasurementError: the axes cannot be found from them, or it is too long since the zero was found.
+            MeasurementError: the samples do not determine the axes, or the zero was found too long ago.
         """
         kept = self._latest(KEPT)
         begin = self._zeroed
         if self.steps.bias is not None and (begin is None or begin < kept.times[0]):
             raise MeasurementError(
-                f"the axes are found from the bend after ~/zero, which has to be less than {KEPT:g} s ago; "
-                "call it once more while the arm is straight, and then bend the arm"
+                f"the axes are found from the bend after ~/zero, which must be less than {KEPT:g} s ago; "
+                "call it again while the arm is straight, and then bend the arm"
             )
         self._step(CalibrationSteps.with_axis, kept if begin is None else kept.part(begin, kept.times[-1]))
 
@@ -122,6 +122,6 @@ class SensorWatch:
         with self._mutex:
             kept = list(self._kept)
         if not kept:
-            raise MeasurementError("no samples of the sensors came")
+            raise MeasurementError("no samples of the sensors have arrived")
         recording = ImuRecording.of(kept)
         return recording.part(recording.times[-1] - duration, recording.times[-1])

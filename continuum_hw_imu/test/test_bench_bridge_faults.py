@@ -113,13 +113,13 @@ def test_unplugging_ends_tension_and_streaming_resumes(pulling):
     instant = bench.status["monotonic"]
     bench.tell("unplug for=1.5")
     pulling.wait_for_state("inactive")
-    pulling.wait_for_level("link", "ERROR", "is not there")
+    pulling.wait_for_level("link", "ERROR", "does not exist")
     assert slack_time_after(bench, instant) <= LIMITS.slack_time + BUSY
     for subject in ("angles", "clock", "tension"):
-        pulling.wait_for_level(subject, "STALE", "as last heard: ")
+        pulling.wait_for_level(subject, "STALE", "last received values: ")
     answer = pulling.call("zero")
     assert not answer.success
-    assert "is not there" in answer.message
+    assert "does not exist" in answer.message
     probe.wait_until(lambda: bench.status["port"], "the port's return")
     back, before = bench.status["monotonic"], len(pulling.imus[0])
     probe.wait_until(lambda: len(pulling.imus[0]) > before, "data of the sensors")
@@ -198,7 +198,7 @@ def test_what_was_stopped_becomes_active_by_a_persons_word_alone(domain, latency
     with bridge_at(
         latency_probe, bench, domain, calibration=calibration, keep_bias=True, autostart="activate"
     ) as bridge:
-        bridge.node.wait_for_line("is not there")
+        bridge.node.wait_for_line("does not exist")
         assert bridge.call("stop").success
         bench.tell("clear")
         probe.wait_until(lambda: bench.status["port"], "the port's return")
@@ -228,8 +228,8 @@ def test_the_bias_of_a_file_is_of_another_day(domain, latency_probe, probe, benc
 def test_a_second_emulator_takes_nothing_from_the_first(domain, bench, tmp_path):
     folder = bench.port.parent
     for words, diagnostic in (
-        (("--link", bench.port), "is there already, and leads to /dev/pts/"),
-        (("--link", tmp_path / "other", "--control", folder / "control"), "is another emulator's, which runs"),
+        (("--link", bench.port), "exists already and refers to /dev/pts/"),
+        (("--link", tmp_path / "other", "--control", folder / "control"), "belongs to another running emulator"),
     ):
         again = NodeProcess("continuum_hw_imu", "bench_emulator", domain, arguments=tuple(map(str, words)))
         with ended_in_any_case(again):
@@ -246,7 +246,7 @@ def test_orders_are_given_by_a_command(bench, capfd):
     assert '"set_points"' in capfd.readouterr().out
     assert subprocess.run([*command, *control, "explode"], timeout=60).returncode == 1
     assert subprocess.run([*command, "--control", "/nowhere", "status"], timeout=60).returncode == 2
-    assert capfd.readouterr().err.endswith("/nowhere: No such file or directory; does the emulator run?\n")
+    assert capfd.readouterr().err.endswith("/nowhere: No such file or directory; is the emulator running?\n")
 
 
 def test_an_empty_battery_is_reported(pulling):

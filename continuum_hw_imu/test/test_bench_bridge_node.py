@@ -54,7 +54,7 @@ def bridge(domain, latency_probe, probe, bench):
         said = bridge.calibrate()
         assert said[0] == "found; still to find: axis, zero"
         assert said[1] == "found; still to find: axis"
-        assert said[2] == f"found; the calibration is complete, and written to {file}"
+        assert said[2] == f"found; the calibration is complete and written to {file}"
         probe.wait_until(lambda: len(bridge.joints) > 10, lambda: f"joint states; {bridge.diagnostic('angles')}")
         yield bridge
         assert bridge.node.stop() == 0

@@ -68,9 +68,9 @@ def test_calibration_of_another_arm(domain, calibration_of_three):
 def test_without_a_bench_it_waits_says_why_once_and_ends_cleanly(domain, number, tmp_path):
     port = tmp_path / "port"
     with Probe(domain) as probe, ended_in_any_case(bridge(domain, port=port)) as (node,):
-        node.wait_for_line(f"cannot configure: {port} is not there")
+        node.wait_for_line(f"cannot configure: {port} does not exist")
         probe.wait_until(
-            lambda: probe.report("bench_bridge: link").get("message") == f"{port} is not there",
+            lambda: probe.report("bench_bridge: link").get("message") == f"{port} does not exist",
             lambda: probe.report("bench_bridge: link"),
         )
         client = probe.node.create_client(GetState, "bench_bridge/get_state")

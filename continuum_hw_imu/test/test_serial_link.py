@@ -51,7 +51,7 @@ def test_bytes_go_both_ways(port, tmp_path):
 
 def test_a_port_that_comes_later_or_back_is_opened(tmp_path):
     with line_at(tmp_path / "port") as line:
-        wait_until(lambda: "is not there" in line.link.problem, "a word about the missing port")
+        wait_until(lambda: "does not exist" in line.link.problem, "a word about the missing port")
         assert not line.link.send(b"lost")
         port = PseudoPort(tmp_path / "port")
         for round_number in (1, 2, 3):

@@ -1,1 +1,1 @@
-"""A bench without the bench: arm, sensors, actuators and the port, with faults on request; free of ROS."""
+"""Emulated bench: arm, sensors, actuators and serial port, with faults on request; independent of ROS."""

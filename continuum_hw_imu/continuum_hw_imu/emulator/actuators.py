@@ -1,4 +1,4 @@
-"""Actuators and load cells of the cables: a first-order lag behind the set points, and noise on what is measured."""
+"""Actuators and load cells of the cables: a first-order lag behind the set points, and measurement noise."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from continuum.dynamics.live.stepper import Interval
 
 
 class Actuators:
-    """Slack at first.
+    """Actuators and load cells; the cables are initially slack.
 
     Args:
         n_cables: number of cables.
         lag: time constant [s]; 0 for none.
         noise: standard deviation of the load cells [N].
-        random: where the noise comes from.
+        random: generator of the noise.
 
     Attributes:
-        tension: that pulls now, (n_cables,) [N].
+        tension: current tension, (n_cables,) [N].
     """
 
     def __init__(self, n_cables: int, lag: float, noise: float, random: np.random.Generator) -> None:
@@ -26,12 +26,12 @@ class Actuators:
         self._lag, self._noise, self._random = lag, noise, random
 
     def follow(self, wanted: Interval) -> Interval:
-        """The tensions that pull while the set points change as ``wanted``."""
+        """Return the tensions while the set points change as ``wanted``."""
         before = self.tension
         share = 1.0 if self._lag <= 0.0 else -np.expm1(-wanted.duration / self._lag)
         self.tension = before + share * (wanted.after - before)
         return Interval(wanted.duration, before, self.tension)
 
     def measured(self) -> Array:
-        """What the load cells tell now, (n_cables,) [N]."""
+        """Return the current readings of the load cells, (n_cables,) [N]."""
         return np.asarray(self.tension + self._random.normal(0.0, self._noise, self.tension.shape))

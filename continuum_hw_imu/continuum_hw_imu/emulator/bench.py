@@ -1,4 +1,4 @@
-"""The emulated bench without port and clock: arm, actuators, sensors and controller, moved on tick by tick."""
+"""The emulated bench without port and clock: arm, actuators, sensors and controller, advanced tick by tick."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ LOW_BATTERY = 15
 """[%]"""
 
 _TICKS = 240.0
-"""The arm is moved on so often a second at least [Hz]."""
+"""Smallest rate at which the arm is advanced [Hz]."""
 
 
 @dataclass(frozen=True)
 class BenchSettings:
-    """What may be chosen of a bench.
+    """Settings of a bench.
 
     Attributes:
-        sample_rate: of the sensors [Hz].
-        bend: of the whole arm at the start, the same at every joint [rad].
-        limits: of the receiver.
-        quality: of the sensors.
+        sample_rate: sample rate of the sensors [Hz].
+        bend: total bend of the arm at the start, distributed equally over the joints [rad].
+        limits: limits of the receiver.
+        quality: quality of the sensors.
         actuator_lag: time constant of the tensions [s].
-        tension_noise: of the load cells, standard deviation [N].
-        seed: of all that is drawn at random.
+        tension_noise: standard deviation of the load cells [N].
+        seed: seed of all random numbers.
     """
 
     sample_rate: float = 60.0
@@ -53,21 +53,21 @@ class BenchSettings:
 
 
 class Bench:
-    """Compiles the model's equations, which may take seconds.
+    """An emulated bench. Its construction compiles the model's equations, which may take seconds.
 
     Args:
-        model: of the arm.
-        settings: all else.
+        model: model of the arm.
+        settings: all other settings.
 
     Attributes:
-        controller: its side of the protocol.
-        sensors, actuators, arm: its parts.
-        hand: that holds the arm, if one does.
-        deaf: nothing from the host is heard.
-        failed: why the arm cannot be simulated on; None while it can.
+        controller: the bench controller, the device's side of the protocol.
+        sensors, actuators, arm: parts of the bench.
+        hand: hand that holds the arm, if any.
+        deaf: whether bytes from the host are ignored.
+        failed: reason why the simulation of the arm failed; None while it runs.
 
     Raises:
-        InvalidValueError: more joints than the protocol has sensors for, or a posture from which there is no motion.
+        InvalidValueError: the arm has more joints than the protocol has sensors, or cannot move from its posture.
         CompilerError: the equations cannot be compiled.
     """
 
@@ -97,32 +97,32 @@ class Bench:
         return self.sensors.n
 
     def check_sensor(self, number: int) -> None:
-        """Refuse a number, from 1, that no sensor has.
+        """Check the number of a sensor, from 1.
 
         Raises:
-            InvalidValueError: none has it.
+            InvalidValueError: no sensor has this number.
         """
         if not 1 <= number <= self.n_joints:
             raise InvalidValueError("sensor", number, f"1 to {self.n_joints}")
 
     def boot(self) -> None:
-        """Start the controller anew: all slack, nobody commands. The arm goes on."""
+        """Restart the controller with slack cables and without a commander. The arm continues to move."""
         n, settings = self.n_joints, self._settings
         places = tuple(SensorPlace(i + 1, f"DOT-{i + 1}") for i in range(n))
-        boot = int(np.random.default_rng().integers(1 << 32))  # not of the seed: two starts must differ
+        boot = int(np.random.default_rng().integers(1 << 32))  # independent of the seed: two starts must differ
         hello = Hello(boot, FIRMWARE, settings.sample_rate, places, len(SIDES), settings.limits)
         self.controller = BenchController(hello)
         self.controller.batteries = [90] * n
         self.actuators = Actuators(len(SIDES), settings.actuator_lag, settings.tension_noise, self._random)
 
     def hear(self, data: bytes, now: int) -> list[Message]:
-        """Bytes from the host at a device time [us]; the answers."""
+        """Process bytes from the host at a device time [us], and return the answers."""
         return [] if self.deaf else self.controller.hear(data, now)
 
     def tick(self, begin: int, duration: float, real: float) -> list[Message]:
-        """Move on from device time ``begin`` [us] by a ``duration`` [s]; what is to be sent of the end of it.
+        """Advance from device time ``begin`` [us] by a ``duration`` [s], and return the messages for the end of it.
 
-        ``real`` is the time of the end [s], of the clock that hands have.
+        ``real`` is the time of the end [s] on the clock that `Hand` uses.
         """
         pull = self.actuators.follow(self.controller.move_on(begin, duration))
         before = self._motion()
@@ -149,7 +149,7 @@ class Bench:
             self.arm.place(self.arm.angles)
 
     def _watch(self) -> None:
-        """Tell the controller what is wrong with the sensors."""
+        """Report faults of the sensors to the controller."""
         faults = self.controller.faults
         for i, charge in enumerate(self.controller.batteries):
             faults.put(i in self.sensors.lost, FaultCode.SENSOR_LOST, i + 1)

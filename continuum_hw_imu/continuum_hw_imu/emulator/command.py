@@ -1,4 +1,4 @@
-"""`ros2 run continuum_hw_imu bench_emulator`: options, and the loop that runs it. Needs no ROS."""
+"""`ros2 run continuum_hw_imu bench_emulator`: options and main loop of the emulator. Needs no ROS."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_manipulator.nodekit.run import BAD_START, StopRequest
 
 _EPILOG = f"""\
-orders, for --faults FILE and --control PATH, one a line; "at SECONDS" in front tells when, counted from the start:
+orders for --faults FILE and --control PATH, one per line; a prefix "at SECONDS" sets the time since the start:
 {in_words()}
-What is given after = is the default, ? must be given. "status" over the socket tells how all is. For example:
+The value after = is the default; ? must be given. "status" over the socket reports the state. For example:
   at 10 lose share=0.2 for=3        at 20 unplug for=2        at 30 hand bend=90 over=1 hold=2
 """
 
 
 def main() -> int:
-    """Run until SIGINT or SIGTERM; returns the exit code."""
+    """Run until SIGINT or SIGTERM, and return the exit code."""
     with StopRequest() as stop:
         arguments = sys.argv[1:]
         if "--ros-args" in arguments:  # which a launch file adds
@@ -71,7 +71,7 @@ def _run(options: argparse.Namespace, stop: StopRequest) -> None:
 
 
 def _go_on(emulator: Emulator, book: OrderBook, control: ControlSocket | None) -> None:
-    """Wait until something is due or has come, and do it."""
+    """Wait until something is due or has arrived, and process it."""
     wake = min(emulator.wake_at, book.wake_at)
     port = emulator.port.fileno()
     files = [] if control is None else control.files
@@ -130,33 +130,33 @@ def _emulator_settings(options: argparse.Namespace) -> EmulatorSettings:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="bench_emulator",
-        description="A bench with inertial sensors and cables that is none: it speaks the protocol of "
-        "docs/bench-protocol.md on a pseudo-terminal, with a simulated arm behind it. Prints the port in one line.",
+        description="Emulates a bench with inertial sensors and cables: speaks the protocol of docs/bench-protocol.md "
+        "on a pseudo-terminal and simulates the arm. Prints the port in one line.",
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     limits = ReceiverLimits()
     add = parser.add_argument
-    add("--link", type=Path, metavar="PATH", help="keep a symbolic link to the port, that goes and comes with it")
-    add("--model", default="lamecc_prototype.yaml", help="model file, or the name of one that comes with the library")
+    add("--link", type=Path, metavar="PATH", help="keep a symbolic link to the port while it exists")
+    add("--model", default="lamecc_prototype.yaml", help="model file, or name of a model in the library")
     add("--bend", type=_number(-270, 270), default=0.0, metavar="DEG", help="bend of the whole arm at the start")
-    add("--truth", type=Path, metavar="FILE", help="write what really happens, CSV, a row for every sample")
-    add("--sent", type=Path, metavar="FILE", help="write when each frame of the sensors left, CSV")
+    add("--truth", type=Path, metavar="FILE", help="write the true motion, CSV, one row per sample")
+    add("--sent", type=Path, metavar="FILE", help="write the send time of each sensor frame, CSV")
     add("--faults", type=Path, metavar="FILE", help="carry out the orders in a file")
     add("--control", type=Path, metavar="PATH", help="listen for orders on a UNIX socket")
-    add("--rate", type=_number(1, 1000), default=60.0, metavar="HZ", help="samples a second, 60 without")
-    add("--baud", type=_number(0, 1e8), default=0.0, help="speed of the line; without, it takes no time")
+    add("--rate", type=_number(1, 1000), default=60.0, metavar="HZ", help="samples per second; default 60")
+    add("--baud", type=_number(0, 1e8), default=0.0, help="speed of the line [bit/s]; default 0, no transmission time")
     add("--max-tension", type=_number(0, 327), default=limits.max_tension, metavar="N", help="limit of the receiver")
     add("--max-rate", type=_number(0.1, 6500), default=limits.max_rate, metavar="N/S", help="limit of the receiver")
     add("--perfect-sensors", action="store_true", help="sensors without any error")
-    add("--clock-start", type=int, default=0, metavar="US", help="what the controller's clock shows at the start")
-    add("--no-hang-up", action="store_true", help="the controller does not see the host close the port")
-    add("--seed", type=int, default=0, help="of all that is drawn at random")
+    add("--clock-start", type=int, default=0, metavar="US", help="reading of the controller's clock at the start")
+    add("--no-hang-up", action="store_true", help="the controller does not detect that the host closes the port")
+    add("--seed", type=int, default=0, help="seed of all random numbers")
     return parser
 
 
 def _number(lower: float, upper: float) -> Callable[[str], float]:
-    """A type for argparse."""
+    """Return a type for argparse: a number within bounds."""
 
     def number(text: str) -> float:
         value = float(text)

@@ -1,4 +1,4 @@
-"""A second way into the emulator, beside the port: a UNIX socket that takes orders line by line and answers each."""
+"""Control socket of the emulator: a UNIX socket that accepts orders line by line and answers each."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from continuum.errors import FileError
 
 _LONGEST_LINE = 1000
 _LONGEST_PATH = 100
-"""The system's limit is 107 bytes."""
+"""Longest path [bytes]; the limit of the system is 107."""
 
 
 class ControlSocket:
-    """Listens. Each line gets the answer of ``handle``, in one line.
+    """Listening socket. Each line receives the one-line answer of ``handle``.
 
     Raises:
-        FileError: the socket cannot be made.
+        FileError: the socket cannot be created.
     """
 
     def __init__(self, path: Path, handle: Callable[[str], str]) -> None:
@@ -33,18 +33,18 @@ class ControlSocket:
             self._listener.bind(str(path))
         except OSError as error:
             self._listener.close()
-            raise FileError(path, f"cannot be made: {error.strerror}") from None
+            raise FileError(path, f"cannot be created: {error.strerror}") from None
         self._listener.listen()
         self._listener.setblocking(False)
         self._kept: dict[socket.socket, bytes] = {}
 
     @property
     def files(self) -> list[int]:
-        """To wait for."""
+        """Return the file descriptors to wait for."""
         return [self._listener.fileno(), *(client.fileno() for client in self._kept)]
 
     def serve(self) -> None:
-        """Answer what has come."""
+        """Answer the lines that have arrived."""
         try:
             client, _ = self._listener.accept()
             client.setblocking(False)
@@ -64,7 +64,7 @@ class ControlSocket:
         self._path.unlink(missing_ok=True)
 
     def _serve(self, client: socket.socket) -> bool:
-        """Answer one client; whether it is still there."""
+        """Answer one client; return whether it is still connected."""
         try:
             data = client.recv(1 << 16)
         except BlockingIOError:
@@ -82,10 +82,10 @@ class ControlSocket:
 
 
 def _refuse_one_in_use(path: Path) -> None:
-    """A socket that nobody listens at is left from one that was killed."""
+    """Refuse a socket with a listener; one without is a remnant of a killed emulator."""
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as probe:
         try:
             probe.connect(str(path))
         except ConnectionRefusedError:
             return
-    raise FileError(path, "is another emulator's, which runs")
+    raise FileError(path, "belongs to another running emulator")

@@ -1,4 +1,4 @@
-"""The clock of the emulated controller: beside the machine's own, with a drift that may change."""
+"""The clock of the emulated controller: derived from the machine's clock, with an adjustable drift."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from continuum_hw_imu.protocol.device_time import MICROSECONDS
 
 
 class DeviceClock:
-    """Device times [us] unwrapped, real times [s] of a clock that is never set.
+    """Conversion between unwrapped device times [us] and real times [s] of a monotonic clock.
 
     Args:
-        real: the present.
-        shows: what the clock shows then [us].
-        drift: how much faster than real time it runs, in parts of a million; also an attribute.
+        real: the present real time.
+        shows: reading of the clock at that time [us].
+        drift: relative error of its rate in parts per million, positive if it is fast; also an attribute.
     """
 
     def __init__(self, real: float, shows: int = 0, drift: float = 0.0) -> None:
@@ -19,19 +19,19 @@ class DeviceClock:
         self.drift = drift
 
     def at(self, real: float) -> int:
-        """What it shows at a real time."""
+        """Return the reading at a real time."""
         return round(self._shows + (real - self._real) * self._rate)
 
     def real(self, shows: float) -> float:
-        """When it shows this."""
+        """Return the real time of a reading."""
         return self._real + (shows - self._shows) / self._rate
 
     def drift_from(self, real: float, drift: float) -> None:
-        """Run otherwise from a real time on."""
+        """Change the drift from a real time on."""
         self._shows += (real - self._real) * self._rate
         self._real, self.drift = real, drift
 
     @property
     def _rate(self) -> float:
-        """Microseconds shown in a second."""
+        """Device microseconds per second of real time."""
         return MICROSECONDS + self.drift

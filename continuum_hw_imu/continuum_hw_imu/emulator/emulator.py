@@ -1,6 +1,6 @@
-"""The emulated bench in real time, on its port: what comes in and goes out, orders, and the record of the truth.
+"""The emulated bench in real time on its port: input and output, orders, and the record of the true motion.
 
-Whoever runs it calls `step` with a clock's time, again and again, `wake_at` at the latest or when bytes have come.
+The main loop calls `step` with the time of a clock repeatedly, at `wake_at` at the latest or when bytes have arrived.
 """
 
 from __future__ import annotations
@@ -23,27 +23,28 @@ from continuum_hw_imu.protocol.frame import FrameWriter
 from continuum_hw_imu.protocol.messages import FaultCode, Message
 
 _LATE = 0.05
-"""Behind the clock by more than this the controller tells of an overrun [s]."""
+"""Delay behind the clock above which the controller reports an overrun [s]."""
 
 _GIVEN_UP = 2.0
-"""Behind by more than this, as after a machine's sleep, time is skipped [s]."""
+"""Delay above which time is skipped, for example after the machine was suspended [s]."""
 
 _LONGEST_STEP = 0.25
-"""Of simulated time at once [s]."""
+"""Longest simulated time in one call [s]."""
 
 
 @dataclass(frozen=True)
 class EmulatorSettings:
-    """What may be chosen beside the bench itself.
+    """Settings of the emulator besides those of the bench.
 
     Attributes:
-        link: where a symbolic link to the port is kept.
-        truth: file of what really happened.
-        sent: file of when frames were written to the port.
-        baud: bits a second of the line; 0 for one that takes no time.
-        clock_start: what the controller's clock shows at the start [us].
-        sees_hang_up: the controller notices when the host closes the port, as by DTR; else it has only its time-outs.
-        seed: of the faults of the line.
+        link: path of a symbolic link to the port.
+        truth: file for the true motion.
+        sent: file for the send times of frames.
+        baud: speed of the line [bit/s]; 0 for no transmission time.
+        clock_start: reading of the controller's clock at the start [us].
+        sees_hang_up: whether the controller detects that the host closes the port, as by DTR; otherwise it has only its
+            time-outs.
+        seed: seed of the faults of the line.
     """
 
     link: Path | None = None
@@ -56,19 +57,19 @@ class EmulatorSettings:
 
 
 class Emulator:
-    """Runs from now on.
+    """Emulator that starts at the time ``now``.
 
     Args:
         bench: the bench, at its start.
-        settings: all else.
-        now: real time [s] of a clock that is never set; so are all times here.
+        settings: all other settings.
+        now: real time [s] of a monotonic clock, as all times here.
 
     Attributes:
-        bench, port, clock, up, down: its parts; ``up`` is the line's direction to the host.
-        skipped: time that was not simulated, as the machine was too busy [s].
+        bench, port, clock, up, down: parts of the emulator; ``up`` is the line's direction to the host.
+        skipped: time that was not simulated because the machine was too busy [s].
 
     Raises:
-        FileError: a file or link cannot be made.
+        FileError: a file or link cannot be created.
     """
 
     def __init__(self, bench: Bench, settings: EmulatorSettings, now: float) -> None:
@@ -87,7 +88,7 @@ class Emulator:
         self._begin(settings.clock_start)
 
     def close(self) -> None:
-        """Remove port and link, end the record."""
+        """Remove port and link, and close the records."""
         self.port.unplug()
         if self._truth is not None:
             self._truth.close()
@@ -96,12 +97,12 @@ class Emulator:
 
     @property
     def wake_at(self) -> float:
-        """When something is due next."""
+        """Return the time at which the next action is due [s]."""
         tick = self.clock.real(self._tick_time(self._ticks + 1))
         return min(tick, *(when for when in (self._outgoing.next, self._incoming.next, np.inf) if when is not None))
 
     def step(self, now: float) -> None:
-        """Do what is due."""
+        """Carry out the actions that are due."""
         self._watch_port(now)
         for piece in pieces_of(self.port.read()):
             for delay, part in self.down.passed(piece, now):
@@ -117,13 +118,13 @@ class Emulator:
         self.port.flush()
 
     def unplug(self) -> None:
-        """Pull the plug; the controller goes on."""
+        """Unplug the port; the controller continues to run."""
         self.port.unplug()
         self._outgoing.clear()
         self._incoming.clear()
 
     def reboot(self, now: float) -> None:
-        """Start the controller anew, as after a power cut."""
+        """Restart the controller, as after a power failure."""
         self.bench.boot()
         self._outgoing.clear()
         self._incoming.clear()
@@ -133,12 +134,12 @@ class Emulator:
             self._send(self.bench.controller.connect(), 0, now)
 
     def _begin(self, shows: int) -> None:
-        """Count frames and ticks from here, where the clock shows this [us]."""
+        """Start counting frames and ticks at the clock reading ``shows`` [us]."""
         self._writer = FrameWriter()
         self._first, self._ticks = shows, 0
 
     def _tick_time(self, tick: int) -> int:
-        """What the device's clock shows then [us]."""
+        """Return the reading of the device's clock at a tick [us]."""
         return self._first + round(tick * MICROSECONDS / self.bench.tick_rate)
 
     def _watch_port(self, now: float) -> None:
@@ -174,7 +175,7 @@ class Emulator:
         self._send([*messages, *self.bench.controller.news(end)], end, now)
 
     def _send(self, messages: list[Message], time: int, now: float) -> None:
-        """Hand frames of a device time to the line, if a host is there."""
+        """Put frames with a device time on the line if a host is connected."""
         if not self._open:
             return
         for message in messages:

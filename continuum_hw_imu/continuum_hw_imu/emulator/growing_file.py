@@ -1,4 +1,4 @@
-"""A text file that is written line by line, so that it can be read while it grows."""
+"""A text file that is written line by line and can be read while it grows."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from continuum.errors import FileError
 
 
 class GrowingFile:
-    """Empty at first; what was there before is lost.
+    """A growing text file; existing content is overwritten.
 
     Args:
-        path: of the file.
+        path: path of the file.
 
     Raises:
-        FileError: it cannot be written, here or later.
+        FileError: the file cannot be written, now or later.
     """
 
     def __init__(self, path: Path) -> None:
@@ -26,13 +26,13 @@ class GrowingFile:
             raise FileError(path, f"cannot be written ({error.strerror})") from error
 
     def write(self, text: str) -> None:
-        """Add a line with its end, or several."""
+        """Append one or several complete lines."""
         try:
             self._file.write(text)
         except OSError as error:
             raise FileError(self._path, f"cannot be written ({error.strerror})") from error
 
     def close(self) -> None:
-        """End the file; a line that could not be written was reported then."""
+        """Close the file; failures to write were reported by `write`."""
         with suppress(OSError):
             self._file.close()

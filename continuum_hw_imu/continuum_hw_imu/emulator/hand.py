@@ -1,4 +1,4 @@
-"""A hand that brings the arm into a posture, holds it there, and lets go of it: the thesis's release test."""
+"""A hand that moves the arm to a posture, holds it there and releases it: the thesis's release test."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from continuum.arrays import Array
 
 @dataclass(frozen=True)
 class Hand:
-    """One movement.
+    """One movement of the hand.
 
     Attributes:
-        begin: when it begins [s].
-        start, goal: joint angles, (n,) [rad].
-        over: time of the movement [s].
+        begin: start time of the movement [s].
+        start, goal: joint angles at its start and end, (n,) [rad].
+        over: duration of the movement [s].
         hold: time for which the arm is then held still [s].
     """
 
@@ -28,11 +28,11 @@ class Hand:
 
     @property
     def end(self) -> float:
-        """When the hand lets go [s]."""
+        """Time of the release [s]."""
         return self.begin + self.over + self.hold
 
     def motion(self, now: float) -> tuple[Array, Array]:
-        """Joint angles [rad] and rates [rad/s], (n,) each: smooth, with no acceleration at either end."""
+        """Return joint angles [rad] and rates [rad/s], (n,) each: smooth, without acceleration at its ends."""
         if now >= self.begin + self.over:
             return self.goal, np.zeros_like(self.goal)
         x = max(now - self.begin, 0.0) / self.over

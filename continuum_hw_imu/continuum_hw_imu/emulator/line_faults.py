@@ -1,4 +1,4 @@
-"""What may happen to frames between the two ends."""
+"""Faults of frames on the line between host and device."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 
 
 class LineFaultKind(StrEnum):
-    """What happens to a frame."""
+    """Kind of fault of a frame."""
 
     LOSE = "lose"
     DAMAGE = "damage"
     REPEAT = "repeat"
     LATE = "late"
     NOISE = "noise"
-    """Random bytes before it."""
+    """Random bytes precede the frame."""
 
 
 @dataclass(frozen=True)
@@ -24,11 +24,11 @@ class LineFault:
     """A fault of one direction of the line.
 
     Attributes:
-        kind: what happens.
-        share: to this part of the frames.
-        until: when it ends [s].
-        by: of LATE, the delay [s].
-        size: of NOISE, the largest number of bytes.
+        kind: kind of the fault.
+        share: fraction of the frames that are affected.
+        until: end time of the fault [s].
+        by: delay of LATE [s].
+        size: largest number of bytes of NOISE.
     """
 
     kind: LineFaultKind
@@ -39,13 +39,13 @@ class LineFault:
 
 
 class FaultyLine:
-    """One direction of the line. Pieces are frames with their zeros; times [s].
+    """One direction of the line. Pieces are frames with their zero bytes; times are in s.
 
     Args:
-        random: which frames are hit.
+        random: generator that selects the affected frames.
 
     Attributes:
-        hit: number of frames that something happened to.
+        hit: number of affected frames.
     """
 
     def __init__(self, random: np.random.Generator) -> None:
@@ -57,11 +57,11 @@ class FaultyLine:
         self._faults.append(fault)
 
     def clear(self) -> None:
-        """No more faults."""
+        """Remove all faults."""
         self._faults.clear()
 
     def passed(self, piece: bytes, now: float) -> list[tuple[float, bytes]]:
-        """The pieces that come out for one that goes in, each with its delay [s]."""
+        """Return the output pieces for one input piece, each with its delay [s]."""
         self._faults = [fault for fault in self._faults if now < fault.until]
         out = [(0.0, piece)]
         for fault in self._faults:
@@ -85,7 +85,7 @@ class FaultyLine:
                 return [(delay, self._random.bytes(size) + piece) for delay, piece in pieces]
 
     def _damaged(self, piece: bytes) -> bytes:
-        """With bits turned over, cut short, or with bytes too many."""
+        """Return a piece with flipped bits, truncated, or with extra bytes."""
         spoiled, at = bytearray(piece), int(self._random.integers(0, max(len(piece), 1)))
         way = self._random.integers(0, 3)
         if way == 0 and spoiled:
@@ -98,7 +98,7 @@ class FaultyLine:
 
 
 def pieces_of(data: bytes) -> list[bytes]:
-    """``data`` cut between frames, each with the zeros around it, so that all of a frame stands in one piece."""
+    """Split ``data`` between frames, with the surrounding zeros, so that each frame is completely in one piece."""
     *ended, rest = data.split(b"\0")
     pieces, zeros = [], b""
     for part in ended:

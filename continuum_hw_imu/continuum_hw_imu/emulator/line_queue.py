@@ -1,4 +1,4 @@
-"""Bytes on their way, each piece with the time when it comes out."""
+"""Queue of bytes in transmission, with the arrival time of each piece."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ import heapq
 from itertools import count
 
 _MOST_WAITING = 1.0
-"""What would wait longer for its turn [s] finds the sender's memory full."""
+"""Longest waiting time of a piece [s]; beyond it the sender's buffer is full."""
 
 
 class LineQueue:
-    """Times [s] of one clock.
+    """Transmission queue; times [s] are those of one clock.
 
     Args:
-        baud: bits a second, ten to a byte; 0 for a line that takes no time.
+        baud: speed [bit/s], with ten bits per byte; 0 for no transmission time.
 
     Attributes:
-        dropped: pieces for which there was no room.
+        dropped: number of pieces that were dropped because the buffer was full.
     """
 
     def __init__(self, baud: float = 0.0) -> None:
@@ -27,7 +27,7 @@ class LineQueue:
         self.dropped = 0
 
     def put(self, now: float, piece: bytes, delay: float = 0.0) -> None:
-        """A piece is handed to the line now; it comes out a ``delay`` [s] later than it would."""
+        """Put a piece on the line at the time ``now``, with an additional ``delay`` [s]."""
         if self._free - now > _MOST_WAITING:
             self.dropped += 1
             return
@@ -36,18 +36,18 @@ class LineQueue:
         heapq.heappush(self._pieces, (now + delay, next(self._order), piece))
 
     def due(self, now: float) -> list[bytes]:
-        """The pieces that have come out by now, in order."""
+        """Remove and return the pieces that have arrived by ``now``, in order."""
         pieces = []
         while self._pieces and self._pieces[0][0] <= now:
             pieces.append(heapq.heappop(self._pieces)[2])
         return pieces
 
     def clear(self) -> None:
-        """The line was cut."""
+        """Drop all pieces after the line was cut."""
         self._pieces.clear()
         self._free = 0.0
 
     @property
     def next(self) -> float | None:
-        """When the next piece comes out."""
+        """Return the arrival time of the next piece, or None."""
         return self._pieces[0][0] if self._pieces else None

@@ -1,4 +1,4 @@
-"""Carries out orders when their time has come, and ends what they began."""
+"""Schedule of orders: carries them out at their times, and ends their effects."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _Deed = Callable[[float], None]
 
 
 class OrderBook:
-    """Times [s] are of the emulator's clock.
+    """Schedule of orders; times [s] are those of the emulator's clock.
 
     Args:
-        emulator: that is told what to do.
+        emulator: the emulator that carries out the orders.
     """
 
     def __init__(self, emulator: Emulator) -> None:
@@ -33,11 +33,11 @@ class OrderBook:
 
     @property
     def wake_at(self) -> float:
-        """When something is due next."""
+        """Return the time at which the next action is due [s]."""
         return min([entry[0] for entry in (*self._to_come[:1], *self._to_end[:1])], default=np.inf)
 
     def add(self, order: Order) -> None:
-        """Note an order; its time counts from the emulator's start.
+        """Schedule an order; its time counts from the emulator's start.
 
         Raises:
             InvalidValueError: the bench has no sensor of that number.
@@ -48,13 +48,13 @@ class OrderBook:
         self._push(self._to_come, self._emulator.began + order.at, lambda now: self._carry_out(order, now))
 
     def step(self, now: float) -> None:
-        """Do what is due."""
+        """Carry out the actions that are due."""
         for book in (self._to_end, self._to_come):
             while book and book[0][0] <= now:
                 heapq.heappop(book)[2](now)
 
     def answer(self, line: str, now: float) -> str:
-        """Obey a line at once, or at the time that it tells, or say how all is; the answer is JSON."""
+        """Carry out the order of a line, at once or at its time, or report the state; return the answer as JSON."""
         if line == "status":
             return json.dumps({"ok": True} | self._status(now))
         try:

@@ -1,4 +1,4 @@
-"""`ros2 run continuum_hw_imu bench_order "unplug for=2"`: give orders to an emulator that runs. Needs no ROS."""
+"""`ros2 run continuum_hw_imu bench_order "unplug for=2"`: send orders to a running emulator. Needs no ROS."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from pathlib import Path
 
 from continuum_hw_imu.emulator.orders import in_words
 
-_CONTROL = Path("/tmp/continuum_bench_control")  # noqa: S108  (as the launch file has it; nothing is written there)
+_CONTROL = Path("/tmp/continuum_bench_control")  # noqa: S108  (default of the launch file; nothing is written there)
 
 _PATIENCE = 10.0
 """Longest wait for an answer [s]."""
 
 
 def main() -> int:
-    """Give each order and print its answer; returns 0 if all were taken, 1 if not, 2 without an emulator."""
+    """Send each order and print its answer; return 0 if all were accepted, 1 if not, 2 without an emulator."""
     options = _parser().parse_args()
     try:
         with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as line:
@@ -28,7 +28,7 @@ def main() -> int:
             taken = [_given(order, line, answers.readline) for order in options.orders]
     except OSError as error:
         reason = error.strerror or "no answer"
-        print(f"bench_order: error: {options.control}: {reason}; does the emulator run?", file=sys.stderr)
+        print(f"bench_order: error: {options.control}: {reason}; is the emulator running?", file=sys.stderr)
         return 2
     return 0 if all(taken) else 1
 
@@ -43,8 +43,8 @@ def _given(order: str, line: socket.socket, answer: Callable[[], str]) -> bool:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="bench_order",
-        description="Gives orders to a bench_emulator that runs, and prints what it answers.",
-        epilog=f"orders:\n{in_words()}\nstatus: how all is\n",
+        description="Sends orders to a running bench_emulator and prints its answers.",
+        epilog=f"orders:\n{in_words()}\nstatus: report the state\n",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("orders", nargs="+", metavar="ORDER", help='for example "unplug for=2"')

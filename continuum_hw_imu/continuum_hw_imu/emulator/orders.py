@@ -1,4 +1,4 @@
-"""What the emulator can be told while it runs, one order a line.
+"""Orders to the running emulator, one per line.
 
 [at SECONDS] ACTION [NAME=VALUE ...]        at 12.5 lose share=0.2 for=3 way=up
 """
@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from continuum.errors import InvalidValueError
 
 WAYS = ("up", "down", "both")
-"""Directions: up is to the host."""
+"""Directions of the line: up is towards the host."""
 
 
 @dataclass(frozen=True)
 class Number:
-    """A number that an order takes: its default, None where it must be given, and its bounds."""
+    """A number in an order: its default, or None if it is required, its bounds and its meaning."""
 
     default: float | None
     lower: float
@@ -25,8 +25,8 @@ class Number:
     meaning: str
 
 
-_FOR = Number(1.0, 0.0, 1e6, "for how long [s]")
-_SHARE = Number(1.0, 0.0, 1.0, "of the frames")
+_FOR = Number(1.0, 0.0, 1e6, "duration [s]")
+_SHARE = Number(1.0, 0.0, 1.0, "fraction of the frames")
 _SENSOR = Number(None, 1.0, 10.0, "number of the sensor, from 1 at the base")
 
 ON_THE_LINE: Mapping[str, Mapping[str, Number]] = {
@@ -34,27 +34,27 @@ ON_THE_LINE: Mapping[str, Mapping[str, Number]] = {
     "damage": {"share": _SHARE, "for": _FOR},
     "repeat": {"share": _SHARE, "for": _FOR},
     "late": {"share": _SHARE, "for": _FOR, "by": Number(0.2, 0.0, 60.0, "[s]")},
-    "noise": {"share": _SHARE, "for": _FOR, "size": Number(100.0, 1.0, 1e4, "bytes before a frame at most")},
+    "noise": {"share": _SHARE, "for": _FOR, "size": Number(100.0, 1.0, 1e4, "most bytes before a frame")},
 }
-"""What happens to frames; these also take ``way=up|down|both``, up without."""
+"""Faults of frames; they also accept ``way=up|down|both``, up by default."""
 
 ACTIONS: Mapping[str, Mapping[str, Number]] = {
     **ON_THE_LINE,
     "drop": {"sensor": _SENSOR, "for": _FOR},
-    "clip": {"sensor": _SENSOR, "for": _FOR, "range": Number(20.0, 0.0, 2000.0, "of its rates [deg/s]")},
+    "clip": {"sensor": _SENSOR, "for": _FOR, "range": Number(20.0, 0.0, 2000.0, "range of its rates [deg/s]")},
     "battery": {"sensor": _SENSOR, "percent": Number(10.0, 0.0, 100.0, "charge of its battery [%]")},
-    "drift": {"ppm": Number(None, -1000.0, 1000.0, "by which the controller's clock is fast [1e-6]")},
+    "drift": {"ppm": Number(None, -1000.0, 1000.0, "drift of the controller's clock, positive if fast [1e-6]")},
     "unplug": {"for": _FOR},
-    "freeze": {"for": Number(1.0, 0.0, 1e6, "for how long nothing from the host is heard [s]")},
+    "freeze": {"for": Number(1.0, 0.0, 1e6, "time for which input from the host is ignored [s]")},
     "reboot": {},
     "hand": {
-        "bend": Number(90.0, -270.0, 270.0, "of the whole arm, the same at every joint [deg]"),
-        "over": Number(1.0, 0.01, 1e3, "time of the movement [s]"),
-        "hold": Number(2.0, 0.0, 1e6, "for which the arm is then held, before the hand lets go [s]"),
+        "bend": Number(90.0, -270.0, 270.0, "total bend, equal at every joint [deg]"),
+        "over": Number(1.0, 0.01, 1e3, "duration of the movement [s]"),
+        "hold": Number(2.0, 0.0, 1e6, "time for which the hand then holds the arm before the release [s]"),
     },
     "clear": {},
 }
-"""All, by name. `clear` ends every fault that lasts, and forgets what is to come."""
+"""All actions by name. `clear` ends all active faults and discards all scheduled orders."""
 
 
 @dataclass(frozen=True)
@@ -63,9 +63,9 @@ class Order:
 
     Attributes:
         action: one of `ACTIONS`.
-        numbers: all that the action takes.
+        numbers: values of all numbers of the action.
         way: direction, for faults of the line.
-        at: when [s] since the start; 0 for at once.
+        at: time since the start [s]; 0 for at once.
     """
 
     action: str
@@ -75,10 +75,10 @@ class Order:
 
 
 def read_order(line: str) -> Order:
-    """The order of a line.
+    """Parse the order in a line.
 
     Raises:
-        InvalidValueError: it is none.
+        InvalidValueError: the line is not an order.
     """
     words = line.split()
     at = 0.0
@@ -103,23 +103,23 @@ def read_order(line: str) -> Order:
     for name, spec in specs.items():
         if name not in given:
             if spec.default is None:
-                raise InvalidValueError(f"{action}: {name}", None, f"to be given; {spec.meaning}")
+                raise InvalidValueError(f"{action}: {name}", None, f"a value; {spec.meaning}")
             given[name] = spec.default
     return Order(action, given, way, at)
 
 
 def read_orders(lines: Iterable[str]) -> list[Order]:
-    """Those of a script, by time; empty lines and what stands behind a # do not count.
+    """Parse the orders of a script, sorted by time; ignore empty lines and comments after a #.
 
     Raises:
-        InvalidValueError: a line is none.
+        InvalidValueError: a line is not an order.
     """
     texts = (line.partition("#")[0].strip() for line in lines)
     return sorted((read_order(text) for text in texts if text), key=lambda order: order.at)
 
 
 def in_words() -> str:
-    """All orders, for the help text."""
+    """Describe all orders for the help text."""
     lines = []
     for action, specs in ACTIONS.items():
         shown = [f"{name}={'?' if spec.default is None else f'{spec.default:g}'}" for name, spec in specs.items()]

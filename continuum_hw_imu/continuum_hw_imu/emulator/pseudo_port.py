@@ -1,6 +1,6 @@
-"""A serial port that is none: a pseudo-terminal, which can be pulled out and put back as a USB port can.
+"""An emulated serial port: a pseudo-terminal that can be unplugged and plugged in again like a USB port.
 
-As with the port's own line DTR, it is seen whether a host has it open.
+As with the DTR line of a port, the device detects whether a host has it open.
 """
 
 from __future__ import annotations
@@ -13,21 +13,21 @@ from pathlib import Path
 from continuum.errors import FileError
 
 _MOST_WAITING = 1 << 14
-"""Bytes that wait for a host that does not read; whole frames beyond it are dropped."""
+"""Most bytes that wait for a host that does not read; further frames are dropped."""
 
 
 class PseudoPort:
-    """Plugged in at first.
+    """A pseudo-terminal as a serial port; it is initially plugged in.
 
     Args:
-        link: where a symbolic link to it is kept while it is plugged in; none without.
+        link: path of a symbolic link to the port, which exists while the port is plugged in; None for no link.
 
     Attributes:
-        name: of the device file, while it is plugged in.
-        dropped: number of frames that did not fit any more.
+        name: name of the device file while the port is plugged in.
+        dropped: number of frames that were dropped because the buffer was full.
 
     Raises:
-        FileError: the link's place is taken by something else, or cannot be written.
+        FileError: the path of the link is in use, or cannot be written.
     """
 
     def __init__(self, link: Path | None = None) -> None:
@@ -39,7 +39,7 @@ class PseudoPort:
         self.plug()
 
     def plug(self) -> None:
-        """Make the port, unless it is there."""
+        """Create the port unless it exists."""
         if self._master is not None:
             return
         self._master, slave = os.openpty()
@@ -47,16 +47,16 @@ class PseudoPort:
             tty.setraw(slave)
             self.name = os.ttyname(slave)
         finally:
-            os.close(slave)  # now only hosts hold it, and it is seen when they let go
+            os.close(slave)  # now only hosts hold it, so that closing it is detected
         os.set_blocking(self._master, False)
         self._point_link()
 
     def unplug(self) -> None:
-        """The port goes, with whatever was under way in it."""
+        """Remove the port and the data in transmission."""
         if self._master is None:
             return
         if self._link is not None and self._link.is_symlink():
-            self._link.unlink()  # first: the name that it leads to may be another's the moment that it is free
+            self._link.unlink()  # first: another process may take the name of its target as soon as it is free
         os.close(self._master)
         self._master = None
         self._waiting.clear()
@@ -67,7 +67,7 @@ class PseudoPort:
 
     @property
     def open(self) -> bool:
-        """Whether a host has it open."""
+        """Whether a host has the port open."""
         if self._master is None:
             return False
         poll = select.poll()
@@ -75,24 +75,24 @@ class PseudoPort:
         return not any(events & select.POLLHUP for _, events in poll.poll(0))
 
     def fileno(self) -> int | None:
-        """To wait for bytes with; None while it is unplugged."""
+        """Return the file descriptor to wait for bytes; None while unplugged."""
         return self._master
 
     def forget(self) -> None:
-        """Drop what waits for a host that has gone; what it had not read, went with its end of the port."""
+        """Drop the data for a host that has closed the port; unread data in the port are lost with its end."""
         self._waiting.clear()
 
     def read(self) -> bytes:
-        """What has come, b"" for nothing."""
+        """Return the received bytes, b"" for none."""
         if self._master is None:
             return b""
         try:
             return os.read(self._master, 1 << 16)
-        except OSError:  # nothing there, or no host
+        except OSError:  # no data, or no host
             return b""
 
     def write(self, frame: bytes) -> None:
-        """Send a frame, or keep it until the host reads on; without a host it is lost."""
+        """Send a frame, or keep it until the host reads again; without a host it is lost."""
         if len(self._waiting) + len(frame) > _MOST_WAITING:
             self.dropped += 1
         else:
@@ -100,27 +100,27 @@ class PseudoPort:
         self.flush()
 
     def flush(self) -> None:
-        """Send what waits, as far as it goes now."""
+        """Send as much of the waiting data as possible now."""
         if self._master is None or not self._waiting:
             return
         try:
             sent = os.write(self._master, self._waiting)
         except BlockingIOError:
             return
-        except OSError:  # the host has just gone
+        except OSError:  # the host has just closed the port
             sent = len(self._waiting)
         del self._waiting[:sent]
 
     def _point_link(self) -> None:
         if self._link is None:
             return
-        if self._link.exists():  # of a port that is gone it leads nowhere
-            what = f"leads to {self._link.resolve()}, which is in use" if self._link.is_symlink() else "is no link"
-            raise FileError(self._link, f"is there already, and {what}; give another --link, or end what made it")
+        if self._link.exists():  # a link to a removed port is broken
+            what = f"refers to {self._link.resolve()}, which is in use" if self._link.is_symlink() else "is not a link"
+            raise FileError(self._link, f"exists already and {what}; give another --link, or end its owner")
         other = self._link.with_name(f".{self._link.name}.{os.getpid()}")
         try:
             other.unlink(missing_ok=True)
             other.symlink_to(self.name)
             other.replace(self._link)
         except OSError as error:
-            raise FileError(self._link, f"cannot be made: {error.strerror}") from None
+            raise FileError(self._link, f"cannot be created: {error.strerror}") from None

@@ -1,4 +1,4 @@
-"""Inertial sensors as they are: askew on their discs, biased, noisy, of a limited range."""
+"""Model of real inertial sensors: misaligned on their discs, biased, noisy and of limited range."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ class SensorModel:
 
     Attributes:
         n: number of sensors.
-        quality: of all.
-        random: where their errors come from.
-        lost: numbers from 0 of sensors that give nothing.
-        narrowed: for some sensors, by number from 0, another range of rates [rad/s].
-        mountings: rotation of each, from its link's axes to its own.
+        quality: quality of all sensors.
+        random: generator of their errors.
+        lost: numbers from 0 of sensors that give no data.
+        narrowed: reduced ranges of rates [rad/s] of some sensors, by number from 0.
+        mountings: rotation of each sensor, from its link's axes to the sensor's axes.
     """
 
     n: int
@@ -39,17 +39,17 @@ class SensorModel:
         self._force_bias = draw(0.0, quality.force_bias, (self.n, 3))
 
     def widen(self, number: int) -> None:
-        """Give a sensor its whole range again."""
+        """Restore the full range of a sensor."""
         self.narrowed.pop(number, None)
 
     def frame(self, sample: int, turn_rates: Array, forces: Array, period: float) -> ImuFrame:
-        """What the sensors give for a sample that took a ``period`` [s].
+        """Return the sensors' frame for one sample.
 
         Args:
-            sample: its number.
-            turn_rates: of the links, (n,) [rad/s].
+            sample: number of the sample.
+            turn_rates: rotation rates of the links, (n,) [rad/s].
             forces: specific forces in axes of the links, (n, 3) [m/s^2].
-            period: since the sample before [s].
+            period: time since the previous sample [s].
         """
         draw, quality = self.random.normal, self.quality
         self._rate_bias += draw(0.0, quality.bias_walk * np.sqrt(period), (self.n, 3))

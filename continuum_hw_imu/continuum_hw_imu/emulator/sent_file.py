@@ -1,6 +1,6 @@
-"""When sound frames of the sensors were written to the port: one row for every one, to reckon delays with.
+"""Record of the times at which undamaged sensor frames were written to the port, one row each, to measure delays.
 
-Columns: written_s (of this machine's monotonic clock, just after the bytes were handed to the port), device_time_us
+Columns: written_s (this machine's monotonic clock, just after the bytes were passed to the port), device_time_us
 (32 bit, as in the frame), sequence.
 """
 
@@ -15,10 +15,10 @@ from continuum_hw_imu.protocol.messages import ImuFrame
 
 
 class SentFile:
-    """Frames that were spoiled on the line are no rows.
+    """Record without the frames that were damaged on the line.
 
     Raises:
-        FileError: it cannot be written, here or later.
+        FileError: the file cannot be written, now or later.
     """
 
     def __init__(self, path: Path) -> None:
@@ -27,7 +27,7 @@ class SentFile:
         self._decoder = Decoder.of_host()
 
     def note(self, data: bytes) -> None:
-        """Bytes were written just now."""
+        """Record bytes that were just written."""
         now = time.monotonic()
         for frame in self._decoder.feed(data):
             if isinstance(frame.message, ImuFrame):

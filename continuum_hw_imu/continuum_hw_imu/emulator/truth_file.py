@@ -1,7 +1,7 @@
-"""What really happened, beside what the sensors say: one row for every sample, with the same device time.
+"""Record of the true motion: one row for every sample of the sensors, with the same device time.
 
 Columns: device_time_us (unwrapped), monotonic_s (of this machine), theta_1.. [rad], theta_rate_1.. [rad/s],
-set_point_1.. and tension_1.. [N], state (of the receiver, a number as in the protocol), hand (1 while one holds the
+set_point_1.. and tension_1.. [N], state (of the receiver, a number as in the protocol), hand (1 while a hand holds the
 arm).
 """
 
@@ -16,15 +16,15 @@ import numpy as np
 from continuum.arrays import Array
 from continuum_hw_imu.emulator.growing_file import GrowingFile
 
-if TYPE_CHECKING:  # who reads needs no emulator
+if TYPE_CHECKING:  # readers do not need the emulator
     from continuum_hw_imu.emulator.bench import Bench
 
 
 class TruthFile:
-    """Written row by row, so that it can be read while it grows.
+    """Record that is written row by row and can be read while it grows.
 
     Raises:
-        FileError: it cannot be written, here or later.
+        FileError: the file cannot be written, now or later.
     """
 
     def __init__(self, path: Path, n_joints: int, n_cables: int) -> None:
@@ -36,7 +36,7 @@ class TruthFile:
         self._writer.writerow([*names, "state", "hand"])
 
     def write(self, device: int, real: float, bench: Bench) -> None:
-        """The instant of a sample."""
+        """Write the row of one sample."""
         guard = bench.controller.guard
         numbers = [*bench.arm.angles, *bench.arm.rates, *guard.set_points, *bench.actuators.tension]
         row = [device, f"{real:.6f}", *(f"{number:.9g}" for number in numbers), int(guard.state)]
@@ -47,9 +47,9 @@ class TruthFile:
 
 
 def read_truth(path: Path) -> dict[str, Array]:
-    """Columns by name, (rows,); numbered ones together by their name without number, as ``theta``, (rows, n_joints).
+    """Return the columns by name, (rows,); numbered ones are joined, for example as ``theta``, (rows, n_joints).
 
-    A row that is just being written is left out.
+    An incomplete last row is omitted.
     """
     with path.open(newline="", encoding="utf-8") as file:
         header, *rows = csv.reader(file)

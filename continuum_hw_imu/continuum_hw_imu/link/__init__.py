@@ -1,1 +1,1 @@
-"""The host's end of the link: a serial port that comes and goes, and the client of the bench controller behind it."""
+"""The host's end of the link: a serial port that may disappear and return, and the client of the bench controller."""

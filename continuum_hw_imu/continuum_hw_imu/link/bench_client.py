@@ -1,7 +1,7 @@
-"""The host's end of the protocol: what the bench said last, requests and their answers, the two clocks.
+"""The host's end of the protocol: the latest messages of the bench, requests and their answers, the two clocks.
 
-The link's thread calls :meth:`BenchClient._take`, which reads frames and hands each on; everything else is called by
-the thread that commands. Requests are answered within milliseconds, so that thread may wait for an answer.
+The link's thread calls :meth:`BenchClient._take`, which reads frames and passes each on; the commanding thread calls
+everything else. Requests are answered within milliseconds, so that thread may wait for an answer.
 """
 
 from __future__ import annotations
@@ -36,33 +36,33 @@ from continuum_hw_imu.protocol.messages import (
 from continuum_hw_imu.protocol.sequence import Arrival, SequenceTracker
 
 AGAIN = 0.1
-"""An unanswered request is sent again after this time [s]."""
+"""Time after which an unanswered request is sent again [s]."""
 
 BEGAN_AGAIN = 2_000_000
-"""A frame this much [us] before the newest is not late: the device's clock began anew."""
+"""A frame older than the newest by more than this [us] is not late: the device's clock restarted."""
 
 HELLO_AGAIN = 0.2
-"""A device that did not say who it is is asked again after this time [s]."""
+"""Time after which a device that has not identified itself is asked again [s]."""
 
 
 class BenchClient:
-    """Keeps the line from :meth:`start` to :meth:`close`.
+    """Client of a bench controller; it maintains the link from :meth:`start` to :meth:`close`.
 
     Args:
-        port, baud_rate: of the serial port.
-        heard: is given every new message, by the link's thread; repeated frames and those that a later one has
-            overtaken are not given on.
-        rng: draws tokens; by default at random.
+        port, baud_rate: name and speed of the serial port.
+        received: function that the link's thread calls with every new message, but not with repeated frames or frames
+            that arrive after later ones.
+        rng: generator of tokens; random by default.
 
     Attributes:
         link: the port.
-        decoder: counts what was no good frame.
-        arrivals: counts frames that were lost, late or repeated.
-        clock: from the device's clock to `time.monotonic`.
-        results: what became of requests.
-        conversation: with the device at the other end.
-        conversations: how many there were.
-        commands: whether the device was told that this host commands, and said yes.
+        decoder: decoder of frames, which counts invalid ones.
+        arrivals: counts of lost, late and repeated frames.
+        clock: map from the device's clock to `time.monotonic`.
+        results: results of requests.
+        conversation: conversation with the connected device.
+        conversations: number of conversations.
+        commands: whether the device has accepted this host as its commander.
     """
 
     def __init__(
@@ -72,7 +72,7 @@ class BenchClient:
         self._hand_on = received
         self._rng = rng or random.SystemRandom()
         self._news = threading.Condition()
-        self._answers: dict[int, Result | None] = {}  # to the sendings of the request under way, by number
+        self._answers: dict[int, Result | None] = {}  # to the transmissions of the pending request, by number
         self._writer = FrameWriter()
         self._device_time = DeviceTime()
         self._asked_hello = -HELLO_AGAIN
@@ -86,7 +86,7 @@ class BenchClient:
         self.commands = False
 
     def start(self) -> None:
-        """Open the port as soon as it is there."""
+        """Open the port as soon as it exists."""
         self.link.start()
 
     def close(self) -> None:
@@ -95,15 +95,15 @@ class BenchClient:
 
     @property
     def hello(self) -> Hello | None:
-        """Who the device is, once it said so."""
+        """Identification of the device, None before it arrives."""
         return self.conversation.hello
 
     def silent_for(self, now: float) -> float:
-        """Time since the last good frame [s]; infinite where none came on this line."""
+        """Return the time since the last valid frame [s]; infinite before the first on this link."""
         return now - self.conversation.last
 
     def wait_for(self, condition: Callable[[], bool], timeout: float) -> bool:
-        """Wait until what was heard fulfils a condition; whether it did within ``timeout`` [s]."""
+        """Wait until a condition on the received data holds; return whether it did within ``timeout`` [s]."""
         deadline = time.monotonic() + timeout
         with self._news:
             while not condition():
@@ -115,24 +115,24 @@ class BenchClient:
         return True
 
     def ask_who(self, now: float) -> None:
-        """Ask a device that did not say who it is; to be called often."""
+        """Ask an unknown device for its identification; call this often."""
         if self.hello is None and self.link.is_open and now - self._asked_hello >= HELLO_AGAIN:
             self._asked_hello = now
             self._send(HelloRequest())
 
     def claim(self, timeout: float) -> Result | None:
-        """Become the commander, waiting for slack cables as long as ``timeout`` [s] allows; None without an answer."""
+        """Become the commander, waiting up to ``timeout`` [s] for slack cables; return None without an answer."""
         result = self._ask(Claim(self._token), timeout, until=lambda result: result is not Result.NOT_SLACK)
         self.commands = result is Result.DONE
         return result
 
     def release(self, timeout: float) -> Result | None:
-        """Command no more."""
+        """Give back the claim."""
         self.commands = False
         return self._ask(Release(self._token), timeout)
 
     def let_go(self, timeout: float) -> Result | None:
-        """Slack cables at once; later set points pull again."""
+        """Make the cables slack at once; later set points pull again."""
         return self._ask(LetGo(self._token), timeout)
 
     def reset_stop(self, timeout: float) -> Result | None:
@@ -140,11 +140,11 @@ class BenchClient:
         return self._ask(ResetStop(self._token, self.conversation.newest % WRAP_TIME), timeout)
 
     def stop(self) -> None:
-        """Ask for slack cables at once; to be repeated until the status tells it."""
+        """Request slack cables at once; repeat this until the status confirms it."""
         self._say(Stop())
 
     def beat(self) -> None:
-        """Say that the commander lives."""
+        """Send a heartbeat of the commander."""
         self._send(Heartbeat(self._token))
 
     def set_tension(self, tensions: Sequence[float], decided: float | None) -> None:
@@ -152,7 +152,7 @@ class BenchClient:
 
         Args:
             tensions: finite, none negative.
-            decided: when, by `time.monotonic` [s]; None for just now.
+            decided: time of the decision by `time.monotonic` [s]; None for the present.
         """
         with self._news:
             as_of = self.conversation.newest
@@ -163,7 +163,7 @@ class BenchClient:
     def _ask(
         self, request: Message, timeout: float, until: Callable[[Result], bool] = lambda _result: True
     ) -> Result | None:
-        """Send a request, again and again, until it is answered to satisfaction; the last answer."""
+        """Send a request repeatedly until an answer satisfies ``until``; return the last answer."""
         deadline = time.monotonic() + timeout
         result: Result | None = None
         with self._news:
@@ -172,7 +172,7 @@ class BenchClient:
                 self._answers[self._writer.sequence] = None
                 self._say(request)
                 if not self._news.wait_for(self._answered, min(left, AGAIN)):
-                    continue  # an answer to any of the sendings may still come
+                    continue  # an answer to an earlier transmission may still arrive
                 result = next(answer for answer in self._answers.values() if answer is not None)
                 if until(result):
                     break
@@ -184,7 +184,7 @@ class BenchClient:
         return any(answer is not None for answer in self._answers.values())
 
     def _say(self, request: Message) -> None:
-        """Send a request that is answered."""
+        """Send a request that expects an answer."""
         self.results.asked += 1
         self._send(request)
 
@@ -192,7 +192,7 @@ class BenchClient:
         self.link.send(self._writer.write(message, int(time.monotonic() * MICROSECONDS)))
 
     def _begin(self) -> None:
-        """The port was opened."""
+        """Start after the port was opened."""
         with self._news:
             self.decoder.forget()
             self._asked_hello = -HELLO_AGAIN
@@ -200,7 +200,7 @@ class BenchClient:
             self._news.notify_all()
 
     def _forget(self) -> None:
-        """Another device is at the other end, or the same one begins anew."""
+        """Start a new conversation, with another device or with the same one after its restart."""
         self.arrivals.forget()
         self._device_time.forget()
         self.clock.forget()
@@ -210,22 +210,22 @@ class BenchClient:
         self._token = self._rng.randrange(1, 1 << 32)
 
     def _take(self, data: bytes, now: float) -> None:
-        """Bytes came."""
+        """Process received bytes."""
         for frame in self.decoder.feed(data):
             received = self._note(frame, now)
             if received is not None:
                 self._hand_on(received)
 
     def _note(self, frame: Frame, now: float) -> Received | None:
-        """Keep what a frame says; None where it is not to be handed on."""
+        """Store the content of a frame; return None if it must not be passed on."""
         with self._news:
             if isinstance(frame.message, Hello) and self.hello is not None and frame.message != self.hello:
-                self._forget()  # another start, or other sensors, places or limits than it had told
+                self._forget()  # a restart, or changed sensors, places or limits
             arrival = self.arrivals.take(frame.sequence)
             if arrival is Arrival.REPEATED:
                 return None
             device_time = self._device_time.unwrapped(frame.time)
-            if self._goes_back(frame.message, arrival, device_time):  # it began anew, and its greeting was lost
+            if self._goes_back(frame.message, arrival, device_time):  # it restarted, and its Hello was lost
                 self._forget()
                 self._news.notify_all()
                 return None
@@ -235,7 +235,7 @@ class BenchClient:
             overtaken = arrival is Arrival.LATE
             if isinstance(frame.message, ImuFrame) and not overtaken:
                 talk.measured = device_time
-            if not overtaken or isinstance(frame.message, Ack):  # an answer is one whenever it comes
+            if not overtaken or isinstance(frame.message, Ack):  # a late answer is still valid
                 self._keep(frame.message)
             self._news.notify_all()
             if overtaken:
@@ -244,7 +244,7 @@ class BenchClient:
             return Received(frame.message, host_time, now, device_time, self.conversations)
 
     def _goes_back(self, message: Message, arrival: Arrival, device_time: int) -> bool:
-        """Whether the device's clock does. Instants of sensors' frames never go back where their numbers go on."""
+        """Return whether the device's clock went back; times of sensor frames increase with their numbers."""
         talk = self.conversation
         is_next_sample = isinstance(message, ImuFrame) and arrival is Arrival.NEW
         return device_time < talk.newest - BEGAN_AGAIN or (is_next_sample and device_time < talk.measured)

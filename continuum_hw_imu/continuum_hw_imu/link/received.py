@@ -1,4 +1,4 @@
-"""What the host has heard of one bench, and what that says of the line."""
+"""Messages that the host has received from a bench, and statistics of the link."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from continuum_hw_imu.protocol.messages import Hello, Message, Result, Status
 
 @dataclass(frozen=True)
 class Received:
-    """One message of the bench.
+    """One received message of the bench.
 
     Attributes:
-        message: itself.
-        time: instant that it tells of, by `time.monotonic` [s], without the jitter of the way.
-        read: when its bytes were there, by the same clock [s].
-        device_time: the instant by the device's clock, unwrapped [us].
-        conversation: number of the conversation that it is a part of.
+        message: the message.
+        time: instant of its content by `time.monotonic` [s], without the jitter of the transmission.
+        read: time at which its bytes arrived, by the same clock [s].
+        device_time: instant of its content by the device's clock, unwrapped [us].
+        conversation: number of its conversation.
     """
 
     message: Message
@@ -30,14 +30,14 @@ class Received:
 
 @dataclass
 class Conversation:
-    """With one device, from when it said who it is until the line is cut or it begins anew.
+    """Conversation with one device, until the link is cut or the device restarts.
 
     Attributes:
-        hello: who it is; None until it said so.
-        status: its latest.
+        hello: identification of the device; None before it arrives.
+        status: latest status of the device.
         newest: device time of the newest frame, unwrapped [us].
-        measured: device time of the newest frame of the sensors [us].
-        last: when the last good frame came, by `time.monotonic` [s].
+        measured: device time of the newest sensor frame [us].
+        last: arrival time of the last valid frame by `time.monotonic` [s].
     """
 
     hello: Hello | None = None
@@ -49,11 +49,11 @@ class Conversation:
 
 @dataclass
 class Results:
-    """What became of requests, since the process began.
+    """Results of requests since the process started.
 
     Attributes:
-        asked: requests that are answered.
-        counts: answers by result.
+        asked: number of requests that expect an answer.
+        counts: number of answers by result.
     """
 
     asked: int = 0
@@ -61,5 +61,5 @@ class Results:
 
     @property
     def unanswered(self) -> int:
-        """Requests without an answer so far; those under way among them."""
+        """Number of requests without an answer so far, including pending ones."""
         return self.asked - self.counts.total()

@@ -1,4 +1,4 @@
-"""A serial port that comes and goes: read by a thread of its own, opened again by itself, held by one process."""
+"""A serial port that may disappear and return: read by a thread, reopened automatically, locked by one process."""
 
 from __future__ import annotations
 
@@ -11,41 +11,41 @@ from pathlib import Path
 import serial
 
 FIRST_PAUSE, LONGEST_PAUSE = 0.05, 0.4
-"""Time between two attempts to open the port [s]: doubled from the first up to the longest."""
+"""First and longest time between attempts to open the port [s]; it doubles from attempt to attempt."""
 
 CHECK = 0.1
-"""Longest wait for bytes before the thread looks whether it is to end [s]."""
+"""Longest wait for bytes before the thread checks whether it must end [s]."""
 
 WRITE_LIMIT = 0.02
-"""Longest that sending may take [s]; then the other end does not read, and what was to be sent is old."""
+"""Longest duration of a transmission [s]; after that, the other end does not read, and the data are outdated."""
 
 MOST = 4096
-"""Bytes taken at once."""
+"""Most bytes read at once."""
 
 FAILURES = (serial.SerialException, OSError, termios.error)
-"""What a port that goes away in the midst of anything raises."""
+"""Exceptions of a port that disappears during an operation."""
 
 Received = Callable[[bytes, float], None]
-"""Is given bytes and the instant at which they were there, of `time.monotonic` [s]."""
+"""Function that is called with bytes and their arrival time by `time.monotonic` [s]."""
 
 
 class SerialLink:
-    """Bytes in and out of a serial port, from :meth:`start` to :meth:`close`.
+    """Input and output of a serial port, from :meth:`start` to :meth:`close`.
 
-    The port is opened whenever it is there and nobody else holds it, also when it comes back under its name after it
-    was gone. All callables are called by the link's thread; what they raise ends it.
+    The port is opened whenever it exists and no other process holds it, also when it returns under its name. The link's
+    thread calls all callbacks; an exception in one ends the thread.
 
     Args:
         port: name of the device, e.g. ``/dev/ttyACM0``, or a symbolic link to it.
         baud_rate: [bit/s]
-        received: is given what comes.
-        opened: is told that the port is open: whatever was said before is forgotten at the other end.
-        lost: is told why an open port is no more.
+        received: called with received bytes.
+        opened: called when the port was opened: the other end has no memory of earlier messages.
+        lost: called with the reason when an open port was lost.
 
     Attributes:
-        openings: how often the port was opened.
-        refused: sendings that the port did not take.
-        problem: why the port is not open, in words; empty while it is.
+        openings: number of times that the port was opened.
+        refused: number of transmissions that the port did not accept.
+        problem: description of why the port is not open; empty while it is.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class SerialLink:
         self._port, self._baud_rate = port, baud_rate
         self._received, self._opened, self._lost = received, opened, lost
         self._serial: serial.Serial | None = None
-        self._mutex = threading.Lock()  # nobody writes to a port that is being closed
+        self._mutex = threading.Lock()  # prevents writing to a port that is being closed
         self._again = threading.Event()
         self._end = threading.Event()
         self._thread = threading.Thread(target=self._run, name="serial link", daemon=True)
@@ -68,7 +68,7 @@ class SerialLink:
         self.problem = "not opened yet"
 
     def start(self) -> None:
-        """Begin; to be called once."""
+        """Start the thread; call this once."""
         self._thread.start()
 
     def close(self) -> None:
@@ -78,7 +78,7 @@ class SerialLink:
             self._thread.join()
 
     def reopen(self) -> None:
-        """Close the port and open it again: another device may have its name by now."""
+        """Close the port and open it again: its name may now belong to another device."""
         self._again.set()
 
     @property
@@ -86,13 +86,13 @@ class SerialLink:
         return self._serial is not None
 
     def send(self, data: bytes) -> bool:
-        """Give bytes to the port; False if it did not take all of them, which is counted."""
+        """Write bytes to the port; count a failure and return False if the port did not accept all of them."""
         with self._mutex:
             try:
                 if self._serial is not None and self._serial.write(data) == len(data):
                     return True
             except FAILURES:
-                pass  # the reading thread finds out why, and opens it again
+                pass  # the reading thread finds the reason, and reopens the port
         self.refused += 1
         return False
 
@@ -122,9 +122,9 @@ class SerialLink:
         return True
 
     def _read_on(self) -> None:
-        """Read until the port fails, or is to be opened again, or the link ends."""
+        """Read until the port fails, must be reopened, or the link ends."""
         port = self._serial
-        problem = "opened again, since it was silent"
+        problem = "reopened because it was silent"
         try:
             while port is not None and not (self._end.is_set() or self._again.is_set()):
                 data = port.read(1)
@@ -146,14 +146,14 @@ class SerialLink:
 
 
 def _in_words(port: str, error: Exception) -> str:
-    """Why a port cannot be used, without Python's own words around the reason."""
+    """Describe why a port cannot be used, without the wording of Python's exceptions."""
     if not Path(port).exists():
-        return f"{port} is not there"
+        return f"{port} does not exist"
     reason = str(error).lower()
     if "exclusively lock" in reason:
         return f"{port} is held by another process"
     if "permission denied" in reason:
-        return f"{port} may not be opened by this user; add the user to the port's group (dialout)"
+        return f"{port} cannot be opened by this user; add the user to the port's group (dialout)"
     if isinstance(error, ValueError):
         return f"{port}: {error}"
     return f"{port} failed ({error.__class__.__name__})"

@@ -1,4 +1,4 @@
-"""The binary protocol between host and bench controller (docs/bench-protocol.md); free of ROS and of ports.
+"""The binary protocol between host and bench controller (docs/bench-protocol.md); independent of ROS and ports.
 
-`frame.py` is the layout of a frame on the line, `messages` the payloads, `decoder.py` finds frames among bytes.
+`frame.py` defines the layout of a frame on the line, `messages` the payloads; `decoder.py` finds frames in bytes.
 """

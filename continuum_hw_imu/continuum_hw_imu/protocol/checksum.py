@@ -1,7 +1,7 @@
-"""The check that ends a frame's body: CRC-32 as of Ethernet and zlib, little-endian.
+"""The checksum at the end of a frame's body: CRC-32 as in Ethernet and zlib, little-endian.
 
-It finds every burst of up to 32 bits and every damage of up to 3 bits in a body this short; of bytes made up at random,
-one body in 2^32 passes.
+In a body this short it detects every burst of up to 32 bits and every error of up to 3 bits; one random body in 2^32
+passes.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ SIZE = 4
 
 
 def sealed(content: bytes) -> bytes:
-    """``content`` with its check behind it."""
+    """Return ``content`` followed by its checksum."""
     return content + zlib.crc32(content).to_bytes(SIZE, "little")
 
 
 def opened(body: bytes) -> bytes | None:
-    """The content of a sealed ``body``; None where the check does not fit."""
+    """Return the content of a sealed ``body``; None if the checksum does not match."""
     content = body[:-SIZE]
     return content if len(body) >= SIZE and body[-SIZE:] == zlib.crc32(content).to_bytes(SIZE, "little") else None

@@ -1,12 +1,12 @@
-"""From the device's clock to the host's, without the jitter of the way between.
+"""Map from the device's clock to the host's, without the jitter of the transmission.
 
-A frame of device time t that is heard at host time r has been under way for r - (offset + (1 + drift) t) >= 0, and now
-and then hardly at all. So the line sought lies under all points (t, r - t) and as close to them as it can: of all such
-lines the one with the least sum of distances is the edge of the points' lower convex hull above which their mean stands
-(L. Zhang, Z. Liu, C. H. Xia, Clock synchronization algorithms for network measurements, IEEE INFOCOM 2002). Late frames
-lie above it and change nothing, however many they are.
+A frame with device time t that arrives at host time r has a delay r - (offset + (1 + drift) t) >= 0, which is
+occasionally close to zero. The line sought is therefore below all points (t, r - t) and as close to them as possible:
+of all such lines, the one with the least sum of distances is the edge of the points' lower convex hull below their mean
+(L. Zhang, Z. Liu, C. H. Xia, Clock synchronization algorithms for network measurements, IEEE INFOCOM 2002). Any number
+of late frames lie above it and do not change it.
 
-The shortest way itself cannot be seen from one side: it stays in the offset, a millisecond on a serial port.
+The shortest delay cannot be determined from one side: it remains in the offset, a millisecond on a serial port.
 """
 
 from __future__ import annotations
@@ -19,25 +19,25 @@ from continuum_hw_imu.protocol.device_time import MICROSECONDS
 Point = tuple[float, float]
 
 _BUCKET = 0.25
-"""Of each stretch of this length [s] the least delayed frame counts."""
+"""Length of an interval [s] of which the least delayed frame counts."""
 
 _SETTLING = 4.0
-"""Of a shorter time no drift is told [s]."""
+"""Shortest time from which a drift is estimated [s]."""
 
 _LEAP = 0.05
-"""Frames that come earlier than they can by more than this mean that a clock was set [s]."""
+"""Frames that arrive earlier than possible by more than this indicate that a clock was set [s]."""
 
 
 class ClockMap:
-    """Learns from every frame. Device times [us] unwrapped; host times [s] of a clock that is never set.
+    """Clock map that every frame updates; device times [us] are unwrapped, host times [s] monotonic.
 
     Args:
-        window: what is further back is forgotten [s].
-        most_drift: no clock drifts faster; a quartz is within 1e-4.
+        window: length of the history that is used [s].
+        most_drift: largest possible drift; that of a quartz is within 1e-4.
 
     Attributes:
-        drift: of the device's clock against the host's, positive where the device's is slow; 0 until it is known.
-        leaps: how often a clock was set.
+        drift: drift of the device's clock relative to the host's, positive if the device's is slow; 0 until known.
+        leaps: number of times that a clock was set.
     """
 
     def __init__(self, window: float = 20.0, most_drift: float = 1e-3) -> None:
@@ -48,7 +48,7 @@ class ClockMap:
         self.forget()
 
     def forget(self) -> None:
-        """The device began anew."""
+        """Start over after a restart of the device."""
         self._points.clear()
         self._origin: int | None = None
         self._offset = 0.0
@@ -56,11 +56,11 @@ class ClockMap:
 
     @property
     def known(self) -> bool:
-        """Whether any frame was heard."""
+        """Whether any frame has arrived."""
         return self._origin is not None
 
     def received(self, device: int, host: float) -> None:
-        """A frame of a device time came at a host time."""
+        """Process a frame with a device time that arrived at a host time."""
         if self._origin is not None and host - self.host_time(device) < -_LEAP:
             self.leaps += 1
             self.forget()
@@ -71,19 +71,19 @@ class ClockMap:
         point = (t, host - t)
         if self._points and t < (_bucket(self._points[-1][0]) + 1) * _BUCKET:
             if point[1] >= self._points[-1][1] or _bucket(t) != _bucket(self._points[-1][0]):
-                return  # not the least delayed of its stretch, or late
+                return  # not the least delayed of its interval, or late
             self._points[-1] = point
         else:
             self._points.append(point)
         self._fit()
 
     def host_time(self, device: int) -> float:
-        """When it was ``device`` [us] there, by the host's clock [s]; only once `known`."""
+        """Return the host time [s] of a device time [us]; only valid if `known`."""
         t = (device - (self._origin or 0)) / MICROSECONDS
         return self._offset + (1.0 + self.drift) * t
 
     def device_time(self, host: float) -> int:
-        """What the device's clock shows [us] at a host time [s]; only once `known`."""
+        """Return the device time [us] at a host time [s]; only valid if `known`."""
         return (self._origin or 0) + round((host - self._offset) / (1.0 + self.drift) * MICROSECONDS)
 
     def _fit(self) -> None:
@@ -101,7 +101,7 @@ def _bucket(t: float) -> int:
 
 
 def _slope_below(points: list[Point]) -> float:
-    """Of the lower convex hull's edge under the points' mean; points from left to right, two at least."""
+    """Return the slope of the lower convex hull's edge below the mean of at least two points, from left to right."""
     hull: list[Point] = []
     for point in points:
         while len(hull) > 1 and not _turns_left(hull[-2], hull[-1], point):

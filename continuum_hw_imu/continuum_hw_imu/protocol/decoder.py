@@ -1,7 +1,7 @@
-"""From bytes in pieces of any size to frames. Never raises, and keeps no more than one frame's bytes.
+"""Decode frames from bytes in pieces of any size. The decoder never raises, and stores at most one frame's bytes.
 
-Whatever stands between two zeros is a frame or counts as one error; the next zero starts afresh, so garbage costs the
-frames that it touches and no others.
+The bytes between two zeros are a frame or count as one error; the next zero resynchronises, so that garbage affects
+only the frames that it touches.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from continuum_hw_imu.protocol.messages import OF_DEVICE, OF_HOST, Message, Payl
 
 
 class Garbage(StrEnum):
-    """Why bytes between two zeros were no frame."""
+    """Reason why the bytes between two zeros are not a frame."""
 
     TOO_LONG = "too long"
     TOO_SHORT = "too short"
@@ -28,16 +28,16 @@ class Garbage(StrEnum):
 
 
 class Decoder:
-    """One end's ear.
+    """Decoder of one end of the line.
 
     Args:
-        types: the messages that this end understands.
+        types: the message types that this end receives.
 
     Attributes:
         good: number of frames so far.
-        errors: how often each kind of garbage came so far.
-        waiting: number of bytes that are kept until a zero comes.
-        other_version: the last version of a sound frame that was not this one's; None before any.
+        errors: number of errors so far, by kind of garbage.
+        waiting: number of bytes that are stored until a zero arrives.
+        other_version: version of the last valid frame with another protocol version; None before the first.
     """
 
     def __init__(self, types: Iterable[type[Message]]) -> None:
@@ -50,12 +50,12 @@ class Decoder:
 
     @classmethod
     def of_host(cls) -> Decoder:
-        """What a host listens with."""
+        """Return the decoder of a host."""
         return cls(OF_DEVICE)
 
     @classmethod
     def of_device(cls) -> Decoder:
-        """What a device listens with."""
+        """Return the decoder of a device."""
         return cls(OF_HOST)
 
     @property
@@ -64,15 +64,15 @@ class Decoder:
 
     @property
     def refused(self) -> int:
-        """All errors together."""
+        """Total number of errors."""
         return self.errors.total()
 
     def forget(self) -> None:
-        """Drop what is waiting: the line was cut."""
+        """Drop stored bytes after the line was cut."""
         self._kept, self._skipping = b"", False
 
     def feed(self, data: bytes) -> list[Frame]:
-        """The frames that ``data`` completes."""
+        """Return the frames that ``data`` completes."""
         *whole, rest = (self._kept + data).split(b"\0")
         self._kept = b""
         frames = []
@@ -85,7 +85,7 @@ class Decoder:
         return frames
 
     def _keep(self, stretch: bytes) -> None:
-        """Keep a stretch that goes on with the next bytes, unless it is too long already."""
+        """Store an incomplete stretch, unless it is too long already."""
         if self._skipping:
             return
         if len(stretch) > LONGEST_CODED:
@@ -95,7 +95,7 @@ class Decoder:
             self._kept = stretch
 
     def _read(self, stretch: bytes) -> Frame | None:
-        """The frame of a whole stretch between two zeros."""
+        """Return the frame in a complete stretch between two zeros; count an error and return None otherwise."""
         if not stretch:
             return None  # two zeros in a row
         found = self._frame(stretch)

@@ -1,30 +1,30 @@
-"""The device's clock of 32 bits [us], which begins anew every 71.6 minutes, as one that does not."""
+"""Unwrap the device's 32-bit clock [us], which wraps around every 71.6 minutes."""
 
 from __future__ import annotations
 
 from continuum_hw_imu.protocol.frame import WRAP_TIME
 
 MICROSECONDS = 1e6
-"""In a second."""
+"""Microseconds in a second."""
 
 
 def signed_difference(later: int, earlier: int) -> int:
-    """How much later [us] one reading of the clock is than another, of those within half a turn of 71.6 minutes."""
+    """Return the difference [us] of two readings that are less than half a period of 71.6 minutes apart."""
     return (later - earlier + WRAP_TIME // 2) % WRAP_TIME - WRAP_TIME // 2
 
 
 class DeviceTime:
-    """Follows one device's clock. A reading up to 35 minutes before the newest is taken as of before, not of a turn."""
+    """Unwrapped clock of one device. A reading up to 35 minutes before the newest counts as earlier, not as a wrap."""
 
     def __init__(self) -> None:
         self._newest: int | None = None
 
     def forget(self) -> None:
-        """The device began anew."""
+        """Start over after a restart of the device."""
         self._newest = None
 
     def unwrapped(self, time: int) -> int:
-        """The time [us] since the turn of the clock in which the first reading was."""
+        """Return the time [us] since the last wrap of the clock before the first reading."""
         if self._newest is None:
             self._newest = time
         whole = self._newest + signed_difference(time, self._newest % WRAP_TIME)

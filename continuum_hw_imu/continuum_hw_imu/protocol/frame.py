@@ -1,8 +1,8 @@
-"""One frame: who sent what, as which in a row, and when; and how it stands on the line.
+"""One frame: a message with its sequence number and time, and its layout on the line.
 
     00  COBS( version u8 | type u8 | sequence u16 | time u32 [us] | payload | CRC-32 )  00
 
-All numbers are little-endian. The zero in front parts a frame from noise on an idle line.
+All numbers are little-endian. The leading zero separates a frame from noise on an idle line.
 """
 
 from __future__ import annotations
@@ -15,15 +15,15 @@ from continuum_hw_imu.protocol import checksum, cobs
 from continuum_hw_imu.protocol.messages import Message
 
 VERSION = 1
-"""Of the protocol; a frame of another is told as such, and not read."""
+"""Version of the protocol; frames of another version are reported and not read."""
 
 HEADER = struct.Struct("<BBHI")
 LONGEST_BODY = 254
-"""[bytes], so that COBS adds one byte and no more."""
+"""Longest payload [bytes], so that COBS adds only one byte."""
 
 LONGEST_PAYLOAD = LONGEST_BODY - HEADER.size - checksum.SIZE
 LONGEST_CODED = LONGEST_BODY + 1
-"""Bytes between two zeros."""
+"""Most bytes between two zeros."""
 
 WRAP_SEQUENCE = 1 << 16
 WRAP_TIME = 1 << 32
@@ -31,12 +31,12 @@ WRAP_TIME = 1 << 32
 
 @dataclass(frozen=True)
 class Frame:
-    """What one end says at one instant.
+    """A message of one end at one instant.
 
     Attributes:
-        sequence: counts the sender's frames, of all types together, modulo 2^16.
-        time: the sender's clock [us] modulo 2^32: of what was measured, or else of sending.
-        message: of one of the types in `messages`.
+        sequence: count of the sender's frames of all types, modulo 2^16.
+        time: the sender's clock [us] modulo 2^32 at the measurement, or for other messages at the transmission.
+        message: message of one of the types in `messages`.
     """
 
     sequence: int
@@ -44,10 +44,10 @@ class Frame:
     message: Message
 
     def encode(self) -> bytes:
-        """All bytes on the line, both zeros included.
+        """Return all bytes on the line, including both zeros.
 
         Raises:
-            InvalidValueError: the message holds what its fields on the line cannot.
+            InvalidValueError: a value of the message exceeds its field on the line.
         """
         payload = self.message.encode()
         if len(payload) > LONGEST_PAYLOAD:
@@ -57,14 +57,14 @@ class Frame:
 
 
 class FrameWriter:
-    """Numbers what one end sends."""
+    """Writer of one end, which numbers its frames."""
 
     def __init__(self) -> None:
         self.sequence = 0
-        """Of the next frame."""
+        """Sequence number of the next frame."""
 
     def write(self, message: Message, time: int) -> bytes:
-        """The bytes of the next frame; ``time`` of the sender's clock [us]."""
+        """Return the bytes of the next frame with a ``time`` of the sender's clock [us]."""
         coded = Frame(self.sequence, time, message).encode()
         self.sequence = (self.sequence + 1) % WRAP_SEQUENCE
         return coded

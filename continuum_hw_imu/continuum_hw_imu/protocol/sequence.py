@@ -1,4 +1,4 @@
-"""Which frames did not come, came twice or too late, told from their numbers."""
+"""Detect lost, repeated and late frames from their sequence numbers."""
 
 from __future__ import annotations
 
@@ -7,42 +7,42 @@ from enum import StrEnum
 from continuum_hw_imu.protocol.frame import WRAP_SEQUENCE
 
 _REMEMBERED = 256
-"""Numbers behind the newest of which it is known whether they came."""
+"""Number of past sequence numbers whose arrival is remembered."""
 
 _LARGEST_GAP = 4096
-"""Numbers ahead that can be losses; a larger leap is a sender that began anew."""
+"""Largest jump that can be a loss; a larger one means that the sender restarted."""
 
 
 class Arrival(StrEnum):
-    """What a number says of its frame."""
+    """Classification of a frame by its number."""
 
     NEW = "new"
     LATE = "late"
-    """A later one came before it."""
+    """A later frame arrived before it."""
     REPEATED = "repeated"
 
 
 class SequenceTracker:
-    """Follows the numbers of one sender.
+    """Tracks the sequence numbers of one sender.
 
     Attributes:
-        lost: frames that never came, as far as is known.
-        late, repeated: frames of these kinds.
+        lost: number of frames that have not arrived so far.
+        late, repeated: number of late and of repeated frames.
     """
 
     def __init__(self) -> None:
         self._newest: int | None = None
-        self._missing = 0  # bit k: newest - k has not come
+        self._missing = 0  # bit k: number newest - k has not arrived
         self.lost = 0
         self.late = 0
         self.repeated = 0
 
     def forget(self) -> None:
-        """The sender begins anew, or the line was cut: the next number is as good as any."""
+        """Accept any next number, after a restart of the sender or a cut of the line."""
         self._newest = None
 
     def take(self, sequence: int) -> Arrival:
-        """Note a frame's number."""
+        """Record a frame's number and return its classification."""
         if self._newest is None:
             self._begin(sequence)
             return Arrival.NEW
@@ -61,7 +61,7 @@ class SequenceTracker:
 
     def _advance(self, sequence: int, ahead: int) -> None:
         self.lost += ahead - 1
-        gap = (1 << min(ahead, _REMEMBERED)) - 2  # all between, not the one that came
+        gap = (1 << min(ahead, _REMEMBERED)) - 2  # all numbers in between, without the one that arrived
         self._missing = (self._missing << min(ahead, _REMEMBERED) | gap) & ((1 << _REMEMBERED) - 1)
         self._newest = sequence
 

@@ -1,1 +1,1 @@
-"""What runs in the bench controller, in its reference implementation; free of ROS, ports and clocks."""
+"""Reference implementation of the bench controller; independent of ROS, ports and clocks."""

@@ -1,6 +1,6 @@
-"""The bench controller's side of the protocol: bytes of the host in, tensions and answers out.
+"""The bench controller's side of the protocol: bytes from the host in, tensions and answers out.
 
-What a firmware has to do, without its hardware and its clock: whoever runs it gives bytes and times.
+It specifies the behaviour of a firmware, without hardware and clock: its caller supplies bytes and times.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ from continuum_hw_imu.receiver.fault_board import FaultBoard
 from continuum_hw_imu.receiver.safety_guard import SafetyGuard
 
 STATUS_PERIOD = 100_000
-"""Between two `Status` at most [us]."""
+"""Longest time between two `Status` messages [us]."""
 
 _WRAP_COUNT = 1 << 16
 
 
 @dataclass(frozen=True)
 class _Condition:
-    """What a `Status` is sent at once for when it changes."""
+    """The values whose change triggers a `Status` at once."""
 
     state: int
     cause: int
@@ -53,17 +53,17 @@ class _Condition:
 
 
 class BenchController:
-    """Times [us] are of the device's clock, unwrapped.
+    """Bench controller; times [us] are those of the device's clock, unwrapped.
 
     Args:
-        hello: who the device is.
+        hello: identification of the device.
 
     Attributes:
-        guard: the rules of safety.
-        faults: what is wrong.
-        batteries: charge of each sensor [%], None where it is not known.
-        arrivals: numbers of the host's frames.
-        decoder: its ear.
+        guard: the safety rules.
+        faults: the faults of the device.
+        batteries: charge of each sensor [%], None where it is unknown.
+        arrivals: tracker of the host's frame numbers.
+        decoder: decoder of the host's frames.
     """
 
     def __init__(self, hello: Hello) -> None:
@@ -77,17 +77,17 @@ class BenchController:
         self._reported_at = 0
 
     def connect(self) -> list[Message]:
-        """A host has opened the port; what it is told first."""
+        """Return the first messages to a host that has opened the port."""
         self._forget_line()
         return [self._hello]
 
     def disconnect(self) -> None:
-        """The host's end of the port is closed, or the cable is out."""
+        """React to the closing of the port by the host, or to the unplugged cable."""
         self._forget_line()
         self.guard.lose_link()
 
     def hear(self, data: bytes, now: int) -> list[Message]:
-        """Obey bytes of the host, if they are any frames; the answers."""
+        """Carry out the requests in bytes from the host, and return the answers."""
         answers: list[Message] = []
         for frame in self.decoder.feed(data):
             answer = self._obey(frame, now)
@@ -96,7 +96,7 @@ class BenchController:
         return answers
 
     def move_on(self, now: int, duration: float) -> Interval:
-        """The set points from ``now`` on for a ``duration`` [s], which then are in force."""
+        """Advance the set points by a ``duration`` [s] from ``now`` [us], and return their interval."""
         interval = self.guard.move_on(now, duration)
         cause = self.guard.cause
         self.faults.put(cause is Cause.COMMANDS_STOPPED and self.guard.abandoned, FaultCode.COMMANDS_STOPPED)
@@ -104,7 +104,7 @@ class BenchController:
         return interval
 
     def news(self, now: int) -> list[Message]:
-        """Faults that began, and a `Status` where one is due."""
+        """Return new faults, and a `Status` if one is due."""
         messages: list[Message] = [*self.faults.take_unreported()]
         condition = _Condition(self.guard.state, self.guard.cause, self.guard.claimed, self.faults.bits)
         if condition != self._reported or now - self._reported_at >= STATUS_PERIOD:
@@ -113,13 +113,13 @@ class BenchController:
         return messages
 
     def status(self) -> Status:
-        """As it is now."""
+        """Return the present status."""
         good, refused = (count % _WRAP_COUNT for count in (self.decoder.good, self.decoder.refused))
         guard = self.guard
         return Status(guard.state, guard.cause, guard.claimed, self.faults.bits, good, refused, tuple(self.batteries))
 
     def tension_frame(self, measured: Sequence[float | None]) -> TensionFrame:
-        """Of measured tensions (n_cables,) [N]."""
+        """Return the tension frame with measured tensions (n_cables,) [N]."""
         return TensionFrame(tuple(self._in_force().tolist()), tuple(measured))
 
     def _in_force(self) -> Array:
@@ -130,15 +130,15 @@ class BenchController:
         self.arrivals.forget()
 
     def _obey(self, frame: Frame, now: int) -> Message | None:
-        """Carry out what a frame asks for; the answer, if there is one."""
+        """Carry out the request in a frame, and return the answer if there is one."""
         request = frame.message
         if isinstance(request, HelloRequest):
-            self.arrivals.forget()  # a host that begins also counts anew
+            self.arrivals.forget()  # a host that starts also restarts its count
             self.arrivals.take(frame.sequence)
             return self._hello
         arrival = self.arrivals.take(frame.sequence)
         if isinstance(request, Stop):
-            arrival = Arrival.NEW  # whenever it comes, and however often
+            arrival = Arrival.NEW  # valid at any time and any number of times
         if arrival is Arrival.REPEATED:
             return None
         if arrival is Arrival.LATE:

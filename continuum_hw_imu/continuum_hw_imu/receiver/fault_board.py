@@ -1,4 +1,4 @@
-"""What is wrong at the device now, and what began to be wrong since it was last asked."""
+"""Active faults of the device, and faults that started since the last query."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from continuum_hw_imu.protocol.messages import Fault, FaultCode
 
 
 class FaultBoard:
-    """Nothing is wrong at first."""
+    """Board of faults, initially without any."""
 
     def __init__(self) -> None:
         self._holding: set[Fault] = set()
         self._unreported: list[Fault] = []
 
     def put(self, holds: bool, code: FaultCode, subject: int = 0) -> None:
-        """Say whether a fault holds."""
+        """Set whether a fault is active."""
         fault = Fault(code, subject)
         if not holds:
             self._holding.discard(fault)
@@ -23,10 +23,10 @@ class FaultBoard:
 
     @property
     def bits(self) -> int:
-        """As in `Status.faults`."""
+        """Return the active faults as in `Status.faults`."""
         return sum({1 << fault.code for fault in self._holding})
 
     def take_unreported(self) -> list[Fault]:
-        """What began since the last call, oldest first."""
+        """Return the faults that started since the last call, oldest first."""
         unreported, self._unreported = self._unreported, []
         return unreported

@@ -1,14 +1,15 @@
-"""The rules of safety at the bench: who may pull, how much, how fast, and when the cables are let go.
+"""The safety rules of the bench: who may pull, how much, how fast, and when the cables are released.
 
-How tensions follow what is asked is `TensionLimiter`'s, here as in the simulated arm. Here it is decided what counts:
+As in the simulated arm, `TensionLimiter` determines how tensions follow the set points. This module decides which
+requests are accepted:
 
-- one commander at a time: whoever claims, while nobody commands and all is slack;
-- a set point tells on which instant of this clock it was decided; too long ago, or before the claim or the last stop,
-  it is refused, and so is one that a later one has overtaken;
-- the claim ends when nothing comes from the commander, when the link is lost, or when it is given back;
-- a stop needs no claim, and stays.
+- There is one commander at a time: the first to claim while there is no commander and all cables are slack.
+- A set point contains the time of its decision by this clock. It is refused if that is too long ago, before the claim,
+  or before the last stop, or if a later set point has arrived earlier.
+- The claim ends when the commander is silent, when the link is lost, or when it is given back.
+- A stop needs no claim, and is latched.
 
-Times [us] are of the device's clock, unwrapped.
+Times [us] are those of the device's clock, unwrapped.
 """
 
 from __future__ import annotations
@@ -28,12 +29,12 @@ from continuum_hw_imu.protocol.messages import Cause, GuardState, ReceiverLimits
 
 @dataclass
 class _Claim:
-    """Of the one commander.
+    """Claim of the commander.
 
     Attributes:
-        token: its.
-        alive: when it was last heard [us].
-        sequence: of its last set point that counted; None before any.
+        token: token of the commander.
+        alive: time of its last message [us].
+        sequence: sequence number of its last accepted set point; None before the first.
     """
 
     token: int
@@ -42,15 +43,15 @@ class _Claim:
 
 
 class SafetyGuard:
-    """Starts slack and unclaimed.
+    """Safety guard, initially slack and unclaimed.
 
     Args:
-        limits: that are kept.
+        limits: limits that the guard enforces.
         n_cables: number of cables.
 
     Attributes:
-        cause: why the cables were let go the last time.
-        stopped: until it is reset.
+        cause: cause of the last release of the cables.
+        stopped: whether a stop is latched.
     """
 
     def __init__(self, limits: ReceiverLimits, n_cables: int) -> None:
@@ -59,13 +60,13 @@ class SafetyGuard:
         bounds = TensionLimits(limits.max_tension, limits.max_rate, limits.command_timeout, limits.slack_time)
         self._limiter = TensionLimiter(bounds, n_cables)
         self._claim: _Claim | None = None
-        self._floor = 0  # what was decided before counts no more [us]
+        self._floor = 0  # earlier decisions are refused [us]
         self.cause = Cause.START
         self.stopped = False
 
     @property
     def set_points(self) -> Array:
-        """That the actuators follow now, (n_cables,) [N]."""
+        """Current set points of the actuators, (n_cables,) [N]."""
         return self._limiter.tension
 
     @property
@@ -75,7 +76,7 @@ class SafetyGuard:
 
     @property
     def state(self) -> GuardState:
-        """In the protocol's terms."""
+        """State as defined by the protocol."""
         if self.stopped:
             return GuardState.STOPPED
         if not self._limiter.tight:
@@ -84,7 +85,7 @@ class SafetyGuard:
 
     @property
     def abandoned(self) -> bool:
-        """Tight cables were let go, and no set point came since."""
+        """Whether tight cables were released and no set point has arrived since."""
         return self._limiter.abandoned
 
     def claim(self, token: int, now: int) -> Result:
@@ -97,24 +98,24 @@ class SafetyGuard:
                 self._let_go(Cause.CLAIMED_AGAIN)
             return Result.NOT_SLACK
         if self._claim is not None and self._claim.sequence is None:
-            self._claim.alive = now  # the same request once more: what was decided since the first one still counts
+            self._claim.alive = now  # a repeated request: decisions since the first one remain valid
         else:
             self._claim, self._floor = _Claim(token, now), now
         return Result.DONE
 
     def release(self, token: int, now: int) -> Result:
-        """End the sender's claim; the cables are let go."""
+        """End the sender's claim and release the cables."""
         if not self._hears_commander(token, now):
             return Result.NOT_COMMANDER
         self._end_claim(Cause.RELEASED)
         return Result.DONE
 
     def heartbeat(self, token: int, now: int) -> Result:
-        """The sender lives."""
+        """Record a sign of life of the sender."""
         return Result.DONE if self._hears_commander(token, now) else Result.NOT_COMMANDER
 
     def set_tension(self, token: int, sequence: int, as_of: int, wanted: Sequence[float], now: int) -> Result:
-        """Set points [N] of a frame of this number, decided at ``as_of`` [us] modulo 2^32."""
+        """Accept or refuse set points [N] of the frame ``sequence``, decided at ``as_of`` [us] modulo 2^32."""
         claim = self._hears_commander(token, now)
         if claim is None:
             return Result.NOT_COMMANDER
@@ -133,20 +134,20 @@ class SafetyGuard:
         return Result.LIMITED if np.any(tensions > self.limits.max_tension) else Result.DONE
 
     def let_go(self, token: int, now: int) -> Result:
-        """Slack at once; later set points pull again."""
+        """Make the cables slack at once; later set points pull again."""
         if not self._hears_commander(token, now):
             return Result.NOT_COMMANDER
         self._drop(Cause.RELEASED, now)
         return Result.DONE
 
     def stop(self, now: int) -> Result:
-        """Slack at once, and no set points until a reset."""
+        """Make the cables slack at once, and refuse set points until a reset."""
         self._drop(Cause.STOP, now)
         self.stopped = True
         return Result.DONE
 
     def reset_stop(self, token: int, as_of: int, now: int) -> Result:
-        """Take set points again, of those decided from now on. Not on a word from before the stop."""
+        """Accept set points that are decided from now on; refuse a reset that was decided before the stop."""
         if not self._hears_commander(token, now):
             return Result.NOT_COMMANDER
         if not self._counts(now + signed_difference(as_of, now % WRAP_TIME), now):
@@ -155,11 +156,11 @@ class SafetyGuard:
         return Result.DONE
 
     def lose_link(self) -> None:
-        """Nobody is at the other end of the line."""
+        """React to the loss of the link."""
         self._end_claim(Cause.LINK_LOST)
 
     def move_on(self, now: int, duration: float) -> Interval:
-        """The set points from ``now`` on for a ``duration`` [s], which then are in force."""
+        """Advance the set points by a ``duration`` [s] from ``now`` [us], and return their interval."""
         claim = self._claim
         if claim is not None and now - claim.alive > self.limits.heartbeat_timeout * MICROSECONDS:
             self._end_claim(Cause.HEARTBEATS_STOPPED)
@@ -170,14 +171,14 @@ class SafetyGuard:
         return interval
 
     def _hears_commander(self, token: int, now: int) -> _Claim | None:
-        """The claim, if it is of this token; it is alive, then."""
+        """Return the claim if it has this token, and record the sign of life."""
         if self._claim is None or self._claim.token != token:
             return None
         self._claim.alive = now
         return self._claim
 
     def _counts(self, decided: int, now: int) -> bool:
-        """Whether what was decided then [us] is neither too old nor from before the claim or the last stop."""
+        """Return whether a decision time [us] is recent enough and not before the claim or the last stop."""
         return max(self._floor, now - self.limits.command_timeout * MICROSECONDS) <= decided <= now
 
     def _end_claim(self, cause: Cause) -> None:

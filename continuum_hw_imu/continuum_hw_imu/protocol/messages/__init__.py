@@ -1,4 +1,4 @@
-"""The messages of the protocol, one dataclass each, in SI units; what each type's number means."""
+"""The messages of the protocol, one dataclass each, in SI units, and the number of each type."""
 
 from continuum_hw_imu.protocol.messages.ack import Ack, Result
 from continuum_hw_imu.protocol.messages.base import Message, PayloadFault

@@ -1,4 +1,4 @@
-"""The answer to a request: which one, and what became of it.
+"""The answer to a request: its identity and its result.
 
 sequence u16 | type u8 | result u8
 """
@@ -16,25 +16,25 @@ _FORM = struct.Struct("<HBB")
 
 
 class Result(IntEnum):
-    """What became of a request."""
+    """Result of a request."""
 
     DONE = 0
     LIMITED = 1
-    """Done, with tensions above the receiver's limit taken for the limit."""
+    """Done, with tensions clipped to the receiver's limit."""
     NOT_COMMANDER = 2
     """The token is not that of the claim, or there is no claim."""
     BUSY = 3
-    """Another one commands."""
+    """Another host commands."""
     NOT_SLACK = 4
-    """Cables are still let go; claim, or reset, again when they are slack."""
+    """Cables are still being released; claim or reset again when they are slack."""
     STALE = 5
-    """What the command was decided on is too old, or older than the claim or the last stop."""
+    """The command was decided too long ago, or before the claim or the last stop."""
     OUT_OF_ORDER = 6
-    """A later command was there before."""
+    """A later command arrived earlier."""
     STOPPED = 7
-    """Stopped, until it is reset."""
+    """Stopped until a reset."""
     REFUSED = 8
-    """Not one tension for each cable, or one that is no number >= 0."""
+    """The number of tensions differs from that of the cables, or one is not a number >= 0."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,9 @@ class Ack:
     """One answer.
 
     Attributes:
-        sequence: of the frame that is answered.
-        request: the type of its message.
-        result: what became of it.
+        sequence: sequence number of the answered frame.
+        request: type of its message.
+        result: result of the request.
     """
 
     TYPE: ClassVar[int] = 0x04

@@ -1,4 +1,4 @@
-"""What all messages have: a type's number, and a payload that they are written to and read from."""
+"""Interface of all messages: the number of the type, and encoding to and decoding from a payload."""
 
 from __future__ import annotations
 
@@ -10,39 +10,39 @@ from continuum.errors import ContinuumError, InvalidValueError
 
 
 class PayloadFault(ContinuumError):
-    """Bytes that are no payload of the type. The decoder counts it; it goes no further."""
+    """Bytes are not a payload of the type. The decoder counts and handles this error."""
 
 
 class Message(Protocol):
-    """One type of message. Frozen dataclasses, equal when their contents are."""
+    """One type of message, a frozen dataclass with equality by content."""
 
     TYPE: ClassVar[int]
 
     @abstractmethod
     def encode(self) -> bytes:
-        """The payload.
+        """Return the payload.
 
         Raises:
-            InvalidValueError: a value that its field on the line cannot hold.
+            InvalidValueError: a value exceeds its field on the line.
         """
         ...
 
     @classmethod
     @abstractmethod
     def decode(cls, payload: bytes) -> Self:
-        """The message of a payload.
+        """Return the message in a payload.
 
         Raises:
-            PayloadFault: it is none of this type.
+            PayloadFault: it is not a payload of this type.
         """
         ...
 
 
 def of_size(payload: bytes, size: int) -> bytes:
-    """``payload``, which must be ``size`` bytes long.
+    """Return ``payload`` after checking that it has ``size`` bytes.
 
     Raises:
-        PayloadFault: it is not.
+        PayloadFault: it has another size.
     """
     if len(payload) != size:
         raise PayloadFault(f"{len(payload)} bytes; allowed: {size}")
@@ -50,10 +50,10 @@ def of_size(payload: bytes, size: int) -> bytes:
 
 
 def member[E: IntEnum](kind: type[E], number: int) -> E:
-    """The member of an enumeration with this number.
+    """Return the member of an enumeration with this number.
 
     Raises:
-        PayloadFault: it has none.
+        PayloadFault: no member has this number.
     """
     try:
         return kind(number)
@@ -62,21 +62,21 @@ def member[E: IntEnum](kind: type[E], number: int) -> E:
 
 
 def in_steps(name: str, value: float, step: float, most: int, least: int = 0, unit: str = "") -> int:
-    """``value`` as a whole number of steps, rounded.
+    """Return ``value`` as a whole number of steps, rounded.
 
     Raises:
-        InvalidValueError: not finite, or fewer than ``least`` or more than ``most`` of them.
+        InvalidValueError: the value is not finite, or the number is not from ``least`` to ``most``.
     """
-    if not least - 0.5 <= value / step <= most + 0.5:  # false of NaN, too
+    if not least - 0.5 <= value / step <= most + 0.5:  # also refuses NaN
         raise InvalidValueError(name, value, f"{least * step:g} to {most * step:g} {unit}".rstrip())
     return min(max(round(value / step), least), most)
 
 
 def counted(name: str, number: int, most: int, least: int = 0) -> int:
-    """``number``, which must be in a range.
+    """Return ``number`` after checking its range.
 
     Raises:
-        InvalidValueError: it is not.
+        InvalidValueError: it is out of range.
     """
     if not least <= number <= most:
         raise InvalidValueError(name, number, f"{least} to {most}")

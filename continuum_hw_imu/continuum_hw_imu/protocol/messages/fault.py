@@ -1,4 +1,4 @@
-"""Something went wrong at the device just now; told once as it begins. What still holds is in `Status`.
+"""A fault of the device, sent once when it starts. `Status` contains the active faults.
 
 code u8 | subject u8
 """
@@ -16,29 +16,29 @@ _FORM = struct.Struct("<BB")
 
 
 class FaultCode(IntEnum):
-    """What. In `Status.faults` the bit ``1 << code`` stands as long as it holds."""
+    """Kind of fault. In `Status.faults` the bit ``1 << code`` is set while it is active."""
 
     SENSOR_LOST = 0
-    """The controller has no values of a sensor; subject: its number from 1."""
+    """The controller receives no values from a sensor; subject: its number from 1."""
     BATTERY_LOW = 1
-    """Of a sensor, below 15 percent; subject: its number from 1."""
+    """The battery of a sensor is below 15 percent; subject: its number from 1."""
     COMMANDS_STOPPED = 2
-    """A cable was tight and no set point came: it is let go."""
+    """A cable was tight and no set point arrived: it is released."""
     HEARTBEATS_STOPPED = 3
-    """Nothing came from the commander: its claim has ended."""
+    """The commander was silent: its claim has ended."""
     ACTUATOR = 4
     """A cable does not follow its set point; subject: its number from 1."""
     OVERRUN = 5
-    """The controller is late with its own work."""
+    """The controller is behind schedule."""
 
 
 @dataclass(frozen=True)
 class Fault:
-    """One event.
+    """One fault.
 
     Attributes:
-        code: what.
-        subject: number of the sensor or cable from 1; 0 where it is none.
+        code: kind of fault.
+        subject: number of the sensor or cable, from 1; 0 for neither.
     """
 
     TYPE: ClassVar[int] = 0x06

@@ -1,4 +1,4 @@
-"""Tensions on the line: steps of 0.01 N in 16 bits, so that what is commanded is finite whatever the bytes."""
+"""Tensions on the line: steps of 0.01 N in 16 bits, so that every command is finite."""
 
 from __future__ import annotations
 
@@ -18,24 +18,24 @@ LARGEST = 0x7FFF
 MOST_CABLES = 8
 
 NONE_MEASURED = -0x8000
-"""In the place of a measured tension that there is none of."""
+"""Value for a missing measured tension."""
 
 
 def command_bytes(tensions: Sequence[float]) -> bytes:
-    """Set points [N], none negative, u16 each.
+    """Encode set points [N], none negative, as u16 each.
 
     Raises:
-        InvalidValueError: one that cannot be written so: negative, too large or not finite.
+        InvalidValueError: a set point is negative, too large or not finite.
     """
     steps = [in_steps("tension", value, STEP, LARGEST, unit="N") for value in tensions]
     return struct.pack(f"<{len(steps)}H", *steps)
 
 
 def commands(data: bytes) -> tuple[float, ...]:
-    """Set points [N] of their bytes.
+    """Decode set points [N].
 
     Raises:
-        PayloadFault: one is larger than any that is written.
+        PayloadFault: a set point exceeds the largest allowed one.
     """
     steps = struct.unpack(f"<{len(data) // 2}H", data)
     if max(steps) > LARGEST:
@@ -44,13 +44,13 @@ def commands(data: bytes) -> tuple[float, ...]:
 
 
 def measured_bytes(tensions: Sequence[float | None]) -> bytes:
-    """Measured tensions [N], i16 each, None where none was measured; beyond the range, its end."""
+    """Encode measured tensions [N] as i16 each, None where none was measured; clip them to the range."""
     steps = [NONE_MEASURED if value is None else round(min(max(value / STEP, -LARGEST), LARGEST)) for value in tensions]
     return struct.pack(f"<{len(steps)}h", *steps)
 
 
 def measured(data: bytes) -> tuple[float | None, ...]:
-    """Measured tensions [N] of their bytes, None where none was measured."""
+    """Decode measured tensions [N], None where none was measured."""
     return tuple(
         None if steps == NONE_MEASURED else steps / STEPS_IN_A_NEWTON
         for steps in struct.unpack(f"<{len(data) // 2}h", data)

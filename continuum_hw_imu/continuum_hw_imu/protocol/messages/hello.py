@@ -1,4 +1,4 @@
-"""Who the device is: sensors and where they sit, cables, and the limits that its receiver keeps.
+"""Identification of the device: its sensors and their places, its cables, and the limits of its receiver.
 
 boot u32 | sample rate u16 [0.01 Hz] | max tension u16 [0.01 N] | max rate u16 [0.1 N/s]
 | command timeout, heartbeat timeout, slack time u16 [ms] | cables u8 | sensors u8
@@ -20,21 +20,21 @@ _FORM = struct.Struct("<I6H2B")
 _U16 = 0xFFFF
 LONGEST_FIRMWARE = 24
 LONGEST_NAME = 12
-"""Of a sensor; a device address without its colons fits."""
+"""Longest name of a sensor; a device address without colons fits."""
 
 PRINTABLE = range(0x20, 0x7F)
 
 
 @dataclass(frozen=True)
 class ReceiverLimits:
-    """What the receiver keeps, whatever is asked of it.
+    """Limits that the receiver enforces for all commands.
 
     Attributes:
-        max_tension: of each cable [N].
-        max_rate: of commanded changes [N/s].
-        command_timeout: age up to which a set point is accepted, and then holds [s].
+        max_tension: largest tension of each cable [N].
+        max_rate: largest rate of commanded changes [N/s].
+        command_timeout: largest age at which a set point is accepted, and time for which it then holds [s].
         heartbeat_timeout: silence of the commander after which its claim ends [s].
-        slack_time: time in which cables that are let go fall to slack [s].
+        slack_time: time in which the tension of released cables falls to zero [s].
     """
 
     max_tension: float = 40.0
@@ -45,16 +45,16 @@ class ReceiverLimits:
 
     @property
     def slack_after(self) -> float:
-        """Longest time from the commander's last word to slack [s]."""
+        """Longest time from the commander's last message to slack cables [s]."""
         return max(self.command_timeout, self.heartbeat_timeout) + self.slack_time
 
 
 @dataclass(frozen=True)
 class SensorPlace:
-    """A sensor.
+    """Place of a sensor.
 
     Attributes:
-        link: that it sits on, from 1 at the base; the joint of this number moves it against the link before.
+        link: number of its link, from 1 at the base; the joint of this number moves it relative to the previous link.
         name: printable ASCII.
     """
 
@@ -64,15 +64,15 @@ class SensorPlace:
 
 @dataclass(frozen=True)
 class Hello:
-    """Sent at the start, when the port is opened, and on request.
+    """Identification that is sent at the start, when the port is opened, and on request.
 
     Attributes:
-        boot: drawn anew at each start of the device, whose clock and counters then begin anew.
+        boot: random number of each start of the device, which also restarts its clock and counters.
         firmware: name and version.
-        sample_rate: of the sensors [Hz].
-        sensors: in the order of the frames.
-        n_cables: number of cables; the first one runs at phi = 0, towards which positive bends go.
-        limits: of the receiver.
+        sample_rate: sample rate of the sensors [Hz].
+        sensors: places of the sensors, in the order of the frames.
+        n_cables: number of cables; the first one runs at phi = 0, the direction of positive bends.
+        limits: limits of the receiver.
     """
 
     TYPE: ClassVar[int] = 0x01
@@ -134,7 +134,7 @@ def _text_bytes(name: str, text: str, longest: int) -> bytes:
 
 
 def _text(payload: bytes, at: int, longest: int) -> tuple[str, int]:
-    """The text at a place, and the place behind it."""
+    """Return the text at a position, and the position after it."""
     size = payload[at] if at < len(payload) else longest + 1
     data = payload[at + 1 : at + 1 + size]
     if size > longest or len(data) != size or any(letter not in PRINTABLE for letter in data):

@@ -2,9 +2,9 @@
 
     sample u16 | per sensor: angular rate x, y, z i16 | specific force x, y, z i16 | flags u8
 
-The values are means over the interval since the sample before, whose end is the frame's time: a sensor that integrates
-inside (Xsens DOT: at 800 Hz) gives them as its increments by the interval. So their running sum times the interval is
-the angle, however fast it went. Axes are the sensor's own.
+The values are means over the interval since the previous sample, which ends at the frame's time. A sensor that
+integrates internally (Xsens DOT: at 800 Hz) gives its increments divided by the interval. The cumulative sum times the
+interval is therefore the angle, however fast the motion. Axes are those of the sensor.
 """
 
 from __future__ import annotations
@@ -20,28 +20,28 @@ from continuum.arrays import Array
 from continuum_hw_imu.protocol.messages.base import PayloadFault, counted
 
 RATE_STEP = 0.0625
-"""[deg/s]; the range of 16 bits is +-2047.9 deg/s, a sensor's +-2000 within."""
+"""Step of angular rates [deg/s]; 16 bits span +-2047.9 deg/s, which includes a sensor's range of +-2000 deg/s."""
 
 FORCE_STEP = 0.005
-"""[m/s^2]; the range of 16 bits is +-163.8 m/s^2, 16.7 g."""
+"""Step of specific forces [m/s^2]; 16 bits span +-163.8 m/s^2, 16.7 g."""
 
 MOST_SENSORS = 10
 LARGEST = 0x7FFF
 
 CLIPPED_RATE = (0x01, 0x02, 0x04)
-"""Flags: the rate about x, y, z left the sensor's range within the interval."""
+"""Flags: the rate about x, y, z exceeded the sensor's range within the interval."""
 
 CLIPPED_FORCE = (0x08, 0x10, 0x20)
 CLIPPED = 0x3F
 PRESENT = 0x80
-"""Flag: the sensor's values are of this instant. Without it they are zero, and mean nothing."""
+"""Flag: the sensor's values belong to this instant. Without it they are zero and meaningless."""
 
 _SENSOR = struct.Struct("<6hB")
 _SAMPLE = struct.Struct("<H")
 
 
 class Reading(NamedTuple):
-    """One sensor's part, in steps as on the line."""
+    """Values of one sensor in steps, as on the line."""
 
     rate_x: int
     rate_y: int
@@ -54,11 +54,11 @@ class Reading(NamedTuple):
 
 @dataclass(frozen=True)
 class ImuFrame:
-    """What the sensors measured.
+    """Values of all sensors at one instant.
 
     Attributes:
-        sample: number of the instant modulo 2^16; one that is missing was never measured.
-        readings: of each sensor, in the order of `Hello.sensors`.
+        sample: number of the instant modulo 2^16; missing numbers were never measured.
+        readings: reading of each sensor, in the order of `Hello.sensors`.
     """
 
     TYPE: ClassVar[int] = 0x02
@@ -68,9 +68,9 @@ class ImuFrame:
 
     @classmethod
     def of(cls, sample: int, rates: Array, forces: Array, flags: Array) -> Self:
-        """Of angular rates (n, 3) [rad/s], specific forces (n, 3) [m/s^2] and flags (n,) of the sensors.
+        """Return the frame of angular rates (n, 3) [rad/s], specific forces (n, 3) [m/s^2] and flags (n,).
 
-        What is beyond the range becomes its end, which the flags should tell.
+        Values are clipped to the range; the flags should indicate this.
         """
         values = np.hstack([np.degrees(rates) / RATE_STEP, forces / FORCE_STEP])
         steps = np.clip(np.rint(values), -LARGEST, LARGEST).astype(int).tolist()
@@ -90,22 +90,22 @@ class ImuFrame:
 
     @property
     def angular_rates(self) -> Array:
-        """(n, 3) [rad/s]."""
+        """Angular rates (n, 3) [rad/s]."""
         return self._numbers()[:, :3] * math.radians(RATE_STEP)
 
     @property
     def specific_forces(self) -> Array:
-        """(n, 3) [m/s^2]; at rest it points up, 9.8 m/s^2 long."""
+        """Specific forces (n, 3) [m/s^2]; at rest they point up with 9.8 m/s^2."""
         return self._numbers()[:, 3:6] * FORCE_STEP
 
     @property
     def clipped(self) -> Array:
-        """Of each sensor, whether anything left its range, (n,) of bool."""
+        """Whether any value of each sensor exceeded its range, (n,) of bool."""
         return np.array([bool(reading.flags & CLIPPED) for reading in self.readings])
 
     @property
     def present(self) -> Array:
-        """Of each sensor, whether its values are of this instant, (n,) of bool."""
+        """Whether the values of each sensor belong to this instant, (n,) of bool."""
         return np.array([bool(reading.flags & PRESENT) for reading in self.readings])
 
     def _numbers(self) -> Array:

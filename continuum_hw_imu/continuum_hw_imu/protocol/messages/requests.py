@@ -1,6 +1,6 @@
-"""What the host says. All but `HelloRequest` and a good `Heartbeat` are answered by an `Ack`.
+"""Messages of the host. An `Ack` answers all of them except `HelloRequest` and a valid `Heartbeat`.
 
-A token [u32] tells commanders apart; each draws one at random, anew for every connection. One commands at a time.
+A token [u32] identifies a commander, which draws a random one for every connection. Only one commands at a time.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ class _Empty:
 
 @dataclass(frozen=True)
 class _WithToken:
-    """A request of which only its sender matters.
+    """A request that contains only the token of its sender.
 
     Attributes:
-        token: of the sender.
+        token: token of the sender.
     """
 
     token: int
@@ -48,28 +48,28 @@ class _WithToken:
 
 
 class HelloRequest(_Empty):
-    """Say who you are; answered by `Hello`."""
+    """Request the identification; answered by `Hello`."""
 
     TYPE: ClassVar[int] = 0x81
 
 
 class Claim(_WithToken):
-    """Become the commander: granted where there is none and the cables are slack.
+    """Become the commander; granted if there is none and the cables are slack.
 
-    From the commander itself it means that it has begun anew: the cables are let go first.
+    From the present commander it means that the commander has restarted: the cables are released first.
     """
 
     TYPE: ClassVar[int] = 0x82
 
 
 class Release(_WithToken):
-    """Be the commander no more; the cables are let go."""
+    """Give back the claim; the cables are released."""
 
     TYPE: ClassVar[int] = 0x83
 
 
 class Heartbeat(_WithToken):
-    """The commander lives, which every other request of it says as well. Answered only where the token is wrong."""
+    """Sign of life of the commander, like all its other requests. Answered only if the token is wrong."""
 
     TYPE: ClassVar[int] = 0x84
 
@@ -79,10 +79,10 @@ class SetTension:
     """Set points for all cables: token u32 | as of u32 [us] | set point of each cable u16 [0.01 N].
 
     Attributes:
-        token: of the commander.
+        token: token of the commander.
         as_of: the device's clock [us] modulo 2^32 when the command was decided, as far as the host knows it: the time
-            of the newest frame that had come by then, or an earlier instant. The device tells from it the command's
-            age with its own clock alone, and refuses what was decided before the claim or the last stop.
+            of the newest frame that had arrived by then, or an earlier instant. From it the device determines the
+            command's age with its clock alone, and refuses commands from before the claim or the last stop.
         tensions: (n_cables,) [N], none negative.
     """
 
@@ -107,18 +107,18 @@ class SetTension:
 
 
 class Stop(_Empty):
-    """All cables slack at once, until a reset; from anyone."""
+    """Make all cables slack at once, until a reset; accepted from any sender."""
 
     TYPE: ClassVar[int] = 0x86
 
 
 @dataclass(frozen=True)
 class ResetStop:
-    """End a stop; of the commander. Tension stays zero until a new `SetTension`.
+    """End a stop, as the commander. Tension stays zero until a new `SetTension`.
 
     Attributes:
-        token: of the commander.
-        as_of: as in `SetTension`, so that no reset ends a stop that came after it was decided.
+        token: token of the commander.
+        as_of: as in `SetTension`, so that a reset does not end a later stop.
     """
 
     TYPE: ClassVar[int] = 0x87
@@ -135,6 +135,6 @@ class ResetStop:
 
 
 class LetGo(_WithToken):
-    """All cables slack at once, as for a release test; later set points pull again."""
+    """Make all cables slack at once, as for a release test; later set points pull again."""
 
     TYPE: ClassVar[int] = 0x88

@@ -18,45 +18,45 @@ _UNKNOWN = 255
 
 
 class GuardState(IntEnum):
-    """What the receiver does with the cables."""
+    """State of the receiver."""
 
     SLACK = 0
-    """No tension, nobody's command in force."""
+    """No tension, and no command in force."""
     FOLLOWING = 1
     """Set points of the commander are in force."""
     LETTING_GO = 2
-    """On the ramp to slack."""
+    """The tension is on its ramp to zero."""
     STOPPED = 3
-    """Slack until a reset."""
+    """The cables are slack until a reset."""
 
 
 class Cause(IntEnum):
-    """Why the cables were let go the last time."""
+    """Cause of the last release of the cables."""
 
     START = 0
     RELEASED = 1
-    """The commander gave its claim back, or asked to let go."""
+    """The commander gave back its claim, or requested a release."""
     COMMANDS_STOPPED = 2
     HEARTBEATS_STOPPED = 3
     LINK_LOST = 4
     """The host's end of the port was closed, or unplugged."""
     STOP = 5
     CLAIMED_AGAIN = 6
-    """The commander claimed anew, as one does that has started again."""
+    """The commander claimed again, as after a restart."""
 
 
 @dataclass(frozen=True)
 class Status:
-    """How the device is.
+    """Status of the device.
 
     Attributes:
-        state: what it does with the cables.
-        cause: why they were let go the last time.
+        state: state of the receiver.
+        cause: cause of the last release of the cables.
         claimed: whether there is a commander.
-        faults: bits ``1 << FaultCode`` of what holds.
-        received: good frames from the host since the start, modulo 2^16.
-        refused: stretches of bytes from the host that were no good frame, modulo 2^16.
-        batteries: charge of each sensor [%], None where it is not known.
+        faults: bits ``1 << FaultCode`` of the active faults.
+        received: number of valid frames from the host since the start, modulo 2^16.
+        refused: number of invalid frames from the host, modulo 2^16.
+        batteries: charge of each sensor [%], None where it is unknown.
     """
 
     TYPE: ClassVar[int] = 0x05

@@ -1,4 +1,4 @@
-"""What the cables do: set points in force, and measured tensions. Sent with every sample of the sensors.
+"""Tensions of the cables: set points in force and measured values, sent with every sample of the sensors.
 
 set point of each cable u16 [0.01 N] | measured tension of each cable i16 [0.01 N]
 """
@@ -19,8 +19,8 @@ class TensionFrame:
     """Tensions at the frame's time.
 
     Attributes:
-        set_points: that the actuators follow now, limited and on their ramps, (n_cables,) [N].
-        measured: at the load cells, (n_cables,) [N]; None where there is no measurement.
+        set_points: current set points of the actuators, after limits and ramps, (n_cables,) [N].
+        measured: readings of the load cells, (n_cables,) [N]; None where there is no measurement.
     """
 
     TYPE: ClassVar[int] = 0x03
