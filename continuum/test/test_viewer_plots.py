@@ -11,7 +11,18 @@ from continuum.viewer.drawn_cables import drawn_cables
 from continuum.viewer.line_plot import with_cursor
 from continuum.viewer.manual_source import ManualSource
 from continuum.viewer.page import Page
-from continuum.viewer.plot_data import LENGTHS, PHI, TENSIONS, THETA, Line, Motion, PlotData, section_data, thinned
+from continuum.viewer.plot_data import (
+    LENGTHS,
+    PHI,
+    TENSIONS,
+    THETA,
+    Line,
+    Motion,
+    PlotData,
+    padded,
+    section_data,
+    thinned,
+)
 from continuum.viewer.plots import SPAN, LivePlots
 from continuum.viewer.section_angles import joints_of
 from continuum.viewer.seen import Seen
@@ -116,9 +127,17 @@ def test_thinned_lines_keep_their_extremes_and_their_time(n, seed):
     few = thinned(whole, 100)
     assert len(few.times) <= 100
     assert np.all(np.diff(few.times) >= 0.0)
-    assert few.times[0] == whole.times[0]
+    assert (few.times[0], few.times[-1]) == (whole.times[0], whole.times[-1])
     for reduce in (np.min, np.max):
         np.testing.assert_array_equal(reduce(few.values, axis=1), reduce(whole.values, axis=1))
+
+
+def test_all_plots_of_a_recording_have_the_same_time():
+    late = PlotData((Line("a", BLACK),), np.array([1.0, 2.0]), np.array([[3.0, 5.0]]))
+    for end in (1.5, 2.0, 4.0):
+        data = padded(late, end)
+        assert (data.times[0], data.times[-1]) == (0.0, end)
+        np.testing.assert_allclose(data.values[0], np.interp(data.times, late.times, late.values[0]))
 
 
 @given(st.floats(-1.0, 11.0))
@@ -126,7 +145,8 @@ def test_the_cursor_is_at_its_time_and_leaves_the_lines_as_they_are(now):
     times = np.linspace(0.0, 10.0, 21)
     line = np.sin(times)
     drawn_times, drawn_line, cursor = with_cursor(PlotData((Line("a", BLACK),), times, line[None]), now)
-    assert drawn_times[np.argmax(cursor)] == now
+    peak = np.argmax(cursor)
+    assert set(drawn_times[peak - 1 : peak + 2]) == {now}  # it is upright
     assert np.sum(cursor > 0.0) == 1
     assert np.all(np.diff(drawn_times) >= 0.0)
     np.testing.assert_allclose(drawn_line, np.interp(drawn_times, times, line))

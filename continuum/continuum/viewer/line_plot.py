@@ -23,6 +23,10 @@ _NUMBERS = 54
 _BETWEEN = 20
 """Least height from one number of that axis to the next, so that a low plot has several [pixels]."""
 
+_NUDGE = 1e-9
+"""Part of the time axis by which it is longer in every second drawing: the browser numbers an axis only if it changes,
+and may have received the plot before its panel had a width. Plots without a cursor change as time goes on."""
+
 _CURSOR = "rgb(128, 128, 128)"
 _BELOW, _ABOVE = -1.0, 2.0
 """The cursor is a line from below its axis, which reaches from 0 to 1, to above it."""
@@ -37,40 +41,43 @@ class LinePlot:
         order: place among the plots, whenever it is made.
         height: height of its area with the time axis [pixels].
         time_label: label of the time axis.
-        end: end of a time axis that begins at 0 [s]; by default, the axis fits the data.
     """
 
-    def __init__(
-        self, layout: Layout, title: str, order: float, height: int, time_label: str, end: float | None = None
-    ) -> None:
+    def __init__(self, layout: Layout, title: str, order: float, height: int, time_label: str) -> None:
         self._layout, self._title, self._order, self._height = layout, title, order, height
-        self._time_label, self._end = time_label, end
+        self._time_label = time_label
         self._made_of: tuple[object, ...] = ()
-        self._shown: tuple[PlotData, float | None] | None = None
+        self._is_nudged = False
         self.plot: viser.GuiUplotHandle | None = None
 
     def show(self, data: PlotData | None, now: float | None = None, dark: bool = False) -> None:
-        """Draw the lines, with a cursor at ``now`` [s] if given; what is drawn already is not sent again."""
+        """Draw the lines, with a cursor at ``now`` [s] if given."""
         if data is None or len(data.times) < 2:  # one point is no line, and its axes would mean nothing
             self.remove()
             return
         made_of = (data.lines, dark, now is None)
-        if self._shown is not None and self._shown[0] is data and self._shown[1] == now and made_of == self._made_of:
-            return
-        arrays = (data.times, *data.values) if now is None else with_cursor(data, now)
+        arrays = (data.times, *data.values)
+        if now is not None:
+            times, *lines = with_cursor(data, now)
+            arrays = (self._nudged(times), *lines)
         if self.plot is None or made_of != self._made_of:
             self.remove()
             self._made_of = made_of
             self.plot = self._made(arrays, data, dark, now is not None)
         else:
             self.plot.data = arrays
-        self._shown = (data, now)
 
     def remove(self) -> None:
         """Take the plot off the page; it comes back with the next data."""
         if self.plot is not None:
             self.plot.remove()
-        self.plot, self._made_of, self._shown = None, (), None
+        self.plot, self._made_of = None, ()
+
+    def _nudged(self, times: Array) -> Array:
+        self._is_nudged = not self._is_nudged
+        nudged = times.copy()
+        nudged[-1] += _NUDGE * (times[-1] - times[0]) * self._is_nudged
+        return nudged
 
     def _made(self, arrays: tuple[Array, ...], data: PlotData, dark: bool, cursor: bool) -> viser.GuiUplotHandle:
         no_points = uplot.Series_Points(show=False)
@@ -79,8 +86,6 @@ class LinePlot:
             for line in data.lines
         ]
         scales = {"x": uplot.Scale(time=False, auto=True)}
-        if self._end is not None:
-            scales["x"] = uplot.Scale(time=False, range=(0.0, self._end))
         if cursor:
             series.append(uplot.Series(label="cursor", scale="cursor", stroke=_CURSOR, width=1, points=no_points))
             scales["cursor"] = uplot.Scale(auto=False, range=(0.0, 1.0))

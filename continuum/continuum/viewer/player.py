@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from typing import Any
 
@@ -17,6 +18,9 @@ _SPEEDS = {"1/8": 0.125, "1/4": 0.25, "1/2": 0.5, "1": 1.0, "2": 2.0, "4": 4.0}
 _STEPS = {"back": -1, "forward": 1}
 _STEP = 0.01
 """Of the time slider [s]."""
+
+_DIGITS = 3
+"""Of its number, so that it can be read in full."""
 
 
 class Player:
@@ -39,10 +43,10 @@ class Player:
         self._steps = 0
         self.playing, self._said_playing = True, False
         gui = layout.server.gui
-        end = max(end, _STEP)
+        last = _STEP * max(math.ceil(round(end / _STEP, 6)), 1)
         self._button = gui.add_button("Play", hint="Key: space")
         steps = gui.add_button_group("Step", tuple(_STEPS), hint="To the sample before or after. Keys: J, L")
-        self._slider: viser.GuiSliderHandle[float] = gui.add_slider("time [s]", 0.0, end, min(_STEP, end), 0.0)
+        self._slider: viser.GuiSliderHandle[float] = gui.add_slider("time [s]", 0.0, round(last, 2), _STEP, 0.0)
         self._speed = Choice(layout, "Speed", tuple(_SPEEDS), "1")
         self._repeats: viser.GuiCheckboxHandle = gui.add_checkbox("Repeat", True)
         layout.words.update(_STEPS)
@@ -67,7 +71,7 @@ class Player:
             self._put(float(self._times[min(max(row, 0), self._times.size - 1)]))
         elif self.playing:
             end = self._end
-            if self._time >= end and self._shown >= end:
+            if self._time >= end:
                 self._put(0.0)  # it is repeated, or play was pressed at the end
             else:
                 self._put(min(self._time + passed * _SPEEDS[self._speed.value], end))
@@ -78,7 +82,7 @@ class Player:
 
     def _put(self, moment: float) -> None:
         self._time = moment
-        self._slider.value = moment  # type: ignore[misc]
+        self._slider.value = round(moment, _DIGITS)  # type: ignore[misc]
 
     def _say(self) -> None:
         """Let the button say what it does."""

@@ -92,6 +92,13 @@ def track_of(times: Array, rows: Sequence[Mapping[str, float]], wanted: Iterable
     return Track(times[whole], names, np.array([[rows[i][name] for name in names] for i in whole]))
 
 
+def padded(data: PlotData, end: float) -> PlotData:
+    """Return data from 0 to ``end`` [s], so that all plots have the same time axis; the outermost values are kept."""
+    inside = (data.times >= 0.0) & (data.times <= end)
+    times = np.unique([0.0, *data.times[inside], end])
+    return PlotData(data.lines, times, np.array([np.interp(times, data.times, line) for line in data.values]))
+
+
 def thinned(data: PlotData, most: int) -> PlotData:
     """Return data of at most ``most`` points, an even number, that keep the smallest and largest value of each stretch.
 
@@ -104,6 +111,7 @@ def thinned(data: PlotData, most: int) -> PlotData:
     middles = bounds + np.diff(np.append(bounds, n)) // 2
     extremes = [reduce.reduceat(data.values, bounds, axis=1) for reduce in (np.minimum, np.maximum)]
     times = np.stack([data.times[bounds], data.times[middles]], axis=1).ravel()
+    times[-1] = data.times[-1]
     return PlotData(data.lines, times, np.stack(extremes, axis=2).reshape(len(data.values), -1))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from continuum.arm import Arm
 from continuum.viewer.layout import Layout
-from continuum.viewer.plot_data import Motion, PlotData, section_data, thinned
+from continuum.viewer.plot_data import Motion, PlotData, padded, section_data, thinned
 from continuum.viewer.section_plots import SectionPlots
 from continuum.viewer.tracks import Track
 
@@ -32,7 +32,8 @@ class RecordedPlots:
 
     def __init__(self, layout: Layout, arm: Arm, motions: Sequence[Motion], lengths: Track, tensions: Track) -> None:
         self._motions, self._lengths, self._tensions = motions, lengths, tensions
-        self.plots = SectionPlots(layout, arm, _TIME, end=max(motion.joints.times[-1] for motion in motions))
+        self.plots = SectionPlots(layout, arm, _TIME)
+        self._end = max(float(motion.joints.times[-1]) for motion in motions)
         self._data: dict[str, dict[str, PlotData]] = {}
 
     def show(self, now: float, dark: bool = False) -> None:
@@ -42,5 +43,5 @@ class RecordedPlots:
         section = self.plots.section
         if section.name not in self._data:
             whole = section_data(section, self._motions, self._lengths, self._tensions)
-            self._data[section.name] = {title: thinned(data, _MOST) for title, data in whole.items()}
+            self._data[section.name] = {title: thinned(padded(data, self._end), _MOST) for title, data in whole.items()}
         self.plots.show(self._data[section.name], now, dark)

@@ -30,11 +30,10 @@ class SectionPlots:
         layout: page.
         arm: arm.
         time_label: label of the time axes.
-        end: end of time axes that begin at 0 [s]; by default, they fit the data.
     """
 
-    def __init__(self, layout: Layout, arm: Arm, time_label: str, end: float | None = None) -> None:
-        self._layout, self._time_label, self._end = layout, time_label, end
+    def __init__(self, layout: Layout, arm: Arm, time_label: str) -> None:
+        self._layout, self._time_label = layout, time_label
         self._sections = {spoken(section.name): section for section in arm.sections}
         self._due = 0.0
         self._plots: dict[str, LinePlot] = {}
@@ -67,6 +66,6 @@ class SectionPlots:
             if title not in self._plots:
                 order = _PLACES.get(title, _JOINTS + number / _MOST_JOINTS)
                 height = _HIGH if title in (LENGTHS, TENSIONS) else _LOW
-                self._plots[title] = LinePlot(self._layout, title, order, height, self._time_label, self._end)
+                self._plots[title] = LinePlot(self._layout, title, order, height, self._time_label)
         for title, plot in self._plots.items():
             plot.show(data.get(title), now, dark)
