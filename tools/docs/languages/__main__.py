@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 
+from continuum.whole_file import write_whole
 from tools.docs.languages.catalogue import FOLDER, as_text, compiled, updated
 
 
@@ -12,8 +13,8 @@ def main() -> int:
     missing = 0
     for path in sorted(FOLDER.glob("*.po")):
         catalogue = updated(path)
-        path.write_bytes(as_text(catalogue))
-        path.with_suffix(".mo").write_bytes(compiled(catalogue))
+        write_whole(path, as_text(catalogue))
+        write_whole(path.with_suffix(".mo"), compiled(catalogue))
         absent = [one.id for one in catalogue if one.id and not (one.string and all(one.string))]
         missing += len(absent)
         print(f"{path.name}: {len(catalogue)} sentences, {len(absent)} without a translation")
