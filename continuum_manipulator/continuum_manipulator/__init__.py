@@ -1,1 +1,1 @@
-"""Nodes of a multi-section snake arm; what every node of the workspace shares is in :mod:`nodekit`."""
+"""Nodes of a multi-section snake arm; :mod:`nodekit` contains the parts that all nodes of the workspace share."""

@@ -10,14 +10,14 @@ from continuum_manipulator.section_joints import Configuration, joint_names, joi
 
 
 def arm_joint_names(arm: Arm) -> tuple[str, ...]:
-    """Names of all joints."""
+    """Return the names of all joints."""
     return tuple(name for section in arm.sections for name in joint_names(section))
 
 
 def arm_joint_values(w: Array, w_rate: Array | None, arm: Arm) -> tuple[Array, Array | None]:
-    """Positions [rad] and rates [rad/s] of all joints at ``w`` (n_sections, 2) [rad] moving at ``w_rate`` [rad/s].
+    """Return positions [rad] and rates [rad/s] of all joints at ``w`` (n_sections, 2) [rad] and ``w_rate`` [rad/s].
 
-    Rates are None where ``w_rate`` is.
+    The rates are None if ``w_rate`` is None.
     """
     values = [
         joint_values(Configuration(w[i], None if w_rate is None else w_rate[i]), section)

@@ -1,4 +1,4 @@
-"""Quality of service of a recording: what publishers offer, and what a recorder must ask for to hear them all."""
+"""Quality of service of a recording: the offers of publishers, and the request that matches all of them."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from rclpy.qos import QoSDurabilityPolicy, QoSHistoryPolicy, QoSProfile, QoSReli
 from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
 DEPTH = 1000
-"""Messages of a topic that may wait for the recorder."""
+"""Most messages of a topic that may wait for the recorder."""
 
 
 def offered(profile: QoSProfile) -> Qos:
-    """A publisher's profile as recordings store it; policies carry the same numbers in both."""
+    """Return a publisher's profile in the form of recordings; policies have the same numbers in both."""
     return Qos(
         QosHistory(profile.history.value),
         profile.depth,
@@ -28,7 +28,7 @@ def offered(profile: QoSProfile) -> Qos:
 
 
 def received_by_all(profiles: Sequence[QoSProfile]) -> QoSProfile:
-    """The strictest request that every one of the publishers meets; reliable while there is none."""
+    """Return the strictest request that all publishers satisfy; reliable if there are no publishers."""
     reliable = all(profile.reliability == QoSReliabilityPolicy.RELIABLE for profile in profiles)
     kept = bool(profiles) and all(profile.durability == QoSDurabilityPolicy.TRANSIENT_LOCAL for profile in profiles)
     return QoSProfile(

@@ -2,8 +2,8 @@
 
     python3 -m continuum_manipulator.bag_recovery BROKEN RECOVERED
 
-A killed recorder leaves a file without index and ``metadata.yaml``. Every flushed chunk is complete. The layout of chunks
-is that of https://mcap.dev/spec. A chunk with damaged bytes is left out.
+A killed recorder leaves a file without index and ``metadata.yaml``, but every flushed chunk is complete. The layout of
+chunks follows https://mcap.dev/spec. Chunks with damaged bytes are omitted.
 """
 
 from __future__ import annotations
@@ -30,19 +30,19 @@ from continuum_manipulator.bag_writer import BagWriter
 
 _MAGIC = b"\x89MCAP0\r\n"
 _HEAD = struct.Struct("<BQ")
-"""Of a record: its kind, and its length [bytes]."""
+"""Head of a record: its kind and its length [bytes]."""
 
 _DAMAGED = (McapError, struct.error, LookupError, ValueError, MemoryError, RuntimeError, zstandard.ZstdError)
-"""What parsing and decompression raise for changed bytes; RuntimeError is lz4's."""
+"""Exceptions of parsing and decompression for damaged bytes; lz4 raises RuntimeError."""
 
 
 @dataclass(frozen=True)
 class Recovered:
-    """What was copied.
+    """Result of a recovery.
 
     Attributes:
-        messages: number of messages.
-        damaged: number of records of the file (chunks, schemas, channels) that were left out.
+        messages: number of copied messages.
+        damaged: number of damaged records of the file (chunks, schemas, channels) that were omitted.
     """
 
     messages: int
@@ -53,12 +53,12 @@ def recover(broken: str | Path, recovered: str | Path) -> Recovered:
     """Copy the undamaged chunks of a recording, a folder or its storage file, to a new folder.
 
     Raises:
-        FileError: there is no MCAP file, it cannot be read, or the new folder exists.
+        FileError: there is no MCAP file, it cannot be read, or the new folder exists already.
     """
     path = Path(broken)
     files = [path] if path.is_file() else sorted(path.glob("*.mcap"))
     if not files:
-        raise FileError(broken, "holds no MCAP file")
+        raise FileError(broken, "contains no MCAP file")
     data = {file: _read(file) for file in files}
     with BagWriter(recovered) as bag:
         topics: dict[str, Connection] = {}
@@ -74,12 +74,12 @@ def _read(file: Path) -> bytes:
     except OSError as error:
         raise FileError(file, f"cannot be read ({error.strerror})") from error
     if not data.startswith(_MAGIC):
-        raise FileError(file, "is no MCAP file")
+        raise FileError(file, "is not an MCAP file")
     return data
 
 
 class _Copy:
-    """Copies the chunks of one file into a recording; ``topics`` are those that it has already."""
+    """Copies the chunks of one file into a recording; ``topics`` are the topics that the recording already has."""
 
     def __init__(self, bag: BagWriter, topics: dict[str, Connection]) -> None:
         self._bag = bag
@@ -89,7 +89,7 @@ class _Copy:
         self.messages = self.damaged = 0
 
     def take(self, data: bytes) -> None:
-        """Copy chunk by chunk; a finished file repeats its schemas and channels after all chunks."""
+        """Copy all chunks; a finished file repeats its schemas and channels after the chunks."""
         chunks: list[list[McapRecord]] = []
         for kind, content in _records(data):
             try:
@@ -128,7 +128,7 @@ class _Copy:
 
 
 def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
-    """Kind and content of every record that is there to its end."""
+    """Yield kind and content of every complete record."""
     start = MAGIC_SIZE
     while start + _HEAD.size <= len(data):
         kind, length = _HEAD.unpack_from(data, start)
@@ -139,13 +139,13 @@ def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
 
 
 def _parsed(kind: int, content: bytes) -> McapRecord | None:
-    """The record, or None for a kind that a recovery does not need."""
+    """Return the record, or None for a kind that the recovery does not need."""
     of_kind = {Opcode.SCHEMA: Schema, Opcode.CHANNEL: Channel, Opcode.CHUNK: Chunk}.get(kind)
     return None if of_kind is None else of_kind.read(ReadDataStream(io.BytesIO(content)))
 
 
 def _qos(offers: str) -> list[Qos]:
-    """Offered quality of service; none if it cannot be parsed: messages do not depend on it."""
+    """Return the offered quality of service; an empty list if it cannot be parsed, since messages do not need it."""
     try:
         return parse_qos(offers)
     except (ReaderError, TypeError, AttributeError, LookupError, ValueError):

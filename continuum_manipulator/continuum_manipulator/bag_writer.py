@@ -1,4 +1,4 @@
-"""Writing a rosbag2 recording (metadata version 9) with the library rosbags."""
+"""Write a rosbag2 recording (metadata version 9) with the library rosbags."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ STORAGES = ("mcap", "sqlite3")
 
 
 class BagWriter:
-    """A recording under way; as a context it is finished at the end, also after an error.
+    """An open recording; as a context manager it is finished at the end, also after an error.
 
-    What was written before the last :meth:`flush` survives even if the process is killed: see ``bag_recovery``.
+    Data written before the last :meth:`flush` survive even if the process is killed: see ``bag_recovery``.
 
     Args:
         path: folder of the recording; it must not exist.
         storage: ``mcap`` or ``sqlite3``.
 
     Raises:
-        FileError: the folder exists or cannot be made, here; or it cannot be written, in the methods.
-        InvalidValueError: another storage.
+        FileError: the folder exists or cannot be created; the methods raise it if they cannot write.
+        InvalidValueError: the storage is unknown.
     """
 
     def __init__(self, path: str | Path, storage: str = "mcap") -> None:
@@ -43,7 +43,7 @@ class BagWriter:
         except WriterError:
             raise FileError(self.path, "exists already and is not overwritten") from None
         except OSError as error:
-            raise FileError(self.path, f"cannot be made ({error.strerror})") from error
+            raise FileError(self.path, f"cannot be created ({error.strerror})") from error
 
     def __enter__(self) -> Self:
         return self
@@ -53,14 +53,14 @@ class BagWriter:
 
     @property
     def counts(self) -> dict[str, int]:
-        """Messages written, by topic."""
+        """Number of written messages by topic."""
         return {connection.topic: self._writer.counts[connection.id] for connection in self._writer.connections}
 
     def add_topic(self, name: str, message_type: str, offered_qos: Sequence[Qos]) -> Connection:
-        """Announce a topic; the returned handle is for :meth:`write`.
+        """Add a topic and return its handle for :meth:`write`.
 
         Raises:
-            FileError: the message type is not installed, or the topic is there already.
+            FileError: the message type is not installed, or the topic exists already.
         """
         definition, type_hash = message_definition(message_type)
         try:
@@ -78,7 +78,7 @@ class BagWriter:
             raise FileError(self.path, f"cannot be written ({error})") from error
 
     def flush(self) -> None:
-        """Hand all that was written to the operating system."""
+        """Pass all written data to the operating system."""
         storage = self._writer.storage
         try:
             if not isinstance(storage, McapWriter):
@@ -91,7 +91,7 @@ class BagWriter:
             raise FileError(self.path, f"cannot be written ({error})") from error
 
     def close(self) -> None:
-        """Finish the recording: index and ``metadata.yaml``. A second call does nothing."""
+        """Finish the recording with its index and ``metadata.yaml``. A second call does nothing."""
         if self._writer.storage is None:
             return
         try:

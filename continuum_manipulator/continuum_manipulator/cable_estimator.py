@@ -1,4 +1,4 @@
-"""Node from measured cable lengths to configurations: what an arm's encoders say of its posture, and how surely."""
+"""Node that estimates configurations and their covariance from measured cable lengths, for example of encoders."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_msgs.msg import CableStates, ConfigEstimate
 
-NO_POSTURE = "lengths of no posture"
+NO_POSTURE = "lengths that no posture has"
 
 STATUSES = {
     EstimateStatus.CONVERGED: ConfigEstimate.CONVERGED,
     EstimateStatus.INCONSISTENT: ConfigEstimate.INCONSISTENT,
 }
-"""Estimates that are published; with any other the message is refused."""
+"""Statuses of estimates that are published; with any other status the message is refused."""
 
 
 class CableEstimatorNode(CheckedNode):
-    """``measured_cable_states`` to ``section_config_estimates`` and ``estimated_joint_states``.
+    """Converts ``measured_cable_states`` to ``section_config_estimates`` and ``estimated_joint_states``.
 
-    Measured are total lengths from the base to each cable's anchor, by name in any order; a cable may be missing as
-    long as each section keeps three. Configurations are those of least squares over all cables, with their covariance.
-    With velocities of the cables the joints have velocities. Lengths that no posture has are refused.
+    The measured values are total lengths from the base to each cable's anchor, by name in any order; cables may be
+    missing as long as each section keeps three. The configurations are the least-squares solution over all cables, with
+    their covariance. Velocities of the cables give velocities of the joints. Lengths that no posture has are refused.
     """
 
     NAME = "cable_estimator"
@@ -89,7 +89,7 @@ class CableEstimatorNode(CheckedNode):
         self._publish_joints(joints)
 
     def _in_order(self, message: CableStates, values: Array) -> Array:
-        """Values (n_cables,) in the arm's order, NaN where the message has none."""
+        """Return values (n_cables,) in the arm's order, NaN for cables that are not in the message."""
         known = dict(zip(message.name, values, strict=True))
         return np.array([known.get(name, np.nan) for name in self._cables])
 
@@ -106,7 +106,7 @@ class CableEstimatorNode(CheckedNode):
             first += n
 
     def _check(self, found: CableEstimate) -> None:
-        """The estimate is one, its posture is within the limits, and the lengths are those of a posture.
+        """Check that the estimate has converged, is within the bend limits, and agrees with the lengths.
 
         Raises:
             MessageFault: a residual is beyond the tolerance, or there is no estimate.
@@ -116,7 +116,7 @@ class CableEstimatorNode(CheckedNode):
             i = int(np.nanargmax(np.abs(found.residuals)))
             raise MessageFault(
                 NO_POSTURE,
-                f"residual of {self._cables[i]} is {found.residuals[i]:.4g} m, measured less estimated; "
+                f"residual of {self._cables[i]} is {found.residuals[i]:.4g} m, measured minus estimated; "
                 f"allowed: up to the tolerance, {self._tolerance:g} m",
             )
         if found.status is EstimateStatus.BEYOND_LIMIT:
@@ -128,7 +128,7 @@ class CableEstimatorNode(CheckedNode):
             self.diagnostics.warnings.note("inconsistent lengths", detail)
 
     def _rate(self, w: Array, cable_rates: Array) -> Array:
-        """Rates of the configurations (n_sections, 2) [rad/s]: least squares over the cables' rates [m/s]."""
+        """Return the configuration rates (n_sections, 2) [rad/s] by least squares over the cable rates [m/s]."""
         known = ~np.isnan(cable_rates)
         measured = arm_of_cables(self.arm, tuple(known.tolist()))
         rate = (arm_configuration_cable_jacobian(w, measured) @ cable_rates[known]).reshape(w.shape)

@@ -1,4 +1,4 @@
-"""Node between sections and cables of the arm: what the sections spend of each, summed, and taken apart again."""
+"""Node between sections and cables of the arm: adds the lengths in all sections, and separates commanded lengths."""
 
 from __future__ import annotations
 
@@ -28,20 +28,20 @@ from continuum_manipulator.section_number import checked_section
 from continuum_msgs.msg import CableStates
 
 PATIENCE = 10.0
-"""Seconds, by the machine's clock, after which the sections that nobody speaks for are told."""
+"""Time by the machine's clock after which sections without a publisher are reported [s]."""
 
 LOSSES = {
     Loss.INCOMPLETE: ("instants given up with a section missing", "no state of {sections}"),
-    Loss.LATE: ("section states too late", "{sections}; this instant, or a later one, is already summed up"),
-    Loss.REPEATED: ("section states repeated", "{sections} again; every instant needs a stamp of its own"),
+    Loss.LATE: ("section states too late", "{sections}; this instant, or a later one, has been published already"),
+    Loss.REPEATED: ("section states repeated", "{sections} again; every instant needs a unique stamp"),
 }
-"""What is counted and told of states that do not enter a sum: cause and detail."""
+"""Cause and detail that are reported for states that do not enter a sum."""
 
 
 class CableTanglerNode(CheckedNode):
-    """``section_cable_states`` of all sections to ``cable_states``; ``cable_commands`` to ``section_cable_commands``.
+    """Adds ``section_cable_states`` to ``cable_states``; converts ``cable_commands`` to ``section_cable_commands``.
 
-    Sections are joined by stamp: two instants are never mixed.
+    Sections are joined by their stamps: different instants are never mixed.
     """
 
     NAME = "cable_tangler"
@@ -64,7 +64,7 @@ class CableTanglerNode(CheckedNode):
         self._patience_timer = self.create_timer(PATIENCE, self._report_missing, clock=steady)
 
     def _report_missing(self) -> None:
-        """Once: a launch file made for another number of sections would go unnoticed until poses come."""
+        """Report missing sections once, so that a launch file for another arm is noticed before poses arrive."""
         self.destroy_timer(self._patience_timer)
         speakers, wanted = self._sections.get_publisher_count(), len(self._numbers)
         if speakers < wanted and len(self._received) < wanted:

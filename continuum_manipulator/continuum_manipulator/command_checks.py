@@ -1,4 +1,4 @@
-"""Cable commands that an arm can follow: lengths of a posture that it has, within its limits."""
+"""Checks of cable commands: the lengths must belong to a posture within the limits of the arm."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from continuum.kinematics.configuration import bend
 from continuum.parameter_spec import ParameterSpec
 
 TOLERANCE = ParameterSpec(
-    "tolerance", float, "how far commanded lengths may be from those of the nearest posture", "m", 0.0, 1.0,
+    "tolerance", float, "largest difference of commanded lengths from those of the nearest posture", "m", 0.0, 1.0,
     lower_open=True, default=1e-3,
 )  # fmt: skip
-"""Parameter of the nodes that take lengths as commands."""
+"""Parameter of the nodes that accept lengths as commands."""
 
 LIMIT_SLACK = 1e-6
-"""Bend beyond the limit that is rounding [rad]."""
+"""Bend beyond the limit that counts as rounding [rad]."""
 
 
 def check_lengths(lengths: Array, names: Sequence[str]) -> None:
-    """The lengths (n_cables,) [m] are positive.
+    """Check that the lengths (n_cables,) [m] are positive.
 
     Raises:
-        InvalidValueError: one is not.
+        InvalidValueError: a length is not positive.
     """
     for name, length in zip(names, lengths.tolist(), strict=True):
         if not length > 0.0:
@@ -34,10 +34,10 @@ def check_lengths(lengths: Array, names: Sequence[str]) -> None:
 
 
 def check_configuration(w: Array, sections: Sequence[Section]) -> None:
-    """The configurations ``w`` (n_sections, 2), or (2,) of one section, [rad] are within the sections' limits.
+    """Check that configurations ``w`` (n_sections, 2), or (2,) of one section, [rad] are within the bend limits.
 
     Raises:
-        InvalidValueError: one is bent beyond its limit, or is none.
+        InvalidValueError: a section is bent beyond its limit, or its bend is not a number.
     """
     for section, theta in zip(sections, np.atleast_1d(bend(w)).tolist(), strict=True):
         if not theta <= section.bend_limit + LIMIT_SLACK:
@@ -47,10 +47,10 @@ def check_configuration(w: Array, sections: Sequence[Section]) -> None:
 
 
 def check_fit(lengths: Array, of_posture: Array, names: Sequence[str], tolerance: float) -> None:
-    """The commanded lengths (n_cables,) [m] are those of the posture found for them, within the ``tolerance`` [m].
+    """Check that commanded lengths (n_cables,) [m] equal those of the nearest posture within the ``tolerance`` [m].
 
     Raises:
-        InvalidValueError: one differs; no posture has all of these lengths.
+        InvalidValueError: a length differs; no posture has all of these lengths.
     """
     off = np.abs(lengths - of_posture)
     if not (off <= tolerance).all():
@@ -60,10 +60,10 @@ def check_fit(lengths: Array, of_posture: Array, names: Sequence[str], tolerance
 
 
 def check_rates(w_rate: Array) -> None:
-    """The rates of the configurations [rad/s] are finite.
+    """Check that the rates of the configurations [rad/s] are finite.
 
     Raises:
-        InvalidValueError: they are not.
+        InvalidValueError: they are not finite.
     """
     if not np.isfinite(w_rate).all():
         raise InvalidValueError("rate of the configuration", w_rate.tolist(), "finite, from the commanded velocities")

@@ -1,4 +1,4 @@
-"""The message ``continuum_msgs/ConfigStates``, from a section's configuration and to it."""
+"""Conversion between a section's configuration and the message ``continuum_msgs/ConfigStates``."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ RATES = ("u_rate", "v_rate", "s_rate", "phi_rate", "kappa_rate", "theta_rate")
 
 
 def config_states(state: Configuration, section: Section, number: int) -> ConfigStates:
-    """Both parametrisations of section ``number``, in its base frame; rates are NaN where they are not known."""
+    """Return the message of section ``number`` with both parametrisations, in its base frame; unknown rates are NaN."""
     phi, theta = jones_from_allen(state.w)
     message = ConfigStates(section=number)
     message.header.frame_id = section.base_frame
@@ -38,7 +38,7 @@ def config_states(state: Configuration, section: Section, number: int) -> Config
 
 
 def read_config(message: ConfigStates) -> Configuration:
-    """A commanded configuration: u and v, or where these are NaN phi and theta; rates where all of theirs are numbers.
+    """Read a commanded configuration: u and v, or phi and theta if u and v are NaN; with rates if all are numbers.
 
     Raises:
         MessageFault: neither pair is finite.

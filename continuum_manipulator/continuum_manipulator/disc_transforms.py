@@ -1,4 +1,4 @@
-"""Where the sections' bases, discs and tips stand, as transforms of tf2 from ``base_link``."""
+"""Poses of the sections' bases, discs and tips as tf2 transforms from ``base_link``."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from continuum_manipulator.tip_targets import BASE_FRAME
 
 
 def disc_transforms(bends: Sequence[Array], arm: Arm, stamp: Time, prefix: str = "") -> TFMessage:
-    """The frames of the arm's description that do not turn with phi, each as a child of ``base_link``.
+    """Return the frames of the arm's description that do not rotate with phi, each as a child of ``base_link``.
 
     Args:
-        bends: for each section those of its joints, (n_joints, 2) [rad].
+        bends: for each section the bends of its joints, (n_joints, 2) [rad].
         arm: the arm.
-        stamp: of the joints.
-        prefix: put before the name of every frame, ``base_link`` included.
+        stamp: stamp of the joint states.
+        prefix: prefix of the name of every frame, including ``base_link``.
     """
     frames = [frame for section in arm.sections for frame in section.disc_frames]
     poses = np.concatenate(arm_disc_poses(bends, arm))

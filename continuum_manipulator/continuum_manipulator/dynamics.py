@@ -1,4 +1,4 @@
-"""Node of a simulated arm: tension commands in, joint and cable states out, in real time or by ``/clock``."""
+"""Node of a simulated arm: receives tension commands, publishes joint and cable states in real or simulated time."""
 
 from __future__ import annotations
 
@@ -31,36 +31,36 @@ from continuum_msgs.msg import CableStates
 from continuum_msgs.srv import ResetArm
 
 BEHIND = 0.1
-"""Lag that is told [s]."""
+"""Lag above which a warning is given [s]."""
 
 CATCH_UP_PERIOD = 0.001
-"""Seconds, by the machine's clock, between two goes while the simulation is behind: others are served in between."""
+"""Pause between two batches while the simulation is behind, by the machine's clock [s]; it serves other events."""
 
 LONGEST_GO = 0.01
-"""Seconds, by the machine's clock, after which a go ends: one other event is served between two goes, no more."""
+"""Longest duration of a batch by the machine's clock [s]; between two batches only one other event is served."""
 
 
 class DynamicsNode(CheckedNode):
-    """``cable_tension_cmd`` to ``joint_states`` and ``cable_states``, by integrating a model file.
+    """Converts ``cable_tension_cmd`` to ``joint_states`` and ``cable_states`` by integrating a model.
 
-    Simulated time is ROS time and has no gaps: where the machine is too slow it lags behind, which is told, and
-    catches up. Commands above ``max_tension`` mean ``max_tension``; bad ones are dropped, the one before holds. When
-    no good command came for ``command_timeout``, tension falls linearly, to slack after ``slack_time``. The service
-    ``~/release`` drops all tension at once, ``~/reset`` sets a posture; commands that come afterwards pull again.
+    Simulated time is ROS time and has no gaps: on a slow machine the simulation lags behind, warns and catches up.
+    Commands are clipped to ``max_tension``; invalid ones are dropped, and the previous one remains in force. Without a
+    valid command for ``command_timeout``, tension falls linearly to zero within ``slack_time``. The service
+    ``~/release`` drops all tension at once, and ``~/reset`` sets a posture; later commands pull again.
     """
 
     NAME = "dynamics"
     PARAMETERS = (
-        ParameterSpec("model", str, "model file, arm file with a block dynamics, or the name of one of the library's",
+        ParameterSpec("model", str, "model file, arm file with a block dynamics, or name of a file in the library",
                       default="lamecc_prototype.yaml"),
-        ParameterSpec("section", str, "name of the section, with which those of joints and cables begin",
+        ParameterSpec("section", str, "name of the section, the prefix of the names of joints and cables",
                       default="section_1"),
-        ParameterSpec("rate", float, "states a second", "Hz", 1.0, 2000.0, default=120.0),
-        ParameterSpec("integrator", str, "bdf is SciPy's, with the thesis's settings; esdirk is the fast one",
+        ParameterSpec("rate", float, "states per second", "Hz", 1.0, 2000.0, default=120.0),
+        ParameterSpec("integrator", str, "bdf: SciPy's integrator with the thesis's settings; esdirk: the fast one",
                       choices=tuple(INTEGRATORS), default="bdf"),
-        ParameterSpec("initial_bend", float, "total bend at the start, the same at every joint", "rad", -1e4, 1e4,
+        ParameterSpec("initial_bend", float, "total bend at the start, equal at every joint", "rad", -1e4, 1e4,
                       default=0.0),
-        ParameterSpec("initial_angles", float, "joint angles at the start from base to tip, in the place of a bend",
+        ParameterSpec("initial_angles", float, "joint angles at the start from base to tip, instead of a total bend",
                       "rad", -np.pi, np.pi, is_list=True, default=[]),
         *tension_parameters.PARAMETERS,
     )  # fmt: skip
@@ -74,7 +74,7 @@ class DynamicsNode(CheckedNode):
         self._arm = LiveArm(model, self._posture, self.values["integrator"])
         self._limits = tension_parameters.limits_from(self.values)
         self._tensions = TensionLimiter(self._limits, len(SIDES))
-        self._pace: Pace | None = None  # until there is a time
+        self._pace: Pace | None = None  # None until the time is known
         self._by_clock = bool(self.get_parameter("use_sim_time").value)
         self._failure: SimulationStatus | None = None
         self._meter = LoadMeter()
@@ -90,26 +90,26 @@ class DynamicsNode(CheckedNode):
         self.listen(CableStates, "cable_tension_cmd", self._on_command)
         self.create_service(Trigger, "~/release", self._release)
         self.create_service(ResetArm, "~/reset", self._reset)
-        steady = Clock(clock_type=ClockType.STEADY_TIME)  # the clock of a timer by ROS time may leap over it, or back
+        steady = Clock(clock_type=ClockType.STEADY_TIME)  # ROS time may jump forwards or backwards
         self._timer = self.create_timer(1.0 / self.values["rate"], self._keep_pace, clock=steady)
         self._catch_up = self.create_timer(CATCH_UP_PERIOD, self._go, clock=steady)
         self._catch_up.cancel()
 
     def in_words(self) -> str:
-        """Which arm is simulated, and how."""
+        """Describe the simulated arm and the integration."""
         name, bend = Path(self.values["model"]).name, np.degrees(self._posture.sum())
         bent = f"{self._n_joints} joints, bent by {bend:.0f} degrees in total"
         return f"{name}, {bent}, at {self.values['rate']:g} Hz by {self.values['integrator']}"
 
     def _now(self) -> int:
-        """ROS time [ns], 0 until simulated time begins."""
+        """Return ROS time [ns], 0 until simulated time starts."""
         return self.get_clock().now().nanoseconds
 
     def _lag(self) -> float:
         return 0.0 if self._pace is None else self._pace.lag(self._now())
 
     def _keep_pace(self) -> None:
-        """Simulate what is due, and say so if what was due has not been simulated."""
+        """Simulate the instants that are due, and warn if the simulation lags behind."""
         now = self._now()
         if now == 0:
             return
@@ -119,7 +119,7 @@ class DynamicsNode(CheckedNode):
             return
         if self._pace.went_back(now):
             back = (self._pace.seen - now) / NANOSECONDS
-            self.diagnostics.warnings.note("time went back", f"by {back:.3f} s; the arm goes on from its posture")
+            self.diagnostics.warnings.note("time went back", f"by {back:.3f} s; the arm continues from its posture")
             self._pace.begin(now)
             self._meter.restart()
             self._tensions.forget_time()
@@ -134,7 +134,7 @@ class DynamicsNode(CheckedNode):
         self._go()
 
     def _go(self) -> None:
-        """Simulate and publish the instants that are due, a limited number; the rest soon, after commands that wait."""
+        """Simulate and publish a limited number of due instants; the rest follows after waiting commands."""
         now, began = self._now(), time.monotonic()
         for number in self._pace.due(now):
             if self._failure is not None or time.monotonic() - began > LONGEST_GO:
@@ -147,7 +147,7 @@ class DynamicsNode(CheckedNode):
             self._catch_up.cancel()
 
     def _advance(self, number: int) -> None:
-        """Simulate up to an instant, and publish it."""
+        """Simulate up to an instant and publish its state."""
         begin, before = self._pace.last, self._tensions.abandoned
         duration = (self._pace.reach(number) - begin) / NANOSECONDS
         interval = self._tensions.move_on(self._pace.seconds(begin), duration)
@@ -160,7 +160,7 @@ class DynamicsNode(CheckedNode):
             self._failure = status
 
     def _publish(self) -> None:
-        """Publish the state at the last instant simulated."""
+        """Publish the state at the last simulated instant."""
         stamp = Time(nanoseconds=self._pace.last).to_msg()
         angles, rates = self._arm.angles, self._arm.rates
         self._publish_joints(self._planar.joint_state(stamp, angles, rates))

@@ -6,6 +6,6 @@ from continuum_manipulator.nodekit.run import run
 
 
 def main() -> int:
-    # The integrator solves small systems: two BLAS threads take ten times as long as one. Read when NumPy is imported.
+    # For the integrator's small systems, two BLAS threads take ten times as long as one. NumPy reads this on import.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     return run("continuum_manipulator.dynamics:DynamicsNode")

@@ -1,4 +1,4 @@
-"""Node of forward kinematics: joints to where the tip is and how it moves."""
+"""Node of forward kinematics: pose and twist of the tip from the joints."""
 
 from __future__ import annotations
 
@@ -23,17 +23,18 @@ from continuum_manipulator.tip_targets import BASE_FRAME
 
 
 class _Joints(NamedTuple):
-    """Bends (n_joints, 2) [rad] of a section's joints, and their rates [rad/s] where they are known."""
+    """Bends (n_joints, 2) [rad] of a section's joints, and their rates [rad/s] if known."""
 
     bends: Array
     rates: Array | None
 
 
 class ForwardKinematicsNode(CheckedNode):
-    """``joint_states`` to ``tip_pose``, ``tip_twist`` and ``/tf`` (Eqs. 10 and 11), in ``base_link``.
+    """Converts ``joint_states`` to ``tip_pose``, ``tip_twist`` and ``/tf`` (Eqs. 10 and 11), in ``base_link``.
 
-    Joints of a section need not bend alike. Sections may come in one message or in one each: they are joined by stamp.
-    Without velocities of all joints there is no twist. ``/tf`` has the base, every disc and the tip of each section.
+    The joints of a section may bend differently. Sections may arrive in one message or in several, which are joined by
+    their stamps. Without velocities of all joints there is no twist. ``/tf`` contains the base, every disc and the tip
+    of each section.
     """
 
     NAME = "forward_kinematics"
@@ -41,7 +42,7 @@ class ForwardKinematicsNode(CheckedNode):
         ParameterSpec(
             "publish_tf", bool, "publish the frames on /tf; false where robot_state_publisher does", default=True
         ),
-        ParameterSpec("frame_prefix", str, "put before the name of every frame on /tf", default=""),
+        ParameterSpec("frame_prefix", str, "prefix of the name of every frame on /tf", default=""),
     )
     HAS_ARM = True
 

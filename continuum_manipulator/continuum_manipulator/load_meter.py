@@ -1,4 +1,4 @@
-"""How fast a simulation runs, and what it costs, over the last second or two."""
+"""Speed and processor load of a simulation over the last second or two."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from collections import deque
 from typing import NamedTuple
 
 SPAN = 2.0
-"""Seconds looked at."""
+"""Duration over which the averages are taken [s]."""
 
 
 class Mark(NamedTuple):
-    """Readings [s] at one moment: a clock on the wall, the process's processor time, and how far the simulation is.
+    """Readings [s] at one moment: wall clock, processor time of the process, and progress of the simulation.
 
-    That is the end of the time in which nothing that was due is missing.
+    The progress is the simulated time up to which all due instants are complete.
     """
 
     wall: float
@@ -27,23 +27,23 @@ class LoadMeter:
         self._marks: deque[Mark] = deque()
 
     def mark(self, mark: Mark) -> None:
-        """Note the readings; to be called often."""
+        """Record the readings; call this often."""
         self._marks.append(mark)
         while mark.wall - self._marks[0].wall > SPAN:
             self._marks.popleft()
 
     def restart(self) -> None:
-        """Forget: the simulated time begins anew."""
+        """Discard the readings, because the simulated time restarts."""
         self._marks.clear()
 
     @property
     def real_time_factor(self) -> float:
-        """Simulated seconds a second; 1 keeps up with a clock on the wall."""
+        """Simulated seconds per second; 1 is real time."""
         return self._slope("simulated")
 
     @property
     def load(self) -> float:
-        """Share of one processor core that the process takes."""
+        """Fraction of one processor core that the process uses."""
         return self._slope("processor")
 
     def _slope(self, field: str) -> float:

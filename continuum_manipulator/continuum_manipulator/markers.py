@@ -28,16 +28,16 @@ ARROW_COLOUR = (0.6, 0.0, 0.8)
 
 
 class MarkersNode(CheckedNode):
-    """``joint_states`` to ``cable_markers`` and ``section_config_markers``, at most ``rate`` times a second.
+    """Converts ``joint_states`` to ``cable_markers`` and ``section_config_markers``, at most ``rate`` times a second.
 
-    A cable is a line through the holes of the discs, which stand where the angles of the single joints put them; it is
-    thinner where it only passes a section. A section's rotation vector stands as an arrow at its centre of curvature; a
-    straight section has none.
+    A cable is a line through the holes of the discs, whose poses follow from the angles of the individual joints; it is
+    thinner where it only passes through a section. The rotation vector of a section is an arrow at its centre of
+    curvature; a straight section has none.
     """
 
     NAME = "markers"
     PARAMETERS = (
-        ParameterSpec("rate", float, "most markers a second", "Hz", 0.0, 1000.0, lower_open=True, default=30.0),
+        ParameterSpec("rate", float, "most markers per second", "Hz", 0.0, 1000.0, lower_open=True, default=30.0),
         ParameterSpec("line_width", float, "width of a cable's line", "m", 0.0, 1.0, lower_open=True, default=0.0015),
         ParameterSpec(
             "arrow_scale", float, "length of the curvature arrow for a bend of 1 rad", "m/rad", 0.0, 10.0,
@@ -65,7 +65,7 @@ class MarkersNode(CheckedNode):
         self.listen(JointState, "joint_states", self._on_joints)
 
     def _on_joints(self, message: JointState) -> None:
-        """Take the joints of every message at once, for sections may have a message each; draw when the rate allows."""
+        """Read the joints of every message, since sections may arrive separately; draw when the rate allows it."""
         index = read_names(message)
         read = {i: read_bends(index, message.position, section) for i, section in enumerate(self.arm.sections)}
         found = {i: bends for i, bends in read.items() if bends is not None}

@@ -1,4 +1,4 @@
-"""The text and hash of an installed message type, as rosbag2 stores them."""
+"""Text and hash of an installed message type, as stored by rosbag2."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _SEPARATOR = "=" * 80
 
 
 def message_definition(message_type: str) -> tuple[str, str]:
-    """Definition and RIHS01 hash of ``message_type``, e.g. ``sensor_msgs/msg/JointState``.
+    """Return the definition and RIHS01 hash of ``message_type``, e.g. ``sensor_msgs/msg/JointState``.
 
-    The definition is the type's own text followed by that of every type within it (rosbag2's ``ros2msg`` encoding).
+    The definition is the text of the type followed by that of every nested type (rosbag2's ``ros2msg`` encoding).
 
     Raises:
         FileError: the type is not installed.

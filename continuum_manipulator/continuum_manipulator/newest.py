@@ -1,4 +1,4 @@
-"""What came since the last look, of all that is about the same the last alone."""
+"""Collection of the newest item of each subject."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from collections.abc import Hashable
 
 
 class Newest[T]:
-    """Kept as it comes, taken once for each frame."""
+    """The newest item of each subject since the last call of :meth:`take`."""
 
     def __init__(self) -> None:
         self._kept: dict[Hashable, T] = {}
 
     def keep(self, about: Hashable, item: T) -> None:
-        """Keep an item in the place of an earlier one about the same."""
+        """Store an item, replacing an earlier one with the same subject."""
         self._kept[about] = item
 
     def take(self) -> list[T]:
-        """All that came since the last time, in the order of their subjects' first."""
+        """Remove and return all items, in the order in which their subjects first arrived."""
         kept, self._kept = self._kept, {}
         return list(kept.values())

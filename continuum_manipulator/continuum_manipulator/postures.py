@@ -1,4 +1,4 @@
-"""Postures that a simulated arm is asked for: joint angles from base to tip."""
+"""Checks of requested postures of a simulated arm: joint angles from base to tip."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from continuum.errors import InvalidValueError
 
 
 def initial_posture(n_joints: int, values: Mapping[str, Any]) -> Array:
-    """Of the parameters ``initial_angles``, or where there are none ``initial_bend``, (n_joints,) [rad].
+    """Return the posture (n_joints,) [rad] from the parameter ``initial_angles``, or else ``initial_bend``.
 
     Raises:
-        InvalidValueError: both are given, or a posture that cannot be; the one that was given is named.
+        InvalidValueError: both are given, or the posture is impossible; the message names the given parameter.
     """
     angles, bend = values["initial_angles"], values["initial_bend"]
     if angles and bend:
-        raise InvalidValueError("initial_bend", bend, "0, or no initial_angles beside it")
+        raise InvalidValueError("initial_bend", bend, "0 if initial_angles are given")
     if angles:
         return checked_posture("initial_angles", angles, n_joints)
     if abs(bend) > n_joints * math.pi:
@@ -30,10 +30,10 @@ def initial_posture(n_joints: int, values: Mapping[str, Any]) -> Array:
 
 
 def checked_posture(name: str, angles: Sequence[float], n_joints: int) -> Array:
-    """The angles (n_joints,) [rad], each from -pi to pi.
+    """Return the angles (n_joints,) [rad], each from -pi to pi.
 
     Raises:
-        InvalidValueError: another number of them, or one that is not within.
+        InvalidValueError: the number of angles is wrong, or one is out of range.
     """
     posture = np.array(angles, dtype=float)
     if posture.shape != (n_joints,) or not np.all(np.abs(posture) <= math.pi):

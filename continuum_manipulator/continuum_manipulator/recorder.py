@@ -22,18 +22,18 @@ from continuum_manipulator.message_definitions import message_definition
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 
 SCAN_PERIOD = 0.1
-"""Seconds between two looks for new topics and publishers."""
+"""Time between two searches for new topics and publishers [s]."""
 
 DRAIN_LIMIT = 3.0
-"""Seconds after which a stopped recorder no longer waits for messages under way."""
+"""Longest time that a stopped recorder waits for messages in transit [s]."""
 
 QUIET = 0.5
-"""Seconds without a message after which a stopped recorder takes it that none is under way."""
+"""Time without a message after which a stopped recorder assumes that none is in transit [s]."""
 
 
 @dataclass
 class _Recorded:
-    """One topic: the subscription that feeds it, and from the first message on its place in the recording."""
+    """One topic: its subscription, and after the first message its handle in the recording."""
 
     message_type: str
     qos: QoSProfile
@@ -42,20 +42,20 @@ class _Recorded:
 
 
 class RecorderNode(CheckedNode):
-    """Records topics to a rosbag2 folder, from when they appear, with the quality of service they are offered with.
+    """Records topics to a rosbag2 folder as soon as they appear, with the quality of service of their publishers.
 
-    It says ``recording N topics`` whenever it has subscribed to more, and which ones asked for are not there yet, and
-    sums up at the end.
+    It logs ``recording N topics`` whenever it subscribes to further topics, with the requested topics that are still
+    missing, and a summary at the end.
     """
 
     NAME = "recorder"
     PARAMETERS = (
-        ParameterSpec("topics", str, "topics to record; none means all, also those that appear later",
+        ParameterSpec("topics", str, "topics to record; empty: all topics, including later ones",
                       is_list=True, default=[]),
-        ParameterSpec("output", str, "folder of the recording; it must not exist. Empty: rosbag2_<date>", default=""),
+        ParameterSpec("output", str, "new folder for the recording; empty: rosbag2_<date>", default=""),
         ParameterSpec("storage", str, "format of the recording", choices=STORAGES, default="mcap"),
         ParameterSpec(
-            "flush_period", float, "time after which a message is safe even if the recorder is killed", "s", 0.01,
+            "flush_period", float, "longest time until a message is safe even if the recorder is killed", "s", 0.01,
             3600.0, default=1.0,
         ),
     )  # fmt: skip
@@ -80,11 +80,11 @@ class RecorderNode(CheckedNode):
             self.get_logger().info(f"waiting for {waiting}")
 
     def _waiting(self) -> str:
-        """Topics that were asked for and are not there yet."""
+        """List the requested topics that do not exist yet."""
         return ", ".join(sorted(self._wanted - self._recorded.keys() - self._refused))
 
     def _scan(self) -> None:
-        """Subscribe to what is new, and again where a publisher offers less than what was asked for."""
+        """Subscribe to new topics, and again to topics with a publisher that offers less than the present request."""
         before = len(self._recorded)
         for topic, types in self.get_topic_names_and_types():
             if topic in self._refused or (self._wanted and topic not in self._wanted):
@@ -124,7 +124,7 @@ class RecorderNode(CheckedNode):
         return self.create_subscription(_message_class(message_type), topic, write, qos, raw=True)
 
     def _place(self, topic: str) -> Connection:
-        """Where the topic's messages go; announced with the first one, when its publishers' offers are known."""
+        """Return the topic's handle; it is added with the first message, when its publishers' offers are known."""
         recorded = self._recorded[topic]
         if recorded.place is None:
             offers = [offered(profile) for profile in self._profiles(topic)]
@@ -132,7 +132,7 @@ class RecorderNode(CheckedNode):
         return recorded.place
 
     def draining(self) -> bool:
-        """Until no message came for a while: publishers that are stopped together with the recorder finish first."""
+        """Continue until messages stop, so that publishers that are stopped at the same time finish first."""
         now, count = time.monotonic(), self.diagnostics.received.total()
         if self._drain_until is None:
             self._drain_until = now + DRAIN_LIMIT
@@ -141,10 +141,10 @@ class RecorderNode(CheckedNode):
         return now < min(self._drain_until, self._quiet_since + QUIET)
 
     def give_up(self, problem: str) -> str:
-        """Finish the recording as far as that goes, and say how the rest is got back."""
+        """Finish the recording as far as possible, and name the command that recovers the rest."""
         with suppress(FileError):
             self._bag.close()
-        return f"{problem}; what was written before can be had with {recovery_command(self._bag.path)}"
+        return f"{problem}; recover the data written before with {recovery_command(self._bag.path)}"
 
     def close(self) -> None:
         super().close()
@@ -164,10 +164,10 @@ class RecorderNode(CheckedNode):
 
 
 def _message_class(message_type: str) -> type:
-    """The Python class of e.g. ``sensor_msgs/msg/JointState``.
+    """Return the Python class of a message type, e.g. ``sensor_msgs/msg/JointState``.
 
     Raises:
-        FileError: it is not installed.
+        FileError: the type is not installed.
     """
     package, folder, name = message_type.split("/")
     try:

@@ -23,10 +23,10 @@ from continuum_manipulator.tip_targets import BASE_FRAME, TipPose, TipTwist, rea
 from continuum_msgs.msg import IkStatus as IkStatusMessage
 
 TWIST_PATIENCE = 0.5
-"""Seconds, by the machine's clock, for which a pose waits for its twist."""
+"""Time by the machine's clock for which a pose waits for its twist [s]."""
 
 CAPACITY = 1000
-"""Poses and twists that may wait for their partner."""
+"""Most poses and twists that may wait for their partner."""
 
 WORDS = {
     IkStatus.LIMIT_REACHED: "a bend limit keeps the arm from the pose",
@@ -36,29 +36,29 @@ WORDS = {
 
 
 class RobotNode(CheckedNode):
-    """``traj_pose`` and ``traj_twist`` to ``joint_states`` and ``ik_status``.
+    """Converts ``traj_pose`` and ``traj_twist`` to ``joint_states`` and ``ik_status``.
 
-    A pose and a twist of one stamp are answered together. Where nobody publishes twists, a pose is answered at once
-    without velocities; where its twist does not come, after half a second. Where nobody publishes poses, twists are
-    integrated. A pose out of reach is answered by the nearest that was found.
+    A pose and a twist with the same stamp are answered together. Without a publisher of twists, a pose is answered at
+    once without velocities; if its twist does not arrive, it is answered after half a second. Without a publisher of
+    poses, twists are integrated. A pose out of reach is answered with the nearest pose found.
     """
 
     NAME = "robot"
     PARAMETERS = (
         ParameterSpec(
-            "target", str, "what of the pose the tip follows; its direction is the pose's z axis",
+            "target", str, "part of the pose that the tip follows; the direction is the pose's z axis",
             default="position", choices=("position", "position_direction"),
         ),
         ParameterSpec(
-            "solver", str, "how poses are solved: Gauss-Newton with restarts, or the thesis's FABRIKc",
+            "solver", str, "solver of poses: Gauss-Newton with restarts, or the thesis's FABRIKc",
             default="newton", choices=("newton", "fabrikc"),
         ),
         ParameterSpec(
-            "max_iterations", int, "of fabrikc for one pose, pairs of a backward and a forward pass",
+            "max_iterations", int, "most pairs of a backward and a forward pass of fabrikc for one pose",
             lower=1, upper=100000, default=100,
         ),
         ParameterSpec(
-            "tolerance", float, "distance in m, and angle in rad, up to which a pose counts as reached",
+            "tolerance", float, "largest distance in m, and angle in rad, of a reached pose",
             lower=1e-12, upper=1.0, default=1e-9,
         ),
         ParameterSpec(
@@ -70,7 +70,7 @@ class RobotNode(CheckedNode):
 
     def __init__(self) -> None:
         super().__init__()
-        warm_up()  # before the first pose comes, not with it
+        warm_up()  # before the first pose arrives
         self._tracker = self._tracker_of_choice()
         self._joints = list(arm_joint_names(self.arm))
         self._max_gap = round(self.values["max_twist_gap"] * NANOSECONDS)
@@ -89,7 +89,7 @@ class RobotNode(CheckedNode):
         self._twists = self.listen(TwistStamped, "traj_twist", self._on_twist)
 
     def in_words(self) -> str:
-        """Which solver answers."""
+        """Describe the solver."""
         return f"solver {self.values['solver']}"
 
     def _tracker_of_choice(self) -> Tracker:
@@ -119,7 +119,7 @@ class RobotNode(CheckedNode):
             self._answer(pair["pose"], pair["twist"])
 
     def _answer_alone(self) -> None:
-        """Answer the poses whose twist does not come: whoever advertises twists may never send one."""
+        """Answer poses whose twists do not arrive: a node that advertises twists may never send one."""
         while self._waiting and self._waiting[0][0] <= time.monotonic():
             _, pose = self._waiting.popleft()
             stamp = nanoseconds(pose.stamp)
@@ -135,12 +135,12 @@ class RobotNode(CheckedNode):
         self._publish(self._tracker.pose(pose.position, pose.direction, velocity, angular_velocity, dt), pose.stamp)
 
     def _integrate(self, twist: TipTwist) -> None:
-        """Move on by the twist; the first one, and one after a gap, starts the motion where the arm is."""
+        """Integrate a twist; the first one, and one after a gap, starts the motion at the present posture."""
         dt = self._time_since_last(twist.stamp)
         self._publish(self._tracker.twist(twist.linear, twist.angular, 0.0 if dt is None else dt), twist.stamp)
 
     def _time_since_last(self, stamp: Time) -> float | None:
-        """Time [s] since the answer before; None where the motion does not continue it."""
+        """Return the time since the previous answer [s]; None if the motion does not continue it."""
         now = nanoseconds(stamp)
         gap = None if self._last is None else now - self._last
         self._last = now
@@ -162,5 +162,5 @@ class RobotNode(CheckedNode):
         self._publish_status(status)
         if not result.solved:
             self.diagnostics.warnings.note(
-                WORDS[result.status], f"the nearest found is used, {1e3 * result.distance:.3f} mm away"
+                WORDS[result.status], f"the nearest pose found is used, {1e3 * result.distance:.3f} mm away"
             )

@@ -1,4 +1,4 @@
-"""Node of one section: its joints to its configuration and cables, and its commanded cables to its joints."""
+"""Node of one section: configuration and cables from its joints, and joints from commanded cables."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ from continuum_msgs.msg import CableStates, ConfigStates
 
 
 class SectionNode(CheckedNode):
-    """``joint_states`` to ``section_config_states`` and ``section_cable_states``, and back.
+    """Converts ``joint_states`` to ``section_config_states`` and ``section_cable_states``, and commands to joints.
 
-    Joints need not bend alike: the configuration is that of their sum, cables run from disc to disc of single joints.
-    ``section_cable_commands`` for this section become ``section_joint_states``, and ``section_config_commands`` these
-    and ``section_cable_states``. One message in gives one out of each, with the same stamp.
+    Joints may bend differently: the configuration is the sum of the bends, and cables run straight from disc to disc.
+    ``section_cable_commands`` for this section give ``section_joint_states``; ``section_config_commands`` give these
+    and ``section_cable_states``. Each input message gives one message on each output, with the same stamp.
     """
 
     NAME = "section"
     PARAMETERS = (
-        ParameterSpec("section", int, "which section of the arm this node is, 1 at the base", lower=1),
+        ParameterSpec("section", int, "number of the node's section, 1 at the base", lower=1),
         TOLERANCE,
     )
     HAS_ARM = True
@@ -68,7 +68,7 @@ class SectionNode(CheckedNode):
         self.listen(ConfigStates, "section_config_commands", self._on_config)
 
     def in_words(self) -> str:
-        """Which section of the arm it is."""
+        """Describe the section."""
         return f"{self._section.name}, {self._number} of {self.arm.n_sections}"
 
     def _on_joints(self, message: JointState) -> None:
@@ -88,7 +88,7 @@ class SectionNode(CheckedNode):
         self._publish_cable_state(bends, rates, message.header.stamp)
 
     def _is_for_another(self, message: CableStates | ConfigStates, topic: str) -> bool:
-        """Whether a stamped command is for another section of the arm."""
+        """Return whether a stamped command is for another section of the arm."""
         if checked_section(message.section, self.arm) != self._number:
             self.diagnostics.ignored[topic] += 1
             return True
@@ -131,7 +131,7 @@ class SectionNode(CheckedNode):
         self._publish_config(config)
 
     def _publish_cable_state(self, bends: Array, rates: Array | None, stamp: Time) -> None:
-        """Of joints bent by ``bends`` (n_joints, 2) [rad], at ``rates`` [rad/s] where they are known."""
+        """Publish the cables for ``bends`` (n_joints, 2) [rad] of the joints and their ``rates`` [rad/s] or None."""
         cables = CableStates(section=self._number, name=self._cables)
         cables.header.stamp = stamp
         cables.position = lengths_of_joints(bends, self.arm, self._number - 1)
@@ -140,7 +140,7 @@ class SectionNode(CheckedNode):
         self._publish_cables(cables)
 
     def _publish_joint_states(self, state: Configuration, stamp: Time) -> None:
-        """Publish joints."""
+        """Publish the joints of a configuration."""
         positions, velocities = joint_values(state, self._section)
         joints = JointState(name=self._joints, position=positions)
         joints.header.stamp = stamp

@@ -1,6 +1,6 @@
-"""Joints of a section in ``sensor_msgs/JointState``: by name, to and from the configuration (thesis appendix A).
+"""Conversion between joints of a section in ``sensor_msgs/JointState`` and its configuration (thesis appendix A).
 
-A section turns by phi at its base, bends by theta / n at each of its n joints, and turns back by -phi at its tip.
+A section rotates by phi at its base, bends by theta / n at each of its n joints, and rotates back by -phi at its tip.
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.faults import MessageFault
 
 STRAIGHT = 1e-12
-"""Bend below which a section counts as straight [rad]: phi's rate grows without limit there and is not used."""
+"""Bend below which a section counts as straight [rad]: phi's rate is unbounded there and is not used."""
 
 
 @dataclass(frozen=True)
 class Configuration:
-    """Configuration ``w`` (2,) [rad] of a section, and its rate (2,) [rad/s] where it is known."""
+    """Configuration ``w`` (2,) [rad] of a section, and its rate (2,) [rad/s] if known."""
 
     w: Array
     rate: Array | None
 
 
 def joint_names(section: Section) -> tuple[str, ...]:
-    """Names of the section's joints from base to tip."""
+    """Return the names of the section's joints from base to tip."""
     return (section.phi_joint, *section.theta_joints, section.phi_back_joint)
 
 
 def joint_values(state: Configuration, section: Section) -> tuple[Array, Array | None]:
-    """Positions (n_joints + 2,) [rad] and rates [rad/s], or None, of the joints of :func:`joint_names`.
+    """Return positions (n_joints + 2,) [rad] and rates [rad/s], or None, of the joints of :func:`joint_names`.
 
-    phi of the straight posture is free; it is chosen so that phi and theta can carry the rate.
+    In the straight posture phi is arbitrary; it is chosen so that phi and theta can represent the rate.
     """
     phi, theta = jones_from_allen(state.w)
     if state.rate is None:
@@ -52,14 +52,14 @@ def joint_values(state: Configuration, section: Section) -> tuple[Array, Array |
 def read_joints(
     index: Mapping[str, int], positions: Sequence[float], velocities: Sequence[float], section: Section
 ) -> Configuration | None:
-    """Configuration of the section from a message's joints; None where it has none of the section's.
+    """Return the section's configuration from a message; None if it contains none of the section's joints.
 
-    phi must be there, and of the theta joints either all, whose sum is theta, or the first alone, which leads them.
+    phi must be present, and either all theta joints, whose sum is theta, or only the first, which the others mimic.
 
     Args:
-        index: where each joint's name stands in the message.
-        positions: [rad], one for each name.
-        velocities: [rad/s], one for each name, or empty.
+        index: position of each joint's name in the message.
+        positions: joint positions [rad], one for each name.
+        velocities: joint velocities [rad/s], one for each name, or empty.
         section: the section.
 
     Raises:
@@ -85,10 +85,9 @@ def read_joints(
 
 
 def read_bends(index: Mapping[str, int], positions: Sequence[float], section: Section) -> Array | None:
-    """Bends (n_joints, 2) [rad] of the section's joints, Allen's (u, v) of each; None where none is in the message.
+    """Return bends (n_joints, 2) [rad] of the section's joints, Allen's (u, v) of each; None if none is present.
 
-    Joints that follow the first one are bent as it is. What is refused, and the arguments, are those of
-    :func:`read_joints`.
+    Joints that mimic the first one have the same bend. Arguments and faults are those of :func:`read_joints`.
     """
     if read_joints(index, positions, (), section) is None:
         return None
@@ -98,7 +97,7 @@ def read_bends(index: Mapping[str, int], positions: Sequence[float], section: Se
 def read_bend_rates(
     index: Mapping[str, int], positions: Sequence[float], velocities: Sequence[float], section: Section
 ) -> Array:
-    """Rates (n_joints, 2) [rad/s] of what :func:`read_bends` reads, of a message that has the section's joints."""
+    """Return the rates (n_joints, 2) [rad/s] of the bends that :func:`read_bends` reads from the same message."""
     thetas = _theta_names(index, section)
     phi, angles = _phi_and_thetas("position", index, positions, thetas, section)
     phi_rate, rates = _phi_and_thetas("velocity", index, velocities, thetas, section)
@@ -106,10 +105,10 @@ def read_bend_rates(
 
 
 def read_names(message: JointState) -> dict[str, int]:
-    """Where each joint's name stands in a message whose arrays are one entry a name; rates and efforts may be missing.
+    """Return the position of each joint's name, after checking the arrays; rates and efforts may be missing.
 
     Raises:
-        MessageFault: an array of another length, a rate or effort that is not finite, or a repeated name.
+        MessageFault: an array has the wrong length, a rate or effort is not finite, or a name is repeated.
     """
     messages.same_length("position", message.position, message.name)
     for field in ("velocity", "effort"):
@@ -120,7 +119,7 @@ def read_names(message: JointState) -> dict[str, int]:
 
 
 def _theta_names(index: Mapping[str, int], section: Section) -> list[str]:
-    """The section's theta joints in a message, all or the first alone; none where it has no joint of the section."""
+    """Return the section's theta joints in a message, all or only the first; empty without joints of the section."""
     if index.keys().isdisjoint(joint_names(section)):
         return []
     thetas = [name for name in section.theta_joints if name in index]
@@ -134,7 +133,7 @@ def _theta_names(index: Mapping[str, int], section: Section) -> list[str]:
 def _phi_and_thetas(
     field: str, index: Mapping[str, int], values: Sequence[float], thetas: Sequence[str], section: Section
 ) -> tuple[Array, Array]:
-    """phi, and theta of every joint (n_joints,), also where the first alone is in the message."""
+    """Return phi, and theta of every joint (n_joints,), even if only the first is in the message."""
     for name in (section.phi_joint, *thetas):
         if not math.isfinite(values[index[name]]):
             raise MessageFault(

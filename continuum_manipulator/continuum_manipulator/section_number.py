@@ -1,4 +1,4 @@
-"""Which section of the arm is meant: counted from 1 in parameters and messages."""
+"""Number of a section, counted from 1 in parameters and messages."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ def checked_section(number: int, arm: Arm) -> int:
     """Return ``number`` if the arm has such a section.
 
     Raises:
-        InvalidValueError: it has not.
+        InvalidValueError: the arm does not have this section.
     """
     if not 1 <= number <= arm.n_sections:
         raise InvalidValueError("section", number, f"1 to {arm.n_sections}, the arm's sections counted from the base")

@@ -1,4 +1,4 @@
-"""What the trajectory asks of the arm's tip: checked poses and twists in ``base_link``."""
+"""Targets of the arm's tip from a trajectory: checked poses and twists in ``base_link``."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def read_pose(message: PoseStamped) -> TipPose:
     """Check a pose.
 
     Raises:
-        MessageFault: no stamp, another frame, not finite, or an orientation that is none.
+        MessageFault: the stamp is missing, the frame is wrong, a value is not finite, or the quaternion is zero.
     """
     messages.stamped(message.header.stamp)
     messages.frame("frame_id", message.header.frame_id, BASE_FRAME)
@@ -47,7 +47,7 @@ def read_twist(message: TwistStamped) -> TipTwist:
     """Check a twist.
 
     Raises:
-        MessageFault: no stamp, another frame, or not finite.
+        MessageFault: the stamp is missing, the frame is wrong, or a value is not finite.
     """
     messages.stamped(message.header.stamp)
     messages.frame("frame_id", message.header.frame_id, BASE_FRAME)

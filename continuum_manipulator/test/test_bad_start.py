@@ -32,7 +32,7 @@ BAD_PARAMETERS = {
         "dynamics",
         (),
         {"initial_bend": 1.0, "initial_angles": "[0.1, 0.1, 0.1, 0.1, 0.1]"},
-        "initial_bend is 1.0; allowed: 0, or no initial_angles",
+        "initial_bend is 1.0; allowed: 0 if initial_angles",
     ),
     "angles of another arm": (
         "dynamics",

@@ -177,7 +177,7 @@ def test_files_of_a_split_recording_are_joined(tmp_path):
 
 
 def test_recovery_of_nothing(tmp_path):
-    with pytest.raises(FileError, match="holds no MCAP file"):
+    with pytest.raises(FileError, match="contains no MCAP file"):
         recover(tmp_path, tmp_path / "recovered")
 
 

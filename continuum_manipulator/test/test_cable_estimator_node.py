@@ -144,7 +144,7 @@ def test_what_is_no_measurement_of_a_posture_is_refused_in_one_line(bench):
     bench.send(wrong, beyond, unknown, infinite, of_a_section, zero, few, measured(301, LENGTHS[0]))
     assert [instant_of(one) for one in bench.joints] == [301]
     for line in (
-        f"lengths of no posture: measured_cable_states: residual of {CABLES[9]} is",
+        f"lengths that no posture has: measured_cable_states: residual of {CABLES[9]} is",
         "allowed: up to the tolerance, 0.01 m",
         "value out of range: measured_cable_states: bend of section_2 is",
         "unknown name: measured_cable_states: elbow",

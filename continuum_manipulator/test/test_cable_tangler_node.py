@@ -104,7 +104,7 @@ def test_an_instant_sent_again_is_warned_of(bench):
     key = "section states too late"
     before = probe.count("cable_tangler", key)
     check_totals(bench.totals_after(messages + messages), [0], base)
-    bench.node.wait_for_line(f"{key}: at 125.000000000 s: section 1; this instant, or a later one, is already summed")
+    bench.node.wait_for_line(f"{key}: at 125.000000000 s: section 1; this instant, or a later one, has been published")
     probe.wait_until(lambda: probe.count("cable_tangler", key) == before + 3, lambda: probe.report("cable_tangler"))
     assert probe.report("cable_tangler")["level"] == "WARN"
     bench.totals_after([part(1, 2, base)] * 2)

@@ -84,7 +84,7 @@ def test_simulated_time_sets_the_pace(domain, probe):
         clock.repeat_until(lambda: stamps(joints)[-1] >= clock.now - 2 * PERIOD)
         back = clock.now - 400 * NANOSECONDS
         clock.step(-500.0)
-        clock.repeat_until(lambda: "time went back: by 500.000 s; the arm goes on from its posture" in node.stderr)
+        clock.repeat_until(lambda: "time went back: by 500.000 s; the arm continues from its posture" in node.stderr)
         clock.step_until(0.02, lambda: stamps(cables)[-1] < back and not any(cables[-1].effort))
         instants = stamps(cables)
         pulling = instants[(instants < back) & np.array([any(one.effort) for one in cables])]

@@ -21,7 +21,7 @@ def test_help_is_printed_and_is_no_error(word):
     assert result.stdout.startswith(
         "usage: ros2 run continuum_manipulator section --ros-args --params-file ARM.yaml -p "
     )
-    assert "which section of the arm this node is, 1 at the base; a whole number >= 1; required" in result.stdout
+    assert "number of the node's section, 1 at the base; a whole number >= 1; required" in result.stdout
     assert "take the time from /clock; true or false; default false" in result.stdout
 
 

@@ -1,12 +1,12 @@
-"""The nodes of an arm, as many sections as its file has; where asked for, a trajectory, a recording and RViz.
+"""Launch the nodes of an arm with any number of sections; optionally a trajectory, a recording and RViz.
 
     ros2 launch trajectory_generator arm.launch.py arm:=/path/my_arm.yaml
     ros2 launch trajectory_generator arm.launch.py trajectory:=helix.yaml record:=out/recording
     ros2 launch trajectory_generator arm.launch.py arm:=prototype.yaml mode:=cables rviz:=true
 
-A trajectory begins when every node runs, and with record:=FOLDER when the recorder listens too. A node that dies, and a
-recorder that cannot begin, end everything with an exit code other than 0. rviz:=true needs robot_state_publisher and
-rviz2 of a ROS desktop installation.
+A trajectory starts when every node runs, and with record:=FOLDER when the recorder is ready too. If a node dies or the
+recorder cannot start, the launch ends with a nonzero exit code. rviz:=true needs robot_state_publisher and rviz2 of a
+ROS desktop installation.
 """
 
 from pathlib import Path
@@ -32,32 +32,32 @@ REMAPS = {
         "cable_tangler": {"cable_states": "cable_commands"},
     },
 }
-"""Topics by mode and executable. With cables, joints are not those that were solved for, but those that the commanded
-cables give."""
+"""Topics by mode and executable. In the mode cables, the joints follow from the commanded cable lengths, and not
+directly from the inverse kinematics."""
 
 MAY_END = ("trajectory_publisher", "rviz2")
-"""Processes that others do without, as long as they end well."""
+"""Processes that may end normally without ending the launch."""
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Arguments first; the rest depends on the arm's file."""
+    """Return the arguments, and a function for the nodes, which depend on the arm's file."""
     return LaunchDescription(
         [
             DeclareLaunchArgument(
                 "arm",
                 default_value="three_sections.yaml",
-                description="parameter file of the arm, or the name of one of continuum_description",
+                description="parameter file of the arm, or name of a file in continuum_description",
             ),
             DeclareLaunchArgument(
                 "mode",
                 default_value="inverse_kinematics",
                 choices=list(REMAPS),
-                description="what the joints follow: poses of the tip, or through them the commanded lengths of cables",
+                description="input of the joints: poses of the tip, or the cable lengths that are commanded for them",
             ),
             DeclareLaunchArgument(
                 "trajectory",
                 default_value="",
-                description="parameter file of a trajectory, or the name of one of trajectory_generator; empty: none",
+                description="parameter file of a trajectory, or name of a file in trajectory_generator; empty: none",
             ),
             DeclareLaunchArgument(
                 "record",
@@ -68,7 +68,7 @@ def generate_launch_description() -> LaunchDescription:
                 "target",
                 default_value="position",
                 choices=["position", "position_direction"],
-                description="what of a pose the tip follows",
+                description="part of a pose that the tip follows",
             ),
             DeclareLaunchArgument(
                 "solver",
@@ -83,7 +83,7 @@ def generate_launch_description() -> LaunchDescription:
                 "tip",
                 default_value="false",
                 choices=list(BOOLEANS),
-                description="pose and twist of the tip and, without RViz, the frames of all discs, of the joints",
+                description="pose and twist of the tip from the joints and, without RViz, the frames of all discs",
             ),
             DeclareLaunchArgument(
                 "rviz", default_value="false", choices=list(BOOLEANS), description="RViz with the arm"
@@ -98,17 +98,17 @@ def generate_launch_description() -> LaunchDescription:
 
 
 def miss(event: ProcessExited, context: LaunchContext) -> None:
-    """End everything when a process ends that the others need."""
+    """End the launch when a required process ends."""
     name = event.process_name.rpartition("-")[0]
     if not context.is_shutdown and (event.returncode != 0 or name not in MAY_END):
-        raise RuntimeError(f"{name} ended with exit code {event.returncode}; the launch needs it, and ends")
+        raise RuntimeError(f"{name} ended with exit code {event.returncode}; the launch requires it and ends")
 
 
 def nodes(context: LaunchContext) -> list[Node | IncludeLaunchDescription]:
-    """Everything that runs.
+    """Return all nodes.
 
     Raises:
-        ContinuumError: the arm's file is not right.
+        ContinuumError: the arm's file is invalid.
     """
     given = context.launch_configurations
     arm_file = file_of(given["arm"], "continuum_description")
@@ -134,7 +134,7 @@ def nodes(context: LaunchContext) -> list[Node | IncludeLaunchDescription]:
     if is_true(given["markers"]):
         started += [node("markers", "markers", arm_file)]
     if is_true(given["tip"]):
-        frames = {"publish_tf": not is_true(given["rviz"])}  # with RViz, robot_state_publisher has the same frames
+        frames = {"publish_tf": not is_true(given["rviz"])}  # with RViz, robot_state_publisher publishes these frames
         started += [node("forward_kinematics", "forward_kinematics", arm_file, frames)]
         needed += ["forward_kinematics"]
     if given["record"]:
@@ -156,19 +156,19 @@ def nodes(context: LaunchContext) -> list[Node | IncludeLaunchDescription]:
 
 
 def file_of(text: str, package: str) -> str:
-    """Absolute path of a file, or of the one of this name that comes with the package.
+    """Return the absolute path of a file, or of the file with this name in the package.
 
     Raises:
-        RuntimeError: there is neither.
+        RuntimeError: neither exists.
     """
     shipped = Path(get_package_share_directory(package)) / "config"
     for path in (Path(text).expanduser().absolute(), shipped / text):
         if path.is_file():
             return str(path)
     names = ", ".join(sorted(path.name for path in shipped.glob("*.yaml")))
-    raise RuntimeError(f"{text!r} is no file; {package} has: {names}")
+    raise RuntimeError(f"{text!r} is not a file; {package} has: {names}")
 
 
 def is_true(text: str) -> bool:
-    """One of `BOOLEANS` as a truth value."""
+    """Return one of `BOOLEANS` as a truth value."""
     return text.lower() == "true"

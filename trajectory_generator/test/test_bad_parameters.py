@@ -82,7 +82,7 @@ BAD = {
     "flat helix": ({"helix.z_end": 0.01}, "helix.z_end is 0.01; allowed: a height other than z_start"),
     "tight corner": (
         {"corner_radius": 0.16},
-        r"corner_radius is 0.16; allowed: less than 0.150973 m; make it smaller: from via_points",
+        r"corner_radius is 0.16; allowed: less than 0.150973 m: the distance from via_points",
     ),
     "missing": ({"path": "line"}, "line.start is None; allowed: a list"),
     "no way": ({"path": "line", "line.start": SQUARE[:3], "line.end": SQUARE[:3]}, "line.end is .* from the start"),

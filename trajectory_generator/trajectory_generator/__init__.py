@@ -1,1 +1,1 @@
-"""Cartesian trajectories: paths with rounded corners, trapezoidal speed, pose and twist at any instant; free of ROS."""
+"""Cartesian trajectories with rounded corners and trapezoidal speed, sampled at any instant; independent of ROS."""

@@ -1,4 +1,4 @@
-"""Arrays given from outside: of the right shape, finite, and of a size that a robot can have."""
+"""Checks of arrays from users and files: right shape, finite, and of plausible size for a robot."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from continuum.arrays import Array
 from continuum.errors import InvalidValueError
 
 LARGEST = 1e6
-"""Largest length [m] or other figure taken; beyond it squares and ratios would lose their meaning."""
+"""Largest accepted length [m] or other number; beyond it squares and ratios lose their accuracy."""
 
 SMALLEST_POSITIVE = 1e-9
-"""Smallest figure taken where one must be positive."""
+"""Smallest accepted value of a number that must be positive."""
 
 
 def finite_array(name: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
-    """``values`` as an array of ``shape``, in which -1 stands for any number of rows.
+    """Return ``values`` as an array of ``shape``, in which -1 stands for any number of rows.
 
     Raises:
-        InvalidValueError: other shape, not numbers, not finite, or larger than ``LARGEST``.
+        InvalidValueError: the values have another shape, are not finite numbers, or exceed ``LARGEST``.
     """
     words = " x ".join("n" if size < 0 else str(size) for size in shape)
     allowed = f"{words} finite numbers within +-{LARGEST:g}"
@@ -35,10 +35,10 @@ def finite_array(name: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
 
 
 def rotation_matrices(name: str, values: ArrayLike) -> Array:
-    """``values`` as rotation matrices (n, 3, 3).
+    """Return ``values`` as rotation matrices (n, 3, 3).
 
     Raises:
-        InvalidValueError: other shape, or a matrix is not orthonormal and right-handed to 1e-6.
+        InvalidValueError: the shape is wrong, or a matrix is not orthonormal and right-handed to 1e-6.
     """
     matrices = finite_array(name, values, (-1, 3, 3))
     error = np.abs(matrices.transpose(0, 2, 1) @ matrices - np.eye(3)).max(axis=(1, 2), initial=0.0)
@@ -48,10 +48,10 @@ def rotation_matrices(name: str, values: ArrayLike) -> Array:
 
 
 def positive(name: str, value: float, unit: str) -> float:
-    """``value`` if it lies between ``SMALLEST_POSITIVE`` and ``LARGEST``.
+    """Return ``value`` if it is between ``SMALLEST_POSITIVE`` and ``LARGEST``.
 
     Raises:
-        InvalidValueError: it does not.
+        InvalidValueError: it is not in this range.
     """
     if not SMALLEST_POSITIVE <= value <= LARGEST:
         raise InvalidValueError(name, value, f"a number from {SMALLEST_POSITIVE:g} to {LARGEST:g} {unit}")

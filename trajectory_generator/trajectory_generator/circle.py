@@ -16,7 +16,7 @@ SMALLEST_RADIUS = 1e-6
 
 
 def arc_pieces(start: Array, tangent: Array, normal: Array, radius: Array, angle: Array, turn: Turn) -> Pieces:
-    """Arcs from ``start`` (m, 3) [m] along ``tangent`` (m, 3); centre at ``radius`` (m,) [m] on ``normal`` (m, 3)."""
+    """Return arcs from ``start`` (m, 3) [m] along ``tangent``, with the centre at ``radius`` (m,) [m] on ``normal``."""
     return Pieces(start, tangent, normal, 1 / radius, radius * angle, turn)
 
 
@@ -29,17 +29,17 @@ def circle_path(
     end_rotation: ArrayLike,
     equivalent_radius: float,
 ) -> Path:
-    """One arc about ``center``, from ``start`` to the side on which ``toward`` lies; several rounds if so wished.
+    """Return one arc about ``center``, from ``start`` to the side of ``toward``, of one or several revolutions.
 
     Args:
         start, center: positions (3,) [m].
         toward: position (3,) [m] in the plane of the circle, off the line through start and centre.
-        angle: angle of the arc [rad], positive; more than 2 pi for more than one round.
+        angle: angle of the arc [rad], positive; more than 2 pi for more than one revolution.
         start_rotation, end_rotation: orientations (3, 3).
         equivalent_radius: see :class:`Path` [m/rad].
 
     Raises:
-        InvalidValueError: a value is not what it should be, or the three points span no circle.
+        InvalidValueError: a value is invalid, or the three points do not define a circle.
     """
     first, middle, side = (
         finite_array(name, point, (3,)) for name, point in (("start", start), ("center", center), ("toward", toward))

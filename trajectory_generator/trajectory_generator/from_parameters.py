@@ -1,4 +1,4 @@
-"""Make a trajectory from named parameters, as a node or a file has them."""
+"""Create a trajectory from named parameters of a node or a file."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from trajectory_generator.rounded_path import rounded_path
 from trajectory_generator.trajectory import Trajectory
 
 Checked = dict[str, Any]
-"""Values by parameter name; each of the type that its :class:`ParameterSpec` says."""
+"""Values by parameter name, each of the type of its :class:`ParameterSpec`."""
 
 
 def trajectory_from_mapping(values: Mapping[str, object]) -> Trajectory:
-    """The trajectory that ``values`` describe, by the flat names of :func:`parameters_of`; what is missing is default.
+    """Return the trajectory that ``values`` describe, by the flat names of :func:`parameters_of`, with defaults.
 
-    ``rate`` is checked and otherwise left to the caller, who publishes at it: a trajectory can be asked at any instant.
+    ``rate`` is only checked here; the caller publishes at this rate, since a trajectory can be sampled at any instant.
 
     Raises:
-        InvalidValueError: a parameter is missing, unknown for this kind of path or out of range, or they describe no
-            path; the message names it.
+        InvalidValueError: a parameter is missing, unknown for this kind of path or out of range, or the parameters do
+            not describe a path; the message names the parameter.
     """
     checked = _checked(values)
     path = _PATHS[checked["path"]](checked)
@@ -50,7 +50,7 @@ def _checked(values: Mapping[str, object]) -> Checked:
 
 @contextmanager
 def _named_under(prefix: str) -> Iterator[None]:
-    """Put ``prefix`` before the name in an error from within."""
+    """Add ``prefix`` to the name in errors of the context."""
     try:
         yield
     except InvalidValueError as error:
@@ -105,14 +105,14 @@ _PATHS: dict[str, Callable[[Checked], Path]] = {
 
 
 def _both_ends(values: Checked, prefix: str) -> tuple[Array, Array]:
-    """Orientations (3, 3) at the start and at the end."""
+    """Return the orientations (3, 3) at the start and at the end."""
     ends = [finite_array(name, values[name], (3,)) for name in (prefix + "start_rpy", prefix + "end_rpy")]
     start, end = _rotations(np.stack(ends), prefix)
     return start, end
 
 
 def _rotations(figures: Array, name: str) -> Array:
-    """Rotation matrices (n, 3, 3) from rows of nothing, of roll, pitch, yaw [rad], or of a quaternion x, y, z, w."""
+    """Return rotation matrices (n, 3, 3) from empty rows, roll, pitch, yaw [rad], or quaternions x, y, z, w."""
     if figures.shape[1] == 0:
         return np.broadcast_to(np.eye(3), (len(figures), 3, 3))
     if figures.shape[1] == 3:

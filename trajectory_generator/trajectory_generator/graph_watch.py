@@ -1,4 +1,4 @@
-"""Waiting until all who are to listen are there, so that a trajectory's first messages are not lost."""
+"""Wait for all subscribers, so that the first messages of a trajectory are not lost."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from rclpy.node import Node
 
 
 class GraphWatch:
-    """Tells when the listeners are there and the graph has come to rest.
+    """Detects that the subscribers are present and that the ROS graph has settled.
 
-    Nodes that start together find each other within a fraction of a second; that the graph looks complete from here
-    does not say that the others have found each other. So it must also have been still for a while.
+    Nodes that start together find each other within a fraction of a second, but a graph that is complete for this node
+    may be incomplete for the others. The graph must therefore also have been unchanged for some time.
 
     Args:
-        node: through which to look.
+        node: node whose view of the graph is used.
         nodes: names of nodes that must run.
         complete: a further condition.
-        settle_time: how long the graph must have been still [s].
+        settle_time: time for which the graph must have been unchanged [s].
     """
 
     def __init__(self, node: Node, nodes: Sequence[str], complete: Callable[[], bool], settle_time: float) -> None:
@@ -30,13 +30,13 @@ class GraphWatch:
         self._still_since = time.monotonic()
 
     def missing(self) -> list[str]:
-        """Names of wanted nodes that are not running."""
+        """Return the names of required nodes that are not running."""
         running = self._node.get_node_names_and_namespaces()
         names = {name for name, _ in running} | {f"{space.rstrip('/')}/{name}" for name, space in running}
         return sorted(self._wanted - names)
 
     def ready(self) -> bool:
-        """To be asked again and again, several times within the settle time."""
+        """Return whether the graph is complete and settled; call this several times within the settle time."""
         picture = self._check()
         if picture != self._picture:
             self._picture, self._still_since = picture, time.monotonic()

@@ -9,17 +9,17 @@ from continuum.errors import InvalidValueError
 from trajectory_generator.checked_arrays import finite_array, positive
 
 MOST_POINTS = 100_000
-"""Largest number of via points taken."""
+"""Largest accepted number of via points."""
 
 
 def helix_points(radius: float, pitch: float, z_start: float, z_end: float, n_points: int) -> Array:
-    """Points (n_points, 3) [m] at equal steps of a right-handed helix that starts above the x axis.
+    """Return points (n_points, 3) [m] at equal steps on a right-handed helix that starts above the x axis.
 
-    azimuth(z) = 2 pi (z - z_start) / pitch; it may lead up or down.
+    azimuth(z) = 2 pi (z - z_start) / pitch; the helix may rise or fall.
 
     Args:
         radius: distance from the z axis [m].
-        pitch: rise in one round [m].
+        pitch: rise per revolution [m].
         z_start, z_end: heights of the first and the last point [m].
         n_points: number of points, both ends included; 2 to ``MOST_POINTS``.
 

@@ -15,11 +15,11 @@ SHORTEST_TRAVEL = 1e-7
 """Points closer than this count as one [m], as in KDL."""
 
 SMALLEST_TURN = 1e-6
-"""Smallest turn in place that makes a path [rad]."""
+"""Smallest rotation in place that counts as a path [rad]."""
 
 
 def line_pieces(start: Array, tangent: Array, travel: Array, turn: Turn) -> Pieces:
-    """Lines from ``start`` (m, 3) [m] by ``travel`` (m,) [m] along ``tangent`` (m, 3)."""
+    """Return lines from ``start`` (m, 3) [m] by ``travel`` (m,) [m] along ``tangent`` (m, 3)."""
     return Pieces(start, tangent, np.zeros_like(start), np.zeros_like(travel), travel, turn)
 
 
@@ -30,7 +30,7 @@ def line_path(
     end_rotation: ArrayLike,
     equivalent_radius: float,
 ) -> Path:
-    """One straight line, or a turn in place where both points are the same.
+    """Return one straight line, or a rotation in place if both points are equal.
 
     Args:
         start, end: positions (3,) [m].
@@ -38,7 +38,7 @@ def line_path(
         equivalent_radius: see :class:`Path` [m/rad].
 
     Raises:
-        InvalidValueError: a value is not what it should be, or both ends are one pose.
+        InvalidValueError: a value is invalid, or both poses are equal.
     """
     first, last = finite_array("start", start, (3,)), finite_array("end", end, (3,))
     turn = Turn.between_two(start_rotation, end_rotation)

@@ -1,4 +1,4 @@
-"""The parameters of a trajectory by their ROS names: type, unit, range, default and meaning of each."""
+"""The parameters of a trajectory by their ROS names, with type, unit, range, default and description."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from trajectory_generator.helix import MOST_POINTS
 ORIGIN = [0.0, 0.0, 0.0]
 
 VIA_POINT_FORMS = {"xyz": 3, "xyz_rpy": 6, "xyz_quaternion": 7}
-"""Figures that one via point has in each form of the list."""
+"""Number of values of one via point in each form of the list."""
 
 
 def _point(name: str, description: str, default: list[float] | None = None) -> ParameterSpec:
@@ -31,7 +31,7 @@ _CORNER_RADIUS = _positive("corner_radius", "radius of the arcs that round the c
 PATH_PARAMETERS: dict[str, tuple[ParameterSpec, ...]] = {
     "helix": (
         _positive("helix.radius", "distance of the helix from the z axis", "m", 1e3, 0.15),
-        _positive("helix.pitch", "rise of the helix in one round", "m", 1e3, 0.08),
+        _positive("helix.pitch", "rise of the helix per revolution", "m", 1e3, 0.08),
         ParameterSpec("helix.z_start", float, "height of the first via point", "m", -1e3, 1e3, default=0.01),
         ParameterSpec("helix.z_end", float, "height of the last via point", "m", -1e3, 1e3, default=0.30),
         ParameterSpec(
@@ -41,10 +41,10 @@ PATH_PARAMETERS: dict[str, tuple[ParameterSpec, ...]] = {
     ),
     "via_points": (
         ParameterSpec(
-            "via_points.form", str, "figures of one via point", default="xyz", choices=tuple(VIA_POINT_FORMS)
+            "via_points.form", str, "values of one via point", default="xyz", choices=tuple(VIA_POINT_FORMS)
         ),
         ParameterSpec(
-            "via_points.list", float, "figures of all via points, one after the other", "m, rad", -1e3, 1e3,
+            "via_points.list", float, "values of all via points, in order", "m, rad", -1e3, 1e3,
             is_list=True,
         ),
         _CORNER_RADIUS,
@@ -58,31 +58,31 @@ PATH_PARAMETERS: dict[str, tuple[ParameterSpec, ...]] = {
     "circle": (
         _point("circle.start", "first point"),
         _point("circle.center", "centre of the circle"),
-        _point("circle.toward", "any point of the circle's plane on the side to which the motion sets out"),
-        _positive("circle.angle", "angle of the arc; more than one round is allowed", "rad", 1e4, 2 * math.pi),
+        _point("circle.toward", "any point of the circle's plane on the side towards which the motion starts"),
+        _positive("circle.angle", "angle of the arc; more than one revolution is allowed", "rad", 1e4, 2 * math.pi),
         _orientation("circle.start_rpy", "orientation at the start"),
         _orientation("circle.end_rpy", "orientation at the end"),
     ),
 }  # fmt: skip
-"""What every kind of path needs, beside ``MOTION_PARAMETERS``."""
+"""Parameters of every kind of path, in addition to ``MOTION_PARAMETERS``."""
 
 PATH = ParameterSpec("path", str, "kind of path", default="helix", choices=tuple(PATH_PARAMETERS))
 
 MOTION_PARAMETERS: tuple[ParameterSpec, ...] = (
-    _positive("equivalent_radius", "way that one radian of turning counts for", "m", 1e3, 0.002),
+    _positive("equivalent_radius", "path length that one radian of rotation counts as", "m", 1e3, 0.002),
     _positive("max_speed", "largest speed along the path", "m/s", 1e3, 0.1),
-    _positive("max_acceleration", "largest change of the speed along the path", "m/s2", 1e6, 0.02),
+    _positive("max_acceleration", "largest acceleration along the path", "m/s2", 1e6, 0.02),
     ParameterSpec("lead_time", float, "rest at the start before the motion", "s", 0.0, 1e5, default=1.0),
     ParameterSpec("rest_time", float, "rest at the end after the motion", "s", 0.0, 1e5, default=1.0),
-    ParameterSpec("rate", float, "poses and twists in a second", "Hz", 1e-3, 1e4, default=120.0),
+    ParameterSpec("rate", float, "poses and twists per second", "Hz", 1e-3, 1e4, default=120.0),
 )
-"""What every trajectory needs, whatever its path."""
+"""Parameters of every trajectory, independent of its path."""
 
 
 def parameters_of(path: object) -> tuple[ParameterSpec, ...]:
-    """Every parameter of a trajectory along the kind ``path`` of path, that kind itself first.
+    """Return all parameters of a trajectory with the kind ``path`` of path, starting with the kind.
 
     Raises:
-        InvalidValueError: no such kind.
+        InvalidValueError: the kind is unknown.
     """
     return (PATH, *MOTION_PARAMETERS, *PATH_PARAMETERS[str(PATH.check(path))])

@@ -1,4 +1,4 @@
-"""A path through space: straight lines and arcs in a row, each with a turn about one axis (KDL: Path_Composite)."""
+"""A path through space: a sequence of lines and arcs, each with a rotation about one axis (KDL: Path_Composite)."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from trajectory_generator.rotation import Turn
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """Curves of constant curvature, one a row: an arc, or a line where the curvature is zero.
+    """Curves of constant curvature, one per row: arcs, or lines where the curvature is zero.
 
     Attributes:
         start: first point (m, 3) [m].
         tangent: unit vector of the motion at the start (m, 3).
-        normal: unit vector from the start to the centre (m, 3); without meaning for a line.
-        curvature: one over the radius (m,) [1/m].
+        normal: unit vector from the start to the centre (m, 3); meaningless for a line.
+        curvature: inverse of the radius (m,) [1/m].
         travel: distance from first to last point along the curve (m,) [m].
-        turn: the change of orientation on the way, m of them.
+        turn: m rotations along the curves.
     """
 
     start: Array
@@ -34,7 +34,7 @@ class Pieces:
     turn: Turn
 
     def take(self, rows: np.ndarray | slice) -> Pieces:
-        """The pieces of ``rows``, in that order and shape."""
+        """Return the pieces of ``rows``, in that order and shape."""
         return Pieces(
             self.start[rows],
             self.tangent[rows],
@@ -46,7 +46,7 @@ class Pieces:
 
     @classmethod
     def joined(cls, parts: Sequence[Pieces]) -> Pieces:
-        """All pieces of ``parts``, one part after the other."""
+        """Concatenate the pieces of ``parts``."""
         return cls(
             np.concatenate([part.start for part in parts]),
             np.concatenate([part.tangent for part in parts]),
@@ -59,15 +59,15 @@ class Pieces:
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """Pieces one after the other, run through by one parameter s.
+    """A sequence of pieces with one path parameter s.
 
-    A piece takes the larger of its distance and its angle times the equivalent radius as its length, so with
-    ``|s_dot| <= v`` no point moves faster than v and no frame turns faster than v / equivalent_radius. Where pieces of
-    either sort meet, the speeds step, as they do in KDL.
+    The length of a piece is the larger of its distance and its angle times the equivalent radius, so with
+    ``|s_dot| <= v`` no point moves faster than v and no frame rotates faster than v / equivalent_radius. Where a piece
+    limited by distance meets one limited by angle, the speeds jump, as in KDL.
 
     Attributes:
-        pieces: of them none both without travel and without turn.
-        equivalent_radius: length of path that one radian of turning takes at least [m/rad].
+        pieces: the pieces, each with a travel, a rotation, or both.
+        equivalent_radius: smallest path length for one radian of rotation [m/rad].
 
     Raises:
         InvalidValueError: the equivalent radius is not a positive number.
@@ -95,21 +95,22 @@ class Path:
         return float(self.ends[-1])
 
     def pose(self, s: Array) -> tuple[Array, Array]:
-        """Position (..., 3) [m] and orientation (..., 3, 3) at ``s`` (...) [m]; s beyond an end is that end."""
+        """Return position (..., 3) [m] and orientation (..., 3, 3) at ``s`` (...) [m]; s is clipped to the path."""
         piece, fraction = self._locate(s)
         travelled = fraction * piece.travel
         half_angle = piece.curvature * travelled / 2
-        # An arc of radius r seen from its start: r sin(phi) forwards, r (1 - cos(phi)) sideways, phi = travelled / r.
+        # An arc of radius r in the frame of its start: r sin(phi) forwards, r (1 - cos(phi)) sideways,
+        # phi = travelled / r.
         forwards = travelled * np.sinc(2 * half_angle / np.pi)
         sideways = travelled * np.sinc(half_angle / np.pi) * np.sin(half_angle)
         position = piece.start + forwards[..., None] * piece.tangent + sideways[..., None] * piece.normal
         return position, piece.turn.orientation(fraction)
 
     def twist(self, s: Array, s_dot: Array) -> tuple[Array, Array]:
-        """Linear (..., 3) [m/s] and angular velocity (..., 3) [rad/s], both in the base frame.
+        """Return linear (..., 3) [m/s] and angular velocity (..., 3) [rad/s], both in the base frame.
 
         Args:
-            s: where on the path (...) [m].
+            s: path parameter (...) [m].
             s_dot: its rate (...) [m/s].
         """
         piece, fraction = self._locate(s)
@@ -119,11 +120,11 @@ class Path:
         return direction * (fraction_rate * piece.travel)[..., None], piece.turn.rate(fraction_rate)
 
     def _lengths_of(self, pieces: Pieces) -> Array:
-        """Length of ``pieces`` (...) [m]."""
+        """Return the lengths of ``pieces`` (...) [m]."""
         return np.maximum(pieces.travel, self.equivalent_radius * pieces.turn.angle)
 
     def _locate(self, s: Array) -> tuple[Pieces, Array]:
-        """For every s (...) its piece, and the fraction (...) of it gone by; a joint is the earlier one's."""
+        """Return the piece of every s (...), and the fraction (...) of it; a joint belongs to the earlier piece."""
         index = np.minimum(np.searchsorted(self.ends, s), len(self.ends) - 1)
         fraction = 1 - (self.ends[index] - s) / self.lengths[index]
         return self.pieces.take(index), np.clip(fraction, 0.0, 1.0)

@@ -1,4 +1,4 @@
-"""Turning from one orientation to another about one fixed axis (KDL: RotationalInterpolation_SingleAxis)."""
+"""Rotation from one orientation to another about one fixed axis (KDL: RotationalInterpolation_SingleAxis)."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from continuum.arrays import Array
 from trajectory_generator.checked_arrays import finite_array, rotation_matrices
 
 HALF_TURN_MARGIN = 1e-6
-"""Within this of half a turn both senses count as equally short [rad]."""
+"""Distance from half a turn within which both directions count as equally short [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Turn:
-    """Turns, one a row, each about an axis that is fixed in space and in the turning frame alike.
+    """Rotations, one per row, each about an axis that is fixed both in space and in the rotating frame.
 
     Attributes:
         start: orientation at the start, in the base frame (..., 3, 3).
         axis: unit vector in the frame ``start`` (..., 3).
-        angle: the whole angle (...) [rad], 0 to pi (half a turn: up to ``HALF_TURN_MARGIN`` more).
+        angle: total angle (...) [rad], 0 to pi (half a turn: up to ``HALF_TURN_MARGIN`` more).
     """
 
     start: Array
@@ -32,10 +32,10 @@ class Turn:
 
     @classmethod
     def between(cls, start: Array, end: Array) -> Turn:
-        """The shortest turns from ``start`` to ``end``, both (n, 3, 3).
+        """Return the shortest rotations from ``start`` to ``end``, both (n, 3, 3).
 
-        Half a turn is as short in either sense; of the two axes the one whose largest component is positive is taken,
-        as KDL does.
+        Half a turn is equally short in both directions; as in KDL, the axis whose largest component is positive is
+        chosen.
         """
         vector = Rotation.from_matrix(start.transpose(0, 2, 1) @ end).as_rotvec()
         angle = np.linalg.norm(vector, axis=1)
@@ -47,10 +47,10 @@ class Turn:
 
     @classmethod
     def between_two(cls, start_rotation: ArrayLike, end_rotation: ArrayLike) -> Turn:
-        """The one shortest turn (in a row of its own) between orientations (3, 3).
+        """Return the shortest rotation between two orientations (3, 3), as a single row.
 
         Raises:
-            InvalidValueError: one of them is no rotation matrix.
+            InvalidValueError: one of them is not a rotation matrix.
         """
         given = {"start_rotation": start_rotation, "end_rotation": end_rotation}
         start, end = (
@@ -59,16 +59,16 @@ class Turn:
         return cls.between(start, end)
 
     def take(self, rows: np.ndarray | slice) -> Turn:
-        """The turns of ``rows``, in that order and shape."""
+        """Return the rotations of ``rows``, in that order and shape."""
         return Turn(self.start[rows], self.axis[rows], self.angle[rows])
 
     def part(self, begin: Array, end: Array) -> Turn:
-        """The same turns from the fraction ``begin`` (...) of the angle to ``end`` (...)."""
+        """Return the parts of the rotations from the fraction ``begin`` (...) of the angle to ``end`` (...)."""
         return Turn(self.orientation(begin), self.axis, self.angle * (end - begin))
 
     @classmethod
     def joined(cls, parts: Sequence[Turn]) -> Turn:
-        """All turns of ``parts``, one part after the other."""
+        """Concatenate the rotations of ``parts``."""
         return cls(
             np.concatenate([part.start for part in parts]),
             np.concatenate([part.axis for part in parts]),
@@ -76,11 +76,11 @@ class Turn:
         )
 
     def orientation(self, fraction: Array) -> Array:
-        """Orientation (..., 3, 3) after ``fraction`` (...) of the angle: start exp(fraction angle [axis]x)."""
+        """Return the orientation (..., 3, 3) at ``fraction`` (...) of the angle: start exp(fraction angle [axis]x)."""
         return self.start @ rotation_about(self.axis, fraction * self.angle)
 
     def rate(self, fraction_rate: Array) -> Array:
-        """Angular velocity (..., 3) in the base frame [rad/s] for ``fraction_rate`` (...) [1/s]."""
+        """Return the angular velocity (..., 3) in the base frame [rad/s] for ``fraction_rate`` (...) [1/s]."""
         axis_in_base: Array = np.einsum("...ij,...j->...i", self.start, self.axis)
         return axis_in_base * (fraction_rate * self.angle)[..., None]
 
@@ -95,6 +95,6 @@ def rotation_about(axis: Array, angle: Array) -> Array:
 
 
 def quaternions(matrices: Array) -> Array:
-    """Unit quaternions x, y, z, w (..., 4) of rotation matrices (..., 3, 3), of the two signs the one with w >= 0."""
+    """Return unit quaternions x, y, z, w (..., 4) with w >= 0 of rotation matrices (..., 3, 3)."""
     flat: Array = Rotation.from_matrix(matrices.reshape(-1, 3, 3)).as_quat()
     return np.where(flat[:, 3:] < 0, -flat, flat).reshape(*matrices.shape[:-2], 4)

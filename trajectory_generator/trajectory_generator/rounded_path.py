@@ -1,8 +1,8 @@
 """A path past via points: straight legs whose corners are rounded by arcs (KDL: Path_RoundedComposite).
 
-At a corner that turns by alpha, an arc of radius r touches both legs r tan(alpha / 2) from the via point and passes it
-at the distance r (1 / cos(alpha / 2) - 1). Orientation follows the legs; along an arc it turns about one axis between
-the orientations that the legs have at the arc's ends.
+At a corner of angle alpha, an arc of radius r touches both legs at r tan(alpha / 2) from the via point and passes it at
+the distance r (1 / cos(alpha / 2) - 1). The orientation follows the legs; along an arc it rotates about one axis
+between the orientations of the legs at the ends of the arc.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from trajectory_generator.path import Path, Pieces
 from trajectory_generator.rotation import Turn
 
 STRAIGHT = 1e-7
-"""Corners that turn by less are not rounded; those within this of half a turn fold back and are refused [rad]."""
+"""Smaller corners are not rounded; corners that differ from half a turn by less fold back and are refused [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ class Legs:
 
 
 def rounded_path(positions: ArrayLike, rotations: ArrayLike, corner_radius: float, equivalent_radius: float) -> Path:
-    """Path from the first via point to the last, past those between.
+    """Return the path from the first via point to the last, past the inner ones.
 
     Args:
         positions: via points (n, 3) [m], n >= 2.
@@ -56,8 +56,8 @@ def rounded_path(positions: ArrayLike, rotations: ArrayLike, corner_radius: floa
         equivalent_radius: see :class:`Path` [m/rad].
 
     Raises:
-        InvalidValueError: fewer than two via points, two neighbours at one place, a fold of half a turn, or a leg too
-            short for the arcs at its ends; the message counts via points from 0.
+        InvalidValueError: there are fewer than two via points, two neighbours coincide, the path folds back by half a
+            turn, or a leg is too short for the arcs at its ends; the message counts via points from 0.
     """
     points = finite_array("via_points", positions, (-1, 3))
     frames = rotation_matrices("via_points.rotation", rotations)
@@ -73,7 +73,7 @@ def rounded_path(positions: ArrayLike, rotations: ArrayLike, corner_radius: floa
     angle = legs.corner_angle
     _refuse_folds(points, angle)
     rounded = angle >= STRAIGHT
-    # Length of leg that the arc takes on either side of every via point; the ends have no arc.
+    # Length of leg that the arc occupies on either side of every via point; the ends have no arc.
     cut = np.zeros(len(points))
     cut[1:-1] = np.where(rounded, corner_radius * np.tan(angle / 2), 0.0)
     _refuse_tight_corners(legs, cut, corner_radius)
@@ -97,7 +97,7 @@ def rounded_path(positions: ArrayLike, rotations: ArrayLike, corner_radius: floa
         angle[corner],
         Turn.between(on_line.orientation(np.ones_like(legs.distance))[corner], on_line.start[corner + 1]),
     )
-    # The arc of corner k, at via point k + 1, comes between the lines k and k + 1.
+    # The arc of corner k, at via point k + 1, lies between the lines k and k + 1.
     order = np.argsort(np.concatenate([2 * np.arange(len(legs.distance)), 2 * corner + 1]))
     return Path(Pieces.joined([lines, arcs]).take(order), equivalent_radius)
 
@@ -109,7 +109,7 @@ def _legs(points: Array) -> Legs:
         raise InvalidValueError(
             f"via_points[{i + 1}]",
             points[i + 1].tolist(),
-            f"a point at least {SHORTEST_TRAVEL:g} m from via_points[{i}]; a turn in place is a path of its own",
+            f"a point at least {SHORTEST_TRAVEL:g} m from via_points[{i}]; a rotation in place needs a separate path",
         )
     return Legs(chord / distance[:, None], distance)
 
@@ -129,7 +129,7 @@ def _refuse_tight_corners(legs: Legs, cut: Array, corner_radius: float) -> None:
     raise InvalidValueError(
         "corner_radius",
         corner_radius,
-        f"less than {corner_radius * legs.distance[i] / needed[i]:.6g} m; make it smaller: "
-        f"from via_points[{i}] to via_points[{i + 1}] are {legs.distance[i]:.6g} m, "
-        f"the rounding of the corners there takes {needed[i]:.6g} m",
+        f"less than {corner_radius * legs.distance[i] / needed[i]:.6g} m: "
+        f"the distance from via_points[{i}] to via_points[{i + 1}] is {legs.distance[i]:.6g} m, "
+        f"and rounding its corners takes {needed[i]:.6g} m",
     )

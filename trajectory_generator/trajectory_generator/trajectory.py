@@ -1,4 +1,4 @@
-"""A path run through in time (KDL: Trajectory_Segment, with Trajectory_Stationary before and after it)."""
+"""A path as a function of time (KDL: Trajectory_Segment, with Trajectory_Stationary before and after it)."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from trajectory_generator.rotation import quaternions
 from trajectory_generator.speed_profile import Trapezoid
 
 MOST_INSTANTS = 10_000_000
-"""Largest number of instants made at once."""
+"""Largest number of instants that are computed at once."""
 
 
 @dataclass(frozen=True, eq=False)
 class TrajectorySample:
-    """Pose and twist at the instants asked for, all in the base frame.
+    """Pose and twist at the requested instants, all in the base frame.
 
     Attributes:
         position: (..., 3) [m].
@@ -41,11 +41,11 @@ class TrajectorySample:
 class Trajectory:
     """Rest at the start of a path, one motion along it, rest at its end.
 
-    The limits hold along the path: the point moves at ``max_speed`` at most and changes its speed by
-    ``max_acceleration`` at most; in an arc of radius r the acceleration v^2 / r across the path comes on top.
+    The limits apply along the path: the speed is at most ``max_speed`` and its rate at most ``max_acceleration``; in an
+    arc of radius r there is an additional acceleration v^2 / r across the path.
 
     Attributes:
-        path: where to move.
+        path: the path.
         max_speed: [m/s].
         max_acceleration: [m/s2].
         lead_time: rest before the motion [s].
@@ -65,26 +65,26 @@ class Trajectory:
         for name, value in (("lead_time", self.lead_time), ("rest_time", self.rest_time)):
             if not 0 <= value <= LARGEST:
                 raise InvalidValueError(name, value, f"a number from 0 to {LARGEST:g} s")
-        self.profile  # noqa: B018  (made here so that bad limits are refused here)
+        self.profile  # noqa: B018  (computed here so that bad limits are refused here)
 
     @cached_property
     def profile(self) -> Trapezoid:
-        """The motion along the path, from the end of the lead."""
+        """Speed profile of the motion along the path, which starts at the end of the lead time."""
         return Trapezoid(self.path.length, self.max_speed, self.max_acceleration)
 
     @property
     def duration(self) -> float:
-        """Time from the start of the lead to the end of the rest [s]."""
+        """Time from the start of the lead time to the end of the rest time [s]."""
         return self.lead_time + self.profile.duration + self.rest_time
 
     def times(self, rate: float) -> Array:
-        """Instants 0, 1 / rate, 2 / rate, ... (n,) [s], the last of them at or just after the end.
+        """Return the instants 0, 1 / rate, 2 / rate, ... (n,) [s], the last of them at or just after the end.
 
         Args:
-            rate: instants in a second [Hz].
+            rate: instants per second [Hz].
 
         Raises:
-            InvalidValueError: the rate is not a positive number, or makes more than ``MOST_INSTANTS``.
+            InvalidValueError: the rate is not a positive number, or gives more than ``MOST_INSTANTS``.
         """
         intervals = math.ceil(self.duration * positive("rate", rate, "Hz"))
         if intervals >= MOST_INSTANTS:
@@ -92,7 +92,7 @@ class Trajectory:
         return np.arange(intervals + 1) / rate
 
     def sample(self, t: ArrayLike) -> TrajectorySample:
-        """Pose and twist at ``t`` (...) [s] since the start of the lead; before and after, the rest at either end."""
+        """Return pose and twist at ``t`` (...) [s] since the start of the lead time; outside, those at rest."""
         since_lead = np.asarray(t, dtype=float) - self.lead_time
         s, s_dot = self.profile.position(since_lead), self.profile.velocity(since_lead)
         position, rotation = self.path.pose(s)

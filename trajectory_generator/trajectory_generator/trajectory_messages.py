@@ -1,4 +1,4 @@
-"""Poses and twists of a trajectory as messages, sampled in blocks: a long trajectory is never held as a whole."""
+"""Poses and twists of a trajectory as messages, sampled in blocks, so that a long trajectory needs little memory."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ class TrajectoryMessages:
     """The messages of a trajectory at a rate.
 
     Args:
-        trajectory: what to follow.
-        rate: instants in a second [Hz].
+        trajectory: the trajectory.
+        rate: instants per second [Hz].
 
     Raises:
-        InvalidValueError: the rate makes too many instants.
+        InvalidValueError: the rate gives too many instants.
     """
 
     def __init__(self, trajectory: Trajectory, rate: float) -> None:
@@ -38,7 +38,7 @@ class TrajectoryMessages:
         return float(self._times[-1])
 
     def at(self, i: int, stamp: Time) -> tuple[PoseStamped, TwistStamped]:
-        """Pose and twist of instant ``i``, both with ``stamp``."""
+        """Return pose and twist of instant ``i``, both with ``stamp``."""
         if not self._first <= i < self._first + _BLOCK:
             self._first = i - i % _BLOCK
             sample = self._trajectory.sample(self._times[self._first : self._first + _BLOCK])

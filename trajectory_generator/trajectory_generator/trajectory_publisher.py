@@ -19,38 +19,38 @@ from trajectory_generator.parameters import PATH, PATH_PARAMETERS, parameters_of
 from trajectory_generator.trajectory_messages import TrajectoryMessages
 
 START_PERIOD = 0.05
-"""Seconds between two looks at whether the listeners are there."""
+"""Time between two checks for the subscribers [s]."""
 
 START_UP = NANOSECONDS
-"""First part of the schedule [ns] in which being late is not told: the first messages take longer than the rest."""
+"""First part of the schedule [ns] without warnings of delays: the first messages take longer than the rest."""
 
 PROGRESS_PERIOD = 5.0
-"""Seconds between two lines about the progress."""
+"""Time between two log lines about the progress [s]."""
 
 ACKNOWLEDGED_WITHIN = 5.0
-"""Seconds given to the listeners to receive the last messages before the node ends."""
+"""Time for the subscribers to receive the last messages before the node ends [s]."""
 
 
 class TrajectoryPublisherNode(CheckedNode):
     """Publishes ``traj_pose`` and ``traj_twist`` with one stamp, ``rate`` times a second, on a schedule without drift.
 
-    The schedule begins with the first messages, when the listeners are there. Stamps are the schedule's instants, also
-    where the node is late.
+    The schedule starts with the first messages, when the subscribers are present. Stamps are the instants of the
+    schedule, even if the node is late.
     """
 
     NAME = "trajectory_publisher"
     PARAMETERS = (
-        ParameterSpec("subscribers", int, "subscriptions of each topic needed before the start", lower=0, default=1),
+        ParameterSpec("subscribers", int, "subscriptions of each topic required before the start", lower=0, default=1),
         ParameterSpec("wait_for_nodes", str, "names of nodes that must run before the start", is_list=True, default=[]),
         ParameterSpec(
-            "settle_time", float, "time for which no node or topic has come or gone, before the start", "s", 0.0, 60.0,
+            "settle_time", float, "time without a change of nodes or topics before the start", "s", 0.0, 60.0,
             default=0.5,
         ),
         ParameterSpec(
-            "wait_timeout", float, "time after which the trajectory starts without those that are missing", "s", 0.0,
+            "wait_timeout", float, "time after which the trajectory starts even if some are missing", "s", 0.0,
             1e6, default=60.0,
         ),
-        ParameterSpec("loop", bool, "begin again at the end", default=False),
+        ParameterSpec("loop", bool, "restart at the end", default=False),
         ParameterSpec("exit_at_end", bool, "end the process at the end", default=False),
     )  # fmt: skip
 
@@ -60,7 +60,7 @@ class TrajectoryPublisherNode(CheckedNode):
         trajectory = trajectory_from_mapping({name: value for name, value in self.values.items() if name not in own})
         self._rate: float = self.values["rate"]
         self._messages = TrajectoryMessages(trajectory, self._rate)
-        self._messages.at(0, Time().to_msg())  # the slow first sampling is done before the schedule begins
+        self._messages.at(0, Time().to_msg())  # the slow first sampling happens before the schedule starts
         self._next = 0
         self._start: int | None = None
         self.diagnostics.values["progress"] = lambda: f"{self._next} of {len(self._messages)} instants"
@@ -86,7 +86,7 @@ class TrajectoryPublisherNode(CheckedNode):
 
     def _wait(self) -> None:
         if self.get_clock().now().nanoseconds == 0:
-            return  # simulated time has not begun
+            return  # simulated time has not started
         if not self._watch.ready():
             if time.monotonic() < self._wait_until:
                 return
@@ -101,10 +101,10 @@ class TrajectoryPublisherNode(CheckedNode):
         received = {"traj_pose": self._publish_pose.subscribers, "traj_twist": self._publish_twist.subscribers}
         missing = [f"{topic} has {n} of {wanted} subscriptions" for topic, n in received.items() if n < wanted]
         missing += [f"node {name} does not run" for name in self._watch.missing()]
-        return ", ".join(missing) or "all are there, but nodes or topics still come and go"
+        return ", ".join(missing) or "all are present, but nodes or topics still change"
 
     def _publish_due(self) -> None:
-        """Publish every instant whose time has come, to half a period."""
+        """Publish every due instant, up to half a period early."""
         now = self.get_clock().now().nanoseconds
         if self._start is None:
             self._start = now
@@ -124,7 +124,7 @@ class TrajectoryPublisherNode(CheckedNode):
                 return
 
     def _instant(self, i: int) -> int:
-        """The time of instant ``i`` [ns], counted on through all rounds of a loop."""
+        """Return the time of instant ``i`` [ns], counted continuously through all rounds of a loop."""
         return self._start + round(i * NANOSECONDS / self._rate)
 
     def _report_progress(self) -> None:
@@ -141,6 +141,6 @@ class TrajectoryPublisherNode(CheckedNode):
 
     def close(self) -> None:
         if not self.finished:
-            return  # stopped from outside, and at once
+            return  # stopped from outside: end at once
         self._publish_pose.wait_until_received(ACKNOWLEDGED_WITHIN)
         self._publish_twist.wait_until_received(ACKNOWLEDGED_WITHIN)

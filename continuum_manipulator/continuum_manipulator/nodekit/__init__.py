@@ -1,1 +1,1 @@
-"""What every node of the workspace shares: parameters, checked messages, faults told once, diagnostics, clean exit."""
+"""Common parts of all nodes: parameters, checked messages, reports of faults, diagnostics and a clean exit."""

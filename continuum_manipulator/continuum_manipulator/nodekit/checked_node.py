@@ -1,4 +1,4 @@
-"""The base of every node of the workspace: checked parameters, checked messages, diagnostics."""
+"""Base class of all nodes of the workspace: checked parameters, checked messages, diagnostics."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ from continuum_manipulator.nodekit.qos import STREAM
 from continuum_manipulator.nodekit.qos_overrides import check_overrides, refuse_unknown_overrides
 
 FAREWELL = 1.0
-"""Longest time that a node which ends waits for what it published to be received [s]."""
+"""Longest time that an ending node waits for its messages to be received [s]."""
 
 
 class CountedPublisher:
-    """Publishes by being called with a message, and counts.
+    """Callable that publishes and counts messages.
 
     Attributes:
-        publisher: the publisher itself.
+        publisher: the underlying publisher.
     """
 
     def __init__(self, publisher: Publisher, topic: str, counts: Counter[str]) -> None:
@@ -60,22 +60,22 @@ class CountedPublisher:
 
     @property
     def subscribers(self) -> int:
-        """Subscriptions that it reaches."""
+        """Number of matched subscriptions."""
         return self.publisher.get_subscription_count()
 
     def wait_until_received(self, timeout: float) -> None:
-        """Wait until every subscription has confirmed what was published, ``timeout`` [s] at most."""
+        """Wait at most ``timeout`` [s] until every subscription has confirmed all messages."""
         self.publisher.wait_for_all_acked(Duration(seconds=timeout))
 
 
 class CheckedNode(Node):
-    """A node whose parameters are specified, and whose handlers see only messages that they can refuse in one line.
+    """A node with specified parameters, which reports a message that a handler refuses in one line.
 
     Attributes:
-        NAME: the node's name unless it is remapped.
-        PARAMETERS: its own parameters.
-        HAS_ARM: it also takes the block ``arm.*``, then in ``self.arm``.
-        values: its parameters' values.
+        NAME: name of the node unless it is remapped.
+        PARAMETERS: specifications of the node's parameters.
+        HAS_ARM: whether it also accepts the block ``arm.*``, available as ``self.arm``.
+        values: values of the parameters.
         finished: set by the node to end the process.
 
     Raises:
@@ -103,12 +103,12 @@ class CheckedNode(Node):
     def declare_parameters(
         self, namespace: str, parameters: Sequence[tuple[str, Any, ParameterDescriptor]], ignore_override: bool = False
     ) -> list[Parameter]:
-        """As rclpy's, which calls it with all that is given; an empty list has no type there: it is as if not given."""
+        """As rclpy's method, which receives all overrides, but ignore empty lists, which have no type in ROS."""
         typed = [entry for entry in parameters if entry[1] is not None]
         return super().declare_parameters(namespace, typed, ignore_override)
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
-        """As rclpy's; the refusal of a read-only parameter says how to start the node with the value."""
+        """As rclpy's method, but the refusal of a read-only parameter names the option to restart with the value."""
         result = super().set_parameters_atomically(parameter_list)
         if not result.successful:
             read_only = [p for p in parameter_list if self.describe_parameter(p.name).read_only]
@@ -119,23 +119,23 @@ class CheckedNode(Node):
 
     @classmethod
     def parameter_specs(cls, given: Mapping[str, object]) -> tuple[ParameterSpec, ...]:  # noqa: ARG003
-        """The node's own parameters; to be overridden where some depend on what is given."""
+        """Return the node's parameters; override this if some depend on the given values."""
         return cls.PARAMETERS
 
     @classmethod
     def default_arm(cls) -> Arm | None:
-        """The arm where no parameter says one; to be overridden by nodes that can do without being told."""
+        """Return the arm if no parameter defines one; override this in nodes that do not require an arm."""
         return None
 
     @classmethod
     def all_parameter_specs(cls) -> tuple[ParameterSpec, ...]:
-        """The node's own parameters, whatever is given."""
+        """Return all parameters that the node may have, independent of the given values."""
         return cls.parameter_specs({})
 
     def listen(
         self, message_type: type, topic: str, handle: Callable[[Any], None], qos: QoSProfile = STREAM
     ) -> Subscription:
-        """Subscribe; what ``handle`` raises as a fault of the message is counted and told, and the node goes on."""
+        """Subscribe to a topic; message faults that ``handle`` raises are counted and logged without stopping."""
         received = self.diagnostics.received
         received[topic] = 0
         checked = self.checked(topic, handle)
@@ -158,7 +158,7 @@ class CheckedNode(Node):
         )
 
     def checked(self, topic: str, handle: Callable[[Any], None]) -> Callable[[Any], None]:
-        """``handle`` that counts and tells what it raises as a fault of a message of ``topic``."""
+        """Wrap ``handle`` so that message faults of ``topic`` are counted and logged."""
         faults = self.diagnostics.faults
 
         def handle_checked(message: object) -> None:
@@ -185,7 +185,7 @@ class CheckedNode(Node):
         return CountedPublisher(publisher, topic, self.diagnostics.published)
 
     def offer_at_times(self, message_type: type, topic: str, qos: QoSProfile = STREAM) -> OccasionalPublisher:
-        """A topic that is advertised only while something is to be said."""
+        """Return a publisher that advertises the topic only while it is in use."""
         self._overridden(qos, topic, "publisher")
         self.diagnostics.published[topic] += 0
         return OccasionalPublisher(
@@ -193,45 +193,45 @@ class CheckedNode(Node):
         )
 
     def _overridden(self, qos: QoSProfile, topic: str, end: str) -> QoSProfile:
-        """A copy for rclpy to change, once the node's parameters ``qos_overrides`` for it are checked."""
+        """Check the parameters ``qos_overrides`` of a topic, and return a copy of ``qos`` for rclpy to change."""
         self._qos_parameters |= check_overrides(self, self.resolve_topic_name(topic), end)
         return copy(qos)
 
     def refuse_unknown_overrides(self) -> None:
-        """To be called when all topics are there: none of the given ``qos_overrides`` is for another.
+        """Check that all given ``qos_overrides`` belong to a topic of the node; call this after all topics exist.
 
         Raises:
-            UnknownParameterError: one is.
+            UnknownParameterError: one belongs to another topic.
         """
         refuse_unknown_overrides(self, self._qos_parameters)
 
     def in_words(self) -> str:
-        """What the node is at work on, where there is more to say than its topics."""
+        """Describe the work of the node beyond its topics; empty by default."""
         return ""
 
     def greet(self) -> None:
-        """Say in one line that the node works, what on, and by which topics."""
+        """Log in one line that the node is ready, with its work and its topics."""
         topics = {"takes": self.diagnostics.received, "gives": self.diagnostics.published}
         parts = [self.in_words(), *(f"{word} {', '.join(names)}" for word, names in topics.items() if names)]
         if any(parts):
             self.get_logger().info("; ".join(filter(None, parts)))
 
     def draining(self) -> bool:
-        """Asked after a request to stop: whether the node still has to be served before it is closed."""
+        """Return whether the node must still be served after a request to stop, before it is closed."""
         return False
 
     def close(self) -> None:
-        """Called once before the process ends, also after a signal: what was published gets where it is heard."""
+        """Wait for the delivery of messages; called once before the process ends, also after a signal."""
         deadline = time.monotonic() + FAREWELL
         for publisher in self.publishers:
             publisher.wait_for_all_acked(Duration(seconds=max(0.0, deadline - time.monotonic())))
 
     def give_up(self, problem: str) -> str:
-        """Called once in the place of :meth:`close` when the node cannot go on; the line that is told of it."""
+        """Return the final error line; called once instead of :meth:`close` when the node cannot continue."""
         return problem
 
 
 def _yaml(parameter: Parameter) -> str:
-    """The parameter's value as `-p name:=VALUE` takes it: JSON, which is YAML in one line."""
+    """Return the parameter's value for `-p name:=VALUE`: JSON, which is YAML in one line."""
     value = parameter.value
     return json.dumps(value.tolist() if hasattr(value, "tolist") else value, ensure_ascii=False, default=str)

@@ -1,4 +1,4 @@
-"""What a node received, published and refused, on ``/diagnostics`` once a second."""
+"""Counts of a node's received, published and refused messages, on ``/diagnostics`` once a second."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from continuum.burst_log import BurstLog
 from continuum_manipulator.nodekit.qos import REPORT
 
 PERIOD = 1.0
-"""Seconds between two reports, by the machine's clock: they go on while simulated time stands still."""
+"""Time between two reports by the machine's clock [s]; reports continue while simulated time stands still."""
 
 RECENT = 5.0
-"""Seconds for which an event keeps the status at WARN."""
+"""Time for which an event keeps the status at WARN [s]."""
 
 
 class Diagnostics:
     """Counts of one node and their report.
 
-    The status is WARN while a message was refused, or something was noted in ``warnings``, within the last seconds.
+    The status is WARN if a message was refused, or a warning was recorded, within the last seconds.
 
     Attributes:
-        received, published: messages by topic.
-        ignored: messages that are for others.
+        received, published: number of messages by topic.
+        ignored: number of messages for other nodes.
         faults: refused messages by cause.
-        warnings: other things that deserve a look, by cause.
-        values: further entries of the report, asked for when it is made.
-        subjects: give a status each of something else that the node watches, asked for when the report is made.
+        warnings: other warnings by cause.
+        values: functions of further entries, called for each report.
+        subjects: functions that return further statuses, called for each report.
     """
 
     def __init__(self, node: Node) -> None:
@@ -50,7 +50,7 @@ class Diagnostics:
         self._timer = node.create_timer(PERIOD, self.report, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def report(self) -> None:
-        """Publish the counts; say what the logs still have to say."""
+        """Publish the counts, and write pending summaries to the logs."""
         self.faults.tick()
         self.warnings.tick()
         message = DiagnosticArray(status=[self._status(), *(subject() for subject in self.subjects)])

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 
 class MessageFault(Exception):
-    """A message that a node must not use.
+    """A message is invalid and must not be used.
 
     Args:
-        cause: the kind of fault in a few words, the same for all of its kind; it is what is counted.
-        detail: what is wrong with this message: the offending value and what is allowed.
+        cause: kind of the fault in a few words, under which it is counted.
+        detail: the offending value of this message and the allowed values.
     """
 
     def __init__(self, cause: str, detail: str) -> None:

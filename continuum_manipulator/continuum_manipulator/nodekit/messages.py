@@ -1,4 +1,4 @@
-"""Checks of what a message carries. All raise :class:`MessageFault` and name the field."""
+"""Checks of the content of messages. All raise :class:`MessageFault` and name the field."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ REFUSED = "value out of range"
 
 
 def stamped(stamp: Stamp) -> None:
-    """The message has a stamp: without one, two messages would be of the same instant."""
+    """Check that the message has a stamp; without stamps, different instants are indistinguishable."""
     if nanoseconds(stamp) == 0:
         raise MessageFault(NO_STAMP, "the message has no stamp; publish it with {header: {stamp: now}, ...}")
 
 
 def finite(field: str, values: Sequence[float]) -> Array:
-    """The values as an array, all of them finite."""
+    """Return the values as an array after checking that they are finite."""
     array = np.asarray(values, dtype=float)
     bad = ~np.isfinite(array)
     if bad.any():
@@ -39,7 +39,7 @@ def finite(field: str, values: Sequence[float]) -> Array:
 
 
 def finite_vector(field: str, vector: object) -> Array:
-    """x, y, z of a ``geometry_msgs`` point or vector as an array (3,)."""
+    """Return x, y, z of a ``geometry_msgs`` point or vector as a finite array (3,)."""
     values = [getattr(vector, axis) for axis in "xyz"]
     for axis, value in zip("xyz", values, strict=True):
         if not math.isfinite(value):
@@ -48,7 +48,7 @@ def finite_vector(field: str, vector: object) -> Array:
 
 
 def z_axis(field: str, quaternion: object) -> Array:
-    """z axis (3,) of the frame that a ``geometry_msgs/Quaternion`` turns to; its norm need not be exactly 1."""
+    """Return the z axis (3,) of the frame of a ``geometry_msgs/Quaternion``, whose norm need not be exactly 1."""
     x, y, z, w = (getattr(quaternion, part) for part in "xyzw")
     norm = math.hypot(x, y, z, w)
     if not math.isfinite(norm):
@@ -60,7 +60,7 @@ def z_axis(field: str, quaternion: object) -> Array:
 
 
 def same_length(field: str, values: Sequence[float], names: Sequence[str], optional: bool = False) -> None:
-    """``values`` has one entry for every name; with ``optional`` it may also be empty (not known)."""
+    """Check that ``values`` has one entry for every name; with ``optional`` it may also be empty (unknown)."""
     if len(values) == len(names) or (optional and len(values) == 0):
         return
     allowed = f"{len(names)}, one for every name" + (", or none" if optional else "")
@@ -68,13 +68,13 @@ def same_length(field: str, values: Sequence[float], names: Sequence[str], optio
 
 
 def named(names: Sequence[str], kind: str, wanted: Sequence[str]) -> None:
-    """There are names; without any, the message is told which ``kind`` of things (cables, joints) to list."""
+    """Check that there are names; otherwise the fault lists the wanted names of that ``kind`` (cables, joints)."""
     if len(names) == 0:
         raise MessageFault(MISSING_NAME, f"name is empty; list the {kind}: {', '.join(wanted)}")
 
 
 def positions_by_name(names: Sequence[str]) -> dict[str, int]:
-    """Where each name stands; no name may stand twice."""
+    """Return the position of each name; no name may occur twice."""
     index = {name: i for i, name in enumerate(names)}
     if len(index) < len(names):
         twice = next(name for i, name in enumerate(names) if index[name] != i)
@@ -83,7 +83,7 @@ def positions_by_name(names: Sequence[str]) -> dict[str, int]:
 
 
 def indices_of(wanted: Sequence[str], names: Sequence[str]) -> list[int]:
-    """Where the wanted names stand in ``names``; all must be there."""
+    """Return the positions of the wanted names in ``names``, which must contain all of them."""
     index = positions_by_name(names)
     missing = [name for name in wanted if name not in index]
     if missing:
@@ -92,13 +92,13 @@ def indices_of(wanted: Sequence[str], names: Sequence[str]) -> list[int]:
 
 
 def no_others(known: Sequence[str], names: Sequence[str]) -> None:
-    """There is no name beside those ``known``."""
+    """Check that all names are ``known``."""
     unknown = [name for name in names if name not in known]
     if unknown:
         raise MessageFault(UNKNOWN_NAME, f"{', '.join(unknown)}; known: {', '.join(known)}")
 
 
 def frame(field: str, frame_id: str, allowed: str) -> None:
-    """The frame is ``allowed``, or not said."""
+    """Check that the frame is ``allowed`` or empty."""
     if frame_id not in ("", allowed):
         raise MessageFault(WRONG_FRAME, f"{field} is {frame_id!r}; allowed: {allowed!r} or empty")

@@ -1,4 +1,4 @@
-"""A publisher that exists only while something is to be said: advertising a topic counts as speaking there."""
+"""A publisher that exists only while it is in use, because advertising a topic counts as commanding."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import Any
 
 
 class OccasionalPublisher:
-    """Publishes by being called with a message, and advertises the topic from the first one until it is withdrawn.
+    """Callable that publishes messages, and advertises the topic from the first message until it is withdrawn.
 
     Args:
-        advertise: makes the publisher.
-        withdraw: takes it away.
+        advertise: function that creates the publisher.
+        withdraw: function that destroys it.
     """
 
     def __init__(self, advertise: Callable[[], Any], withdraw: Callable[[Any], object]) -> None:
@@ -25,7 +25,7 @@ class OccasionalPublisher:
         self._publish(message)
 
     def withdraw(self) -> None:
-        """Advertise the topic no more, until the next message."""
+        """Stop advertising the topic until the next message."""
         if self._publish is not None:
             self._withdraw(self._publish)
             self._publish = None

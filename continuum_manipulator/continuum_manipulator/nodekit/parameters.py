@@ -18,26 +18,26 @@ SIM_TIME = ParameterSpec("use_sim_time", bool, "take the time from /clock", defa
 OF_EVERY_NODE = (SIM_TIME.name, "start_type_description_service")
 OF_EVERY_NODE_PREFIX = "qos_overrides."
 INTEGERS = range(-(2**63), 2**63)
-"""Whole numbers that a ROS parameter can hold."""
+"""Range of integers in ROS parameters."""
 
 ARM_PREFIX = "arm."
 ARM_SECTIONS = ParameterSpec("sections", str, "names of the arm's sections from the base", is_list=True)
 
 
 class UnknownParameterError(ContinuumError):
-    """A parameter was given that the node does not know."""
+    """A given parameter is unknown to the node."""
 
     def __init__(self, name: str, known: Iterable[str]) -> None:
         super().__init__(f"unknown parameter {name!r}; known: {', '.join(known)}")
 
 
 def given_parameters(node: Node) -> dict[str, object]:
-    """What the command line and parameter files give this node, without the parameters that every ROS node has.
+    """Return the node's parameters from the command line and files, without those that every ROS node has.
 
-    The node must have been made with ``automatically_declare_parameters_from_overrides=True``.
+    The node must have been created with ``automatically_declare_parameters_from_overrides=True``.
 
     Raises:
-        InvalidValueError: a parameter of every ROS node is wrong.
+        InvalidValueError: a parameter that every ROS node has is wrong.
     """
     SIM_TIME.check(node.get_parameter(SIM_TIME.name).value)
     names = [
@@ -49,10 +49,10 @@ def given_parameters(node: Node) -> dict[str, object]:
 
 
 def declare_parameters(node: Node, specs: Iterable[ParameterSpec], given: Mapping[str, object]) -> dict[str, Value]:
-    """Check the given values against ``specs`` and declare them; parameters that are not given take their default.
+    """Check the given values against ``specs`` and declare them; missing parameters get their defaults.
 
     Raises:
-        InvalidValueError: wrong type or out of range, or a parameter without a default is missing.
+        InvalidValueError: a value has the wrong type or is out of range, or a parameter without a default is missing.
     """
     values = {}
     for spec in specs:
@@ -63,10 +63,10 @@ def declare_parameters(node: Node, specs: Iterable[ParameterSpec], given: Mappin
 
 
 def declare_arm(node: Node, given: Mapping[str, object], default: Arm | None = None) -> Arm:
-    """Build the arm from the parameters ``arm.*`` and declare them, defaults included; ``default`` if there are none.
+    """Build the arm from the parameters ``arm.*`` and declare them, defaults included; use ``default`` without them.
 
-    They are declared by the names and in the units of their specifications, however a file has them. What it has for
-    simulations alone is declared as it is.
+    They are declared with the names and units of their specifications, whatever names and units the file uses.
+    Parameters for simulations only are declared unchanged.
 
     Raises:
         InvalidValueError: no arm is given, or one of its parameters is missing, unknown or out of range.
@@ -76,7 +76,7 @@ def declare_arm(node: Node, given: Mapping[str, object], default: Arm | None = N
         block = arm_to_mapping(default)
     if not isinstance(block, Mapping):
         raise InvalidValueError(
-            "arm", block, "a block arm.sections, arm.<section>.n_joints, ..., as in a file given by --params-file"
+            "arm", block, "a block arm.sections, arm.<section>.n_joints, ..., for example from --params-file"
         )
     arm = arm_from_mapping(block)
     for name, value in arm_to_mapping(arm).items():
@@ -93,10 +93,10 @@ def declare_arm(node: Node, given: Mapping[str, object], default: Arm | None = N
 
 
 def refuse_unknown(given: Iterable[str], specs: Iterable[ParameterSpec], with_arm: bool) -> None:
-    """Refuse parameters that the node does not know; those of the arm are checked with the arm.
+    """Refuse unknown parameters; those of the arm are checked with the arm.
 
     Raises:
-        UnknownParameterError: names the first one, and what is known.
+        UnknownParameterError: a parameter is unknown; the message names the first one and the known ones.
     """
     known = [spec.name for spec in specs]
     for name in given:
@@ -105,7 +105,7 @@ def refuse_unknown(given: Iterable[str], specs: Iterable[ParameterSpec], with_ar
 
 
 def describe(spec: ParameterSpec) -> ParameterDescriptor:
-    """The parameter as ROS tools show it."""
+    """Return the descriptor of a parameter for ROS tools."""
     unit = f" [{spec.unit}]" if spec.unit else ""
     descriptor = ParameterDescriptor(
         description=spec.description + unit, additional_constraints=spec.allowed, read_only=True
@@ -126,12 +126,12 @@ def _declare(node: Node, spec: ParameterSpec, name: str, value: Value) -> None:
     if node.has_parameter(name):
         node.undeclare_parameter(name)
     if value == []:
-        return  # ROS cannot tell the type of an empty list; not declared means the same
+        return  # an empty list has no type in ROS; an undeclared parameter is equivalent
     node.declare_parameter(name, value, describe(spec), ignore_override=True)
 
 
 def _declare_other(node: Node, name: str, value: Any) -> None:
-    """Fix what only simulations read; another name of a parameter that is declared goes."""
+    """Make a parameter for simulations read-only; remove other names of declared parameters."""
     node.undeclare_parameter(name)
     if name.split(".")[2:3] == [DYNAMICS]:
         for_simulations = ParameterDescriptor(description="read by simulations of the section", read_only=True)
@@ -143,10 +143,10 @@ def _is_of_arm(name: str) -> bool:
 
 
 def _nested(flat: Mapping[str, object]) -> dict[str, object]:
-    """Blocks within blocks from names with dots.
+    """Return nested blocks from dotted names.
 
     Raises:
-        InvalidValueError: a name is a value and a block at once.
+        InvalidValueError: a name is both a value and a block.
     """
     root: dict[str, object] = {}
     for name, value in sorted(flat.items()):
@@ -162,5 +162,5 @@ def _nested(flat: Mapping[str, object]) -> dict[str, object]:
 
 
 def _plain(value: object) -> object:
-    """Lists of numbers arrive as ``array.array``; the checks want plain lists."""
+    """Convert ``array.array``, in which lists of numbers arrive, to plain lists."""
     return list(value) if isinstance(value, array) else value

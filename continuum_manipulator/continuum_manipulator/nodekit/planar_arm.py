@@ -1,4 +1,4 @@
-"""Messages of an arm of one section that bends in a plane, simulated or real."""
+"""Messages of an arm with one section that bends in a plane, simulated or real."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from continuum_msgs.msg import CableStates
 
 
 class PlanarArm:
-    """Names, and the messages that carry them.
+    """Names and messages of a planar arm.
 
     Args:
         section: name of the section.
-        model: of the arm.
+        model: model of the arm.
 
     Attributes:
-        joints, cables: their names, in the messages' order.
+        joints, cables: names of joints and cables, in the order of the messages.
 
     Raises:
-        InvalidValueError: a name that no section can have, or a model that joint torques drive.
+        InvalidValueError: the name of the section is not allowed, or joint torques drive the model.
     """
 
     def __init__(self, section: str, model: Model) -> None:
         joint_names.check_section(section)
-        model.require_cables("a section of nodes")
+        model.require_cables("this node")
         self._model = model
         self.joints = [
             joint_names.phi_joint(section),
@@ -38,7 +38,7 @@ class PlanarArm:
         self.cables = list(joint_names.cable_names(section, len(SIDES)))
 
     def joint_state(self, stamp: Time, angles: Array, rates: Array) -> JointState:
-        """Of joint angles (n,) [rad] and rates [rad/s]. Joints have no motors, so none has an effort."""
+        """Return the message of joint angles (n,) [rad] and rates [rad/s]; joints have no motors, hence no efforts."""
         message = JointState(name=self.joints)
         message.header.stamp = stamp
         message.position = [0.0, *angles, 0.0]  # positive bends are towards phi = 0
@@ -46,7 +46,7 @@ class PlanarArm:
         return message
 
     def cable_states(self, stamp: Time, angles: Array | None, rates: Array | None, tensions: Array) -> CableStates:
-        """Of joint angles (n,) [rad] and rates [rad/s], None where they are not known, and tensions (n_cables,) [N]."""
+        """Return the message for joint angles (n,) [rad] and rates [rad/s], or None, and tensions (n_cables,) [N]."""
         message = CableStates(section=CableStates.WHOLE_ARM, name=self.cables, effort=tensions)
         message.header.stamp = stamp
         if angles is not None and rates is not None:

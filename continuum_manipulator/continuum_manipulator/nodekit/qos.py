@@ -10,9 +10,9 @@ STREAM = QoSProfile(
     history=QoSHistoryPolicy.KEEP_LAST,
     depth=4000,
 )
-"""Every stream of states and commands: a slow reader catches up, nothing in between is dropped.
+"""For streams of states and commands: a slow reader catches up without losing messages.
 
-The depth bridges a stall of some ten seconds of a reader that hears three writers of 120 Hz."""
+The depth covers a stall of about ten seconds of a reader with three writers at 120 Hz."""
 
 NEWEST = QoSProfile(
     reliability=QoSReliabilityPolicy.BEST_EFFORT,
@@ -20,7 +20,7 @@ NEWEST = QoSProfile(
     history=QoSHistoryPolicy.KEEP_LAST,
     depth=1,
 )
-"""For who only looks: no writer keeps or sends anything twice for its sake."""
+"""For observers: no writer stores or resends messages for them."""
 
 REPORT = QoSProfile(
     reliability=QoSReliabilityPolicy.RELIABLE,
@@ -28,7 +28,7 @@ REPORT = QoSProfile(
     history=QoSHistoryPolicy.KEEP_LAST,
     depth=10,
 )
-"""ROS's usual setting, for diagnostics and markers: only the latest matter."""
+"""ROS's default setting, for diagnostics and markers: only the latest messages matter."""
 
 TRANSFORMS = QoSProfile(
     reliability=QoSReliabilityPolicy.RELIABLE,
@@ -36,4 +36,4 @@ TRANSFORMS = QoSProfile(
     history=QoSHistoryPolicy.KEEP_LAST,
     depth=100,
 )
-"""For ``/tf``, as tf2's broadcaster publishes."""
+"""For ``/tf``, as in tf2's broadcaster."""

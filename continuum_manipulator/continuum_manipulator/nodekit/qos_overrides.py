@@ -14,7 +14,7 @@ POLICIES = (
         "history", str, "which messages are kept", default="keep_last",
         choices=("keep_last", "keep_all", "system_default"),
     ),
-    ParameterSpec("depth", int, "how many messages are kept", lower=1, upper=2**31 - 1, default=1),
+    ParameterSpec("depth", int, "number of messages that are kept", lower=1, upper=2**31 - 1, default=1),
     ParameterSpec(
         "reliability", str, "whether lost messages are sent again", default="reliable",
         choices=("reliable", "best_effort", "system_default"),
@@ -22,14 +22,14 @@ POLICIES = (
 )  # fmt: skip
 
 OF_EVERY_NODE = tuple(f"{OF_EVERY_NODE_PREFIX}{topic}." for topic in ("/clock", "/parameter_events"))
-"""Parameters that rclpy declares itself."""
+"""Parameters that rclpy declares."""
 
 
 def check_overrides(node: Node, topic: str, end: str) -> set[str]:
-    """Names of the parameters of one ``end`` (publisher or subscription) of a topic; those given are right.
+    """Check the given parameters of one ``end`` (publisher or subscription) of a topic, and return all names.
 
     Raises:
-        InvalidValueError: one is not.
+        InvalidValueError: a value is not allowed.
     """
     prefix = f"{OF_EVERY_NODE_PREFIX}{topic}.{end}."
     for spec in POLICIES:
@@ -39,10 +39,10 @@ def check_overrides(node: Node, topic: str, end: str) -> set[str]:
 
 
 def refuse_unknown_overrides(node: Node, known: Iterable[str]) -> None:
-    """None of the node's parameters ``qos_overrides`` is for something else than ``known``.
+    """Check that the node's parameters ``qos_overrides`` are among the ``known`` ones.
 
     Raises:
-        UnknownParameterError: one is.
+        UnknownParameterError: a parameter is unknown.
     """
     allowed = sorted(known)
     for name in node.list_parameters([], 0).names:

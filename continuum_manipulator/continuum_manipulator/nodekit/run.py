@@ -1,6 +1,6 @@
-"""From the command line to a spinning node and back, without a traceback.
+"""Run a node from the command line until its end, without a traceback.
 
-Only the standard library is imported at the top: signals are caught before the slow imports begin, so that a node that
+Only the standard library is imported at the top: signals are caught before the slow imports start, so that a node that
 is stopped in its first seconds ends as cleanly as later.
 """
 
@@ -28,9 +28,9 @@ HELP = frozenset(("-h", "--help"))
 
 
 class StopRequest:
-    """True once SIGINT or SIGTERM came. A launcher may send several; all after the first change nothing.
+    """True after SIGINT or SIGTERM. A launcher may send several; only the first has an effect.
 
-    As a context, it gives the signals back at the end.
+    As a context manager, it restores the signal handlers at the end.
     """
 
     def __init__(self) -> None:
@@ -54,13 +54,13 @@ class StopRequest:
 
 
 def run(node: str) -> int:
-    """Run the node ``package.module:Class`` until a signal comes or the node is finished.
+    """Run the node ``package.module:Class`` until a signal arrives or the node is finished.
 
     Returns:
-        The exit code: 0, also for ``--help``, or with one line on stderr :data:`BAD_START` or :data:`FAILED`.
+        The exit code: 0, also for ``--help``; or, with one line on stderr, :data:`BAD_START` or :data:`FAILED`.
     """
     with StopRequest() as stop:
-        # Discovery stays on this host unless the user says otherwise.
+        # Discovery stays on this host unless the user configures it otherwise.
         os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         module, _, name = node.partition(":")
         node_class = getattr(importlib.import_module(module), name)
@@ -77,7 +77,7 @@ def _run(node_class: type[CheckedNode], stop: StopRequest) -> int:
     from continuum_manipulator.nodekit.start_errors import START_ERRORS, one_line
     from continuum_manipulator.nodekit.usage import usage
 
-    set_logger_level("rcl", LoggingSeverity.FATAL)  # it would say the same as our one line, less clearly
+    set_logger_level("rcl", LoggingSeverity.FATAL)  # its message duplicates the error line below
     try:
         extra = remove_ros_args(sys.argv)[1:]
         if not HELP.isdisjoint(extra):
@@ -104,7 +104,7 @@ def _run(node_class: type[CheckedNode], stop: StopRequest) -> int:
 
 
 def _spin(node: CheckedNode, stop: StopRequest) -> None:
-    """Serve the node. This executor needs a sixth of the others' processor time, but must be asked with a time-out."""
+    """Serve the node. This executor needs a sixth of the others' processor time, but must be polled with a time-out."""
     from rclpy.experimental import EventsExecutor
 
     executor = EventsExecutor()

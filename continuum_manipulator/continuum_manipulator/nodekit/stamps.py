@@ -1,4 +1,4 @@
-"""Instants of messages, and joining what several sources said at the same one."""
+"""Stamps of messages, and joining the messages of several sources with the same stamp."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ class Stamp(Protocol):
 
 
 def nanoseconds(stamp: Stamp) -> int:
-    """The stamp as one whole number [ns]."""
+    """Return the stamp as one integer [ns]."""
     return stamp.sec * NANOSECONDS + stamp.nanosec
 
 
 def seconds(stamp: int) -> str:
-    """A stamp [ns] in words, in seconds to the nanosecond."""
+    """Return the text of a stamp [ns], in seconds to the nanosecond."""
     return "{}.{:09d} s".format(*divmod(stamp, NANOSECONDS))
 
 
 class Loss(Enum):
-    """Why messages did not enter a set that was given out."""
+    """Reason why messages did not enter a complete set."""
 
     INCOMPLETE = auto()
     LATE = auto()
@@ -35,25 +35,25 @@ class Loss(Enum):
 
 
 class StampJoiner[Key: Hashable, Message]:
-    """Collects one message of every key for each stamp and gives out the complete sets, in the order of their stamps.
+    """Collects one message of every key for each stamp and returns the complete sets in the order of their stamps.
 
-    Stamps must be equal to the nanosecond: two instants are never mixed. Every source sends its stamps in rising order,
-    so when a set is complete, the older ones that still miss a part can no longer be completed: they are given up.
+    Stamps must be equal to the nanosecond: different instants are never mixed. Every source sends its stamps in rising
+    order, so when a set is complete, older incomplete sets can no longer be completed and are given up.
     A source whose stamp goes back has started a new run (a recording played again, a simulation reset): all open sets
-    are given up and the order starts anew. The other sources' messages are then of the old run until they go back too,
-    or until they are ``restart_gap`` past all that the old run had said; a source not heard before belongs to any run.
+    are given up and the order restarts. Messages of the other sources then belong to the old run until they go back
+    too, or until they are ``restart_gap`` past all stamps of the old run; a new source belongs to any run.
 
     Args:
         keys: the sources of a complete set.
         capacity: stamps kept open at once; beyond it the set that was opened first is given up.
-        restart_gap: how far past the old run a message must be to belong to the new one all the same [ns].
-        told: called for every loss with its stamp [ns] and keys: of an incomplete set those that are missing, else
-            those whose messages are not used.
+        restart_gap: time past the old run from which a message belongs to the new one in any case [ns].
+        on_loss: called for every loss with its stamp [ns] and keys: the missing keys of an incomplete set, otherwise
+            the keys of unused messages.
 
     Attributes:
-        incomplete: sets given up.
-        late: messages whose set was given out already, or that are of a run that is over.
-        repeated: messages that a source sent twice for one stamp; the first is used.
+        incomplete: number of sets given up.
+        late: number of messages whose set was complete already, or that belong to an earlier run.
+        repeated: number of further messages of a source with the same stamp; the first is used.
     """
 
     def __init__(
@@ -78,14 +78,14 @@ class StampJoiner[Key: Hashable, Message]:
 
     @property
     def waiting(self) -> int:
-        """Stamps that still miss a part."""
+        """Number of incomplete sets."""
         return len(self._open)
 
     def add(self, key: Key, stamp: int, message: Message) -> dict[Key, Message] | None:
-        """Take a message of ``key`` at ``stamp`` [ns]; return the set that it completes, or None.
+        """Add a message of ``key`` at ``stamp`` [ns]; return the set that it completes, or None.
 
         Raises:
-            KeyError: ``key`` is none of the sources.
+            KeyError: ``key`` is not one of the sources.
         """
         if key not in self._keys:
             raise KeyError(key)
@@ -108,7 +108,7 @@ class StampJoiner[Key: Hashable, Message]:
         return parts
 
     def withdraw(self, key: Key, stamp: int, message: Message) -> bool:
-        """Take a message that still waits out, as if its set had been given out; False if it does not wait."""
+        """Remove a waiting message, as if its set had been returned; return False if it is not waiting."""
         if self._open.get(stamp, {}).get(key) is not message:
             return False
         del self._open[stamp]
@@ -116,7 +116,7 @@ class StampJoiner[Key: Hashable, Message]:
         return True
 
     def _follow_run(self, key: Key, stamp: int) -> None:
-        """Note which sources are in the newest run, and begin one where a source that was in it goes back."""
+        """Record the sources of the newest run, and start a new run if one of its sources goes back."""
         before = self._latest.get(key)
         if before is not None and stamp < before:
             if key in self._in_run:

@@ -1,4 +1,4 @@
-"""What may be wrong with the way a node was started, said in one line."""
+"""One-line messages for errors at the start of a node."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ START_ERRORS = (
 
 
 def one_line(error: Exception) -> str:
-    """The error's message without line breaks and without the places in ROS's own sources."""
+    """Return the error's message without line breaks and without positions in the sources of ROS."""
     text = " ".join(str(error).split())
     if isinstance(error, rclpy_implementation.UnknownROSArgsError):
         text = f"unknown arguments after --ros-args: {text}"

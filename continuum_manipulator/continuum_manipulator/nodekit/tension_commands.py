@@ -1,8 +1,8 @@
 """Tension commands: the effort of `continuum_msgs/CableStates`, by cable name and in any order.
 
-The type is the one in which cables are told of everywhere in the workspace, so what is commanded and the `cable_states`
-that answer can be recorded, plotted and compared field by field; ``effort`` is where `sensor_msgs/JointState` and all
-that is made after it keep forces. Only header, names and efforts are looked at: a recorded `cable_states` is a command.
+All cable data in the workspace have this type, so commands and the resulting `cable_states` can be recorded, plotted
+and compared field by field; ``effort`` holds forces as in `sensor_msgs/JointState`. Only header, names and efforts are
+used: a recorded `cable_states` can serve as a command.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ STALE = "stale stamp"
 
 
 def read_tensions(message: CableStates, cables: Sequence[str], now: int, patience: float) -> Array:
-    """The tension commanded for each of the cables, (n_cables,) [N], finite and none negative.
+    """Return the commanded tension of each cable, (n_cables,) [N], finite and not negative.
 
     Args:
         message: the command.
-        cables: names of the cables; the command must have each of them once, and no other.
+        cables: names of the cables; the command must contain each of them once, and no others.
         now: ROS time [ns].
-        patience: how far the stamp may be from now [s].
+        patience: largest difference between the stamp and now [s].
 
     Raises:
-        MessageFault: the command is none of these.
+        MessageFault: the command is invalid or stale.
     """
     messages.stamped(message.header.stamp)
     messages.named(message.name, "cables", cables)

@@ -1,19 +1,19 @@
-"""One instant by two clocks, on a machine that may take the processor away between reading the one and the other."""
+"""Read two clocks at the same instant, although the process may be interrupted between the two readings."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 CLOSE = 5e-5
-"""Time within which both are read, unless the machine takes the processor away again and again [s]."""
+"""Time within which both clocks are read, unless the process is interrupted repeatedly [s]."""
 
 TRIES = 5
 
 
 def read_together(steady: Callable[[], float], other: Callable[[], int]) -> tuple[float, int]:
-    """What a clock that is never set shows [s], and what another one shows [ns] at the same instant.
+    """Return the readings of a monotonic clock [s] and of another clock [ns] at the same instant.
 
-    The closest of at most `TRIES` readings.
+    The result is the closest of at most `TRIES` pairs of readings.
     """
     readings: list[tuple[float, float, int]] = []
     while len(readings) < TRIES and not (readings and readings[-1][0] <= CLOSE):

@@ -1,4 +1,4 @@
-"""The answer to ``--help``: what a node does, and its parameters as their specifications say them."""
+"""The text for ``--help``: the purpose of a node, and its parameters from their specifications."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ WIDTH = 100
 
 
 def usage(node_class: type[CheckedNode]) -> str:
-    """How to start a node, and its parameters with description, unit, range and default."""
+    """Return how to start a node, and its parameters with description, unit, range and default."""
     package = node_class.__module__.partition(".")[0]
     arm = " --params-file ARM.yaml" if node_class.HAS_ARM else ""
     parts = [
