@@ -106,7 +106,7 @@ def test_the_answer_for_machines_holds_the_true_angles_and_the_table_repeats_it(
 def test_an_arm_that_bends_evenly_is_nearer_to_constant_curvature(capsys: Captured, tmp_path: Path) -> None:
     even = np.radians([[0.0] * 5, [16.0] * 5, [9.0] * 5])
     found = answered(tmp_path, file_of(tmp_path, *stops(even), None))
-    assert [hold["nearer"] for hold in found["holds"]] == ["cannot be told", *["constant curvature"] * 2]
+    assert [hold["nearer"] for hold in found["holds"]] == ["undecided", *["constant curvature"] * 2]
     assert found["overall"]["nearer"] == "constant curvature"
     assert "Constant curvature is nearer by" in words_of(capsys)
 
@@ -114,7 +114,7 @@ def test_an_arm_that_bends_evenly_is_nearer_to_constant_curvature(capsys: Captur
 def test_sensors_that_are_too_bad_decide_nothing(capsys: Captured, tmp_path: Path) -> None:
     times, theta, pull = pulled()
     found = answered(tmp_path, file_of(tmp_path, times, theta, pull), "--sensor-error", 8)
-    assert {hold["nearer"] for hold in found["holds"]} == {found["overall"]["nearer"]} == {"cannot be told"}
+    assert {hold["nearer"] for hold in found["holds"]} == {found["overall"]["nearer"]} == {"undecided"}
     assert "nearer cannot be decided" in words_of(capsys)
 
 

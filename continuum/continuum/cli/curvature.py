@@ -140,7 +140,7 @@ def _rows(found: Answer, several: bool, tr: Translator) -> list[tuple[str, ...]]
     """A row for each hold."""
     from continuum.curvature.comparison import Nearer
 
-    names = {Nearer.DYNAMIC: tr("dynamic"), Nearer.CONSTANT: tr("constant"), Nearer.UNDECIDED: tr("not told")}
+    names = {Nearer.DYNAMIC: tr("dynamic"), Nearer.CONSTANT: tr("constant"), Nearer.UNDECIDED: tr("undecided")}
     return [
         (
             *(printable(hold.recording.name),) * several, str(number), f"{hold.times[0]:.2f}", f"{hold.times[-1]:.2f}",

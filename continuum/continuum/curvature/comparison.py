@@ -39,7 +39,7 @@ class Nearer(Enum):
 
     DYNAMIC = "dynamic model"
     CONSTANT = "constant curvature"
-    UNDECIDED = "cannot be told"
+    UNDECIDED = "undecided"
 
 
 @dataclass(frozen=True)

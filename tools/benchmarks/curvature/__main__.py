@@ -1,8 +1,8 @@
-"""How often intervals hold the true angle, and how often the nearer model is the nearer one; 3 minutes.
+"""Coverage of the intervals of joint angles, and correctness of the nearer model; takes 3 minutes.
 
     PYTHONPATH="test:$PYTHONPATH" python3 -m tools.benchmarks.curvature
 
-Keeps its record, and overwrites the table of docs/curvature.md, unless another number of holds is asked for.
+Writes its record, and overwrites the table of docs/curvature.md, unless another number of holds is given.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from tools.benchmarks.report import as_text, publish
 from tools.one_line import in_one_line
 
 HOLDS = 200
-HEAD = ("plant, sensors", "holds", "true angle inside", "true difference inside", "right", "wrong", "not told")
+HEAD = ("plant, sensors", "holds", "true angle inside", "true difference inside", "right", "wrong", "undecided")
 
 
 def main() -> None:
@@ -37,7 +37,7 @@ def main() -> None:
 
 
 def record_of(found: Mapping[str, Sequence[KnownHold]]) -> Record:
-    """Holds by plant."""
+    """Return the record of the holds by plant."""
     rows = [row for name, holds in found.items() for row in rows_of(name, holds)]
     figures = [figure for name, holds in found.items() for figure in _figures(name, holds)]
     return Record("curvature", "make bench-curvature", tuple(figures), {"holds": Table.of(HEAD, rows)})
@@ -54,7 +54,7 @@ def _figures(name: str, holds: Sequence[KnownHold]) -> tuple[Figure, Figure]:
 
 
 def rows_of(name: str, holds: Sequence[KnownHold]) -> list[list[str]]:
-    """All holds of a plant, then those with each level of noise, and those before releases."""
+    """Return rows for all holds of a plant, then for each level of noise, and for those before releases."""
     parts = {f"{name}, all": list(holds)}
     parts |= {f"{name}, {level} noise": [h for h in holds if h.level == level] for level in ("low", "ordinary", "high")}
     parts[f"{name}, before a release"] = [h for h in holds if h.released]
@@ -75,7 +75,7 @@ def _truly(hold: KnownHold) -> Nearer:
 
 
 def _difference_covered(hold: KnownHold) -> bool:
-    """Whether the true difference of the squared distances is in its interval."""
+    """Return whether the true difference of the squared distances is in its interval."""
     found, sensitivities = hold.found.difference
     sd = float(np.sqrt(sensitivities @ hold.found.covariance @ sensitivities))
     return abs(found - hold.truly.difference[0]) <= LEVEL * sd
