@@ -217,7 +217,7 @@ def test_what_the_demo_before_left_is_kept_until_there_is_more(
             raise KeyboardInterrupt
         assert before.read_text() == "first"
         assert names_in(tmp_path) == {PREVIOUS, "recording"}
-        assert capsys.readouterr().err == f"what the demo before left is in {tmp_path / PREVIOUS}\n"
+        assert capsys.readouterr().err == f"the results of the previous demo are in {tmp_path / PREVIOUS}\n"
     with claimed(tmp_path):
         table.write_text("second")
     assert (names_in(tmp_path), table.read_text()) == ({"cable_states.csv"}, "second")

@@ -1,4 +1,4 @@
-"""A tool that cannot go on says why in one line."""
+"""One-line error messages of the tools."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from continuum.errors import ContinuumError
 
 
 def in_one_line(main: Callable[[], int | None]) -> int:
-    """Run a tool; its exit code, or 2 after a line on standard error."""
+    """Run a tool and return its exit code, or 2 after an error line on standard error."""
     try:
         return main() or 0
     except ContinuumError as error:

@@ -1,1 +1,1 @@
-"""What is measured: each benchmark or campaign is a package whose main keeps one record and re-makes its pages."""
+"""Benchmarks: each one is a package whose main function writes one record and regenerates its pages."""

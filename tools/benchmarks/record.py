@@ -1,6 +1,6 @@
-"""The record of a benchmark: its figures with goals and rivals, its tables, and where and when it was measured.
+"""The record of a benchmark: its figures with goals and rivals, its tables, and the place and time of the measurement.
 
-Each is kept in ``docs/benchmarks/NAME.json``, a figure and a row of a table to a line.
+Each record is stored in ``docs/benchmarks/NAME.json``, with one line per figure and per table row.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from continuum.whole_file import write_whole
 from tools.benchmarks.surroundings import machine, today
 
 _DIGITS = 3
-"""Significant ones of a printed value, more where these would print a missed goal as met."""
+"""Significant digits of a printed value; more if rounding would print a missed goal as met."""
 
 
 @dataclass(frozen=True)
@@ -28,16 +28,16 @@ class Figure:
     """One figure.
 
     Attributes:
-        what: is measured, in words.
-        value: as measured, in the unit; so are the bounds, the interval and the rival's value.
+        what: description of the measured quantity.
+        value: measured value in the unit, like the bounds, the interval and the rival's value.
         unit: "s", "%" and so on; empty for a count or a ratio.
-        at_least, at_most: the goal; without either there is none.
+        at_least, at_most: the goal; None for no bound.
         rival, rival_value: another method, and its value in the same run.
-        interval: of 95 %.
-        n: cases that the value is of, where it is a rate or a quantile.
+        interval: 95 % interval.
+        n: number of cases of a rate or a quantile.
 
     Raises:
-        InvalidValueError: it has no name, a value is not finite, or a rival has no value, or a value no rival.
+        InvalidValueError: the figure has no name, a value is not finite, or only one of rival and its value is given.
     """
 
     what: str
@@ -66,7 +66,7 @@ class Figure:
 
     @property
     def printed(self) -> str:
-        """Value with its interval and its unit; on the side of the goal where the value is."""
+        """Value with interval and unit, rounded so that it stays on its side of the goal."""
         texts = (plain(self.value, digits) for digits in range(_DIGITS, 18))
         text = next((one for one in texts if self._meets(float(one)) == self._meets(self.value)), repr(self.value))
         interval = "" if self.interval is None else " ({} to {})".format(*map(plain, self.interval))
@@ -75,7 +75,7 @@ class Figure:
 
     @property
     def goal(self) -> str:
-        """In words; empty without one."""
+        """Text of the goal; empty without one."""
         if self.at_least is not None and self.at_most is not None:
             return f"{plain(self.at_least, 4)} to {plain(self.at_most, 4)}{self._unit}"
         if self.at_least is not None:
@@ -84,7 +84,7 @@ class Figure:
 
     @property
     def rival_printed(self) -> str:
-        """Name and value of the rival; empty without one."""
+        """Text with name and value of the rival; empty without one."""
         return "" if self.rival_value is None else f"{self.rival}: {plain(self.rival_value)}{self._unit}"
 
     @property
@@ -99,14 +99,14 @@ class Figure:
 
 @dataclass(frozen=True)
 class Table:
-    """What is too much for figures: cells as they are printed."""
+    """Results that are too extensive for figures: cells as printed."""
 
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
 
     @classmethod
     def of(cls, head: Sequence[object], rows: Iterable[Iterable[object]]) -> Table:
-        """Cells of any kind as text."""
+        """Create a table from cells of any type."""
         return cls(tuple(map(str, head)), tuple(tuple(map(str, row)) for row in rows))
 
 
@@ -115,12 +115,12 @@ class Record:
     """One run of one command.
 
     Attributes:
-        name: of its file.
-        command: that measured it, `make TARGET` or `python3 -m MODULE`.
-        figures: the most important first.
-        tables: by name, for pages and for whoever needs more than the figures.
-        notes: what else was so in this run, whole sentences.
-        date, machine: when and where it was measured; empty where that is not known.
+        name: name of its file.
+        command: command that measured it, `make TARGET` or `python3 -m MODULE`.
+        figures: figures, the most important first.
+        tables: tables by name, for pages and for details beyond the figures.
+        notes: further facts about this run, in complete sentences.
+        date, machine: time and place of the measurement; empty if unknown.
     """
 
     name: str
@@ -133,10 +133,10 @@ class Record:
 
 
 def write(record: Record, folder: Path) -> Path:
-    """Keep a record in the file of its name; the file.
+    """Write a record to the file of its name, and return the file.
 
     Raises:
-        FileError: it cannot be written.
+        FileError: the file cannot be written.
     """
     path = folder / f"{record.name}.json"
     folder.mkdir(parents=True, exist_ok=True)
@@ -145,10 +145,10 @@ def write(record: Record, folder: Path) -> Path:
 
 
 def read(folder: Path) -> list[Record]:
-    """All records of a folder, by name.
+    """Read all records of a folder, sorted by name.
 
     Raises:
-        FileError: a file is not of this form.
+        FileError: a file is not a record.
     """
     found = []
     for path in sorted(folder.glob("*.json")):
@@ -160,7 +160,7 @@ def read(folder: Path) -> list[Record]:
 
 
 def plain(number: float, digits: int = _DIGITS) -> str:
-    """So many significant digits without an exponent; whole numbers whole."""
+    """Return a number with the given significant digits and without an exponent; integers are complete."""
     if float(number).is_integer():
         return f"{number:.0f}"
     return f"{Decimal(f'{number:.{digits}g}'):f}"
@@ -180,12 +180,12 @@ def _lines(record: Record) -> Iterator[str]:
 
 
 def _said(figure: dict[str, Any]) -> dict[str, Any]:
-    """Of a figure, what is not empty."""
+    """Return the non-empty entries of a figure."""
     return {key: value for key, value in figure.items() if value not in (None, "")}
 
 
 def _listed(items: Sequence[Any], depth: int) -> str:
-    """A list with one item to a line."""
+    """Return a JSON list with one item per line."""
     if not items:
         return "[]"
     inside = f"\n{' ' * (depth + 1)}"

@@ -1,4 +1,4 @@
-"""The reporter: docs/benchmarks.md and the tables of other pages, from the records that the benchmarks keep.
+"""Generate docs/benchmarks.md and the tables of other pages from the records of the benchmarks.
 
     python3 -m tools.benchmarks.report
 
@@ -26,7 +26,7 @@ DOCS = Path("docs")
 FOLDER = "benchmarks"
 PAGE = "benchmarks.md"
 MOST = 40
-"""Rows: a table that one can take in. All figures are in the records."""
+"""Largest number of rows, for a readable table. All figures are in the records."""
 
 _WORDS = {False: "**missed**", True: "met", None: ""}
 _ORDER = (False, True, None)
@@ -36,10 +36,10 @@ type Row = tuple[Record, Figure]
 
 
 def publish(record: Record, docs: Path = DOCS) -> None:
-    """Keep a record, and make again the pages that show any.
+    """Write a record, and regenerate the pages that show records.
 
     Raises:
-        FileError: a file cannot be written, or a page shows a table that no record has.
+        FileError: a file cannot be written, or a page shows a table that no record contains.
     """
     written = write(record, docs / FOLDER)
     make(docs)
@@ -47,7 +47,7 @@ def publish(record: Record, docs: Path = DOCS) -> None:
 
 
 def make(docs: Path = DOCS) -> None:
-    """Make the pages of all records that are kept.
+    """Generate the pages from all stored records.
 
     Raises:
         FileError: as `publish`.
@@ -61,14 +61,14 @@ def make(docs: Path = DOCS) -> None:
 
 
 def as_text(record: Record) -> str:
-    """Figures and tables of one record, to be printed."""
+    """Return figures and tables of one record as text."""
     lines = (f"{one.what}: {one.printed}" + f" (goal {one.goal})" * bool(one.goal) for one in record.figures)
     tables = (f"{name}\n\n{table(one.head, one.rows)}" for name, one in record.tables.items())
     return "\n\n".join(["\n".join(lines), *tables])
 
 
 def page(records: Sequence[Record]) -> str:
-    """The page of all records."""
+    """Return the page of all records."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent),
         autoescape=False,  # noqa: S701  (Markdown, of this checkout's own records)
@@ -83,9 +83,9 @@ def page(records: Sequence[Record]) -> str:
 
 
 def chosen(records: Sequence[Record], most: int = MOST) -> list[Row]:
-    """Rows of the page: missed goals, then goals that are met, then what has none.
+    """Return the rows of the page: missed goals, then goals that are met, then figures without goals.
 
-    There is place for all that miss their goals, and for the first other figures of each record, in turn.
+    The page contains all missed goals, and the first other figures of each record in turn.
     """
     by_record = [[(record, figure) for figure in record.figures] for record in records]
     missed = [row for rows in by_record for row in rows if row[1].is_met is False]
@@ -97,10 +97,10 @@ def chosen(records: Sequence[Record], most: int = MOST) -> list[Row]:
 
 
 def with_tables(text: str, records: Iterable[Record], path: Path) -> str:
-    """A page's text with the tables that it shows as the records have them.
+    """Return a page's text with the current tables of the records.
 
     Raises:
-        FileError: no record has such a table.
+        FileError: no record contains such a table.
     """
     known = {(record.name, name): one for record in records for name, one in record.tables.items()}
 

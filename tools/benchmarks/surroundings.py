@@ -1,4 +1,4 @@
-"""When and where something is measured."""
+"""Time and place of a measurement."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from pathlib import Path
 
 
 def today() -> str:
-    """The date, as 2026-11-27."""
+    """Return the date, for example 2026-11-27."""
     return datetime.now(UTC).date().isoformat()
 
 
 def machine() -> str:
-    """Processor and versions of what computes."""
+    """Return the processor and the versions of Python and packages."""
     packages = ", ".join(f"{name} {version(name)}" for name in ("numpy", "scipy", "numba", "casadi", "mujoco"))
     return f"{_processor()}, Python {platform.python_version()}, {packages}"
 

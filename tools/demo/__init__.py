@@ -1,1 +1,1 @@
-"""`make demo`: real nodes follow a trajectory, the helix of thesis 4.1 if no other is given, and the run is judged."""
+"""`make demo`: real nodes follow a trajectory, by default the helix of thesis 4.1, and the run is evaluated."""

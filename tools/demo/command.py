@@ -1,4 +1,4 @@
-"""The command line of the demo, and its course from the trajectory to the report."""
+"""The command line of the demo, and its sequence from the trajectory to the report."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from tools.demo.viewer import viewed
 from trajectory_generator.from_parameters import trajectory_from_mapping
 
 SEED = 12
-"""Hides an effect that is named with certainty; others may end in `ambiguous` or `unknown`."""
+"""Seed of an effect that the diagnosis names with certainty; others may end in `ambiguous` or `unknown`."""
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the demo; returns 0 if all of it was done, 1 if not."""
+    """Run the demo; return 0 if all of it was completed, 1 if not."""
     arm, trajectory = (
         Path(get_package_share_directory(package)) / "config" / name
         for package, name in (("continuum_description", "three_sections.yaml"), ("trajectory_generator", "helix.yaml"))
@@ -42,7 +42,7 @@ def main(arguments: list[str] | None = None) -> int:
         type=int,
         default=SEED,
         metavar="N",
-        help="of the effect that is hidden and found; default: %(default)s",
+        help="seed of the hidden effect; default: %(default)s",
     )
     parser.add_argument("--helix-only", action="store_true", help="hide and find no effect")
     parser.add_argument("--view", action="store_true", help="show the arm in a browser, as with make demo VIEW=1")
@@ -67,14 +67,14 @@ def _search(seed: int | None, out: Path) -> AbstractContextManager[subprocess.Po
 
 
 def run_demo(trajectory_file: Path, arm_file: Path, out: Path, seed: int | None, view: bool = False) -> int:
-    """Let the arm follow the trajectory, and find an effect that the seed hides in a simulated arm; results in ``out``.
+    """Let the arm follow the trajectory, and find an effect hidden in a simulated arm; write the results to ``out``.
 
     Returns:
         Exit code: 0, or 1 if not every pose became a cable state.
 
     Raises:
-        ContinuumError: a file is not right, a node died, or the demo cannot begin.
-        KeyboardInterrupt: as it came, with every node ended.
+        ContinuumError: a file is invalid, a node died, or the demo cannot start.
+        KeyboardInterrupt: the user interrupted; all nodes have ended.
     """
     parameters = flattened(read_parameter_file(trajectory_file))
     times = trajectory_from_mapping(parameters).times(parameters["rate"])

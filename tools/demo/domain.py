@@ -1,4 +1,4 @@
-"""A ROS domain in which nobody else speaks on the demo's topics: neither disturbs the other."""
+"""Choice of a ROS domain in which no other node publishes on the demo's topics."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ from continuum.recordings.arm_recording import OPTIONAL_SECTION_TOPICS, OPTIONAL
 from tools.demo.errors import DemoError
 
 DISCOVERY_TIME = 1.5
-"""Within this time nodes that run are discovered [s]."""
+"""Time within which running nodes are discovered [s]."""
 
 LARGEST = 232
-"""Largest number of a domain."""
+"""Largest domain number."""
 
 STREAMS = (*TOPICS, *SECTION_TOPICS, *OPTIONAL_TOPICS, *OPTIONAL_SECTION_TOPICS)
 
 _NAMELESS = "a node"
-"""Whose name has not been discovered yet, as its publishers have."""
+"""Text for a node whose publishers are discovered but whose name is not."""
 
 
 @contextmanager
 def domain_for_demo() -> Iterator[int]:
-    """The domain that ROS_DOMAIN_ID says, or else 0, or else the first that is free.
+    """Reserve the domain of ROS_DOMAIN_ID, or otherwise 0 or the first free one.
 
     Raises:
-        DemoError: ROS_DOMAIN_ID is no domain, or others speak there already.
+        DemoError: ROS_DOMAIN_ID is not a domain, or the domain is in use.
     """
     wanted = os.environ.get("ROS_DOMAIN_ID") or "0"
     if not (wanted.isdecimal() and int(wanted) <= LARGEST):
@@ -48,14 +48,14 @@ def domain_for_demo() -> Iterator[int]:
         if occupants:
             busy = f"ROS domain {domain} is in use by {', '.join(occupants)}"
             while occupants:
-                domain = held.enter_context(domain_id())  # those that are held already are passed over
+                domain = held.enter_context(domain_id())  # skips domains that are held already
                 occupants = occupied_by(domain, held)
             print(f"{busy}; the demo runs in domain {domain}. To look at it: export ROS_DOMAIN_ID={domain}")
         yield domain
 
 
 def occupied_by(domain: int, held: ExitStack) -> list[str]:
-    """Who uses the domain: another demo, or nodes that publish on the demo's topics; if nobody, reserve it."""
+    """Return the users of the domain, another demo or nodes on the demo's topics; if there are none, reserve it."""
     reservation = held.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM))
     try:
         reservation.bind(f"\0continuum-demo-in-ros-domain-{domain}")
@@ -65,7 +65,7 @@ def occupied_by(domain: int, held: ExitStack) -> list[str]:
 
 
 def speakers(domain: int) -> list[str]:
-    """Names of nodes that publish on the demo's topics, if one is found while looking."""
+    """Return the names of nodes that publish on the demo's topics, as far as they are discovered in time."""
     context = Context()
     rclpy.init(context=context, domain_id=domain)
     try:

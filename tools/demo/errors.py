@@ -1,7 +1,7 @@
-"""What ends the demo early."""
+"""Error that ends the demo early."""
 
 from continuum.errors import ContinuumError
 
 
 class DemoError(ContinuumError):
-    """The demo cannot begin or go on; the message says why, in one line."""
+    """The demo cannot start or continue; the message gives the reason in one line."""

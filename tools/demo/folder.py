@@ -1,4 +1,4 @@
-"""The folder for results: one demo at a time, and what the one before left is kept until there are new ones."""
+"""The folder for results: used by one demo at a time; earlier results are kept until there are new ones."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ RESULTS = (
 )
 
 PREVIOUS = "previous"
-"""Folder in that of the results, for those of an earlier demo while there are no others."""
+"""Subfolder for the results of an earlier demo until there are new ones."""
 
 
 @contextmanager
 def claimed(folder: Path, results: Sequence[str] = RESULTS) -> Iterator[None]:
-    """Make ``folder`` and put the ``results`` of an earlier demo aside; no other demo writes there meanwhile.
+    """Create ``folder``, lock it against other demos, and move the ``results`` of an earlier demo aside.
 
-    What is aside is removed at the end of the block, but not where that is left by an error or an interrupt.
+    The earlier results are removed at the end of the block, unless it ends with an error or an interrupt.
 
     Raises:
-        DemoError: another demo does, or the folder cannot be made.
+        DemoError: another demo writes to the folder, or it cannot be created.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -48,13 +48,13 @@ def claimed(folder: Path, results: Sequence[str] = RESULTS) -> Iterator[None]:
             if whole:
                 shutil.rmtree(aside, ignore_errors=True)
             elif aside.exists():
-                print(f"what the demo before left is in {aside}", file=sys.stderr)
+                print(f"the results of the previous demo are in {aside}", file=sys.stderr)
     finally:
         os.close(handle)
 
 
 def _put_aside(folder: Path, results: Sequence[str]) -> Path:
-    """Where they are then; if there are some already, of a whole demo, what an interrupted one left is removed."""
+    """Move results aside and return their folder; if it holds a complete demo, remove those of an interrupted one."""
     aside = folder / PREVIOUS
     keep = not aside.exists()
     for path in (folder / name for name in results):

@@ -1,10 +1,10 @@
-"""The main job, whole: an effect is hidden in a simulated arm, and found again from its recordings alone.
+"""The complete main task: an effect is hidden in a simulated arm and found from its recordings alone.
 
     python3 -m tools.demo.hidden_effect --seed 3
 
-The arm is that of the blind tests (MuJoCo, true dry friction, sensors' noise); it shares no code with the library. The
-seed draws the effect, its place and size, the arm's parameters, its motions and the noise. The diagnosis is given the
-recordings and the nominal model, nothing else.
+The arm is that of the blind tests (MuJoCo, true dry friction, sensor noise); it shares no code with the library. The
+seed determines the effect, its place and size, the arm's parameters, its motions and the noise. The diagnosis receives
+only the recordings and the nominal model.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ EFFECT = "hidden_effect"  # folder of recordings, and stem of files
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seed", type=int, required=True, help="of everything that is drawn")
+    parser.add_argument("--seed", type=int, required=True, help="seed of all random numbers")
     parser.add_argument("--out", type=Path, default=Path("out/demo"), help="folder; default %(default)s")
     options = parser.parse_args()
     find_hidden_effect(options.seed, options.out)
 
 
 def find_hidden_effect(seed: int, out: Path) -> None:
-    """Hide, diagnose, print, and leave recordings, page, picture and extended model in ``out``."""
+    """Hide an effect, diagnose, print, and write recordings, page, picture and extended model to ``out``."""
     began = time.perf_counter()
     case = hidden_case(seed)
     files = write_case(case, out / EFFECT)
@@ -59,13 +59,13 @@ def find_hidden_effect(seed: int, out: Path) -> None:
 
 
 def hidden_case(seed: int) -> Case:
-    """Two releases and two pulls of an arm with one large effect of the library."""
+    """Return two releases and two pulls of an arm with one large effect of the library."""
     name = str(np.random.default_rng(seed).choice(LIBRARY))
     return make_case((name,), size="large", dataset="mixed", seed=seed)
 
 
 def answer(case: Case, result: Diagnosis) -> list[str]:
-    """Verdict, truth and gain, a line each."""
+    """Return verdict, truth and improvement, one line each."""
     (hidden,) = case.truth.effects
     place = f" at joint {hidden.joint}" if hidden.joint is not None else ""
     named = [cause.label for cause in result.causes] if result.verdict.kind is Kind.CAUSE else []

@@ -1,4 +1,4 @@
-"""The search for the hidden effect as a process of its own, at low priority while the nodes run."""
+"""The search for the hidden effect as a separate process, at low priority while the nodes run."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ _ROOT = Path(__file__).resolve().parents[2]
 
 
 def search_log(out: Path) -> Path:
-    """File of what the search prints."""
+    """Return the log file of the search."""
     return out / "hidden_effect.log"
 
 
 @contextmanager
 def finding_hidden_effect(seed: int, out: Path) -> Iterator[subprocess.Popen[bytes]]:
-    """The running search; it ends at the end of the block in any case."""
+    """Run the search during the block; it is stopped at the end in any case."""
     paths = [str(_ROOT), str(_ROOT / "test"), os.environ.get("PYTHONPATH", "")]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
     command = ["nice", sys.executable, "-m", "tools.demo.hidden_effect", "--seed", str(seed), "--out", str(out)]

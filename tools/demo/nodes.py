@@ -1,4 +1,4 @@
-"""The nodes of the demo: launched together, followed to the last pose, and ended in any case."""
+"""The nodes of the demo: launch them together, follow them to the last pose, and end them in any case."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tools.demo.errors import DemoError
 from tools.demo.progress import follow
 
 END_TIMEOUT = 20.0
-"""Time given to the nodes to end by themselves [s]."""
+"""Time for the nodes to end by themselves [s]."""
 
 _CRASH = re.compile(r"^\[ERROR\] \[(?P<label>[^\]]+)\]: process has died \[pid \d+, exit code (?P<code>-?\d+)", re.M)
 
@@ -36,7 +36,7 @@ def run_nodes(
 
 
 def checker(launch: subprocess.Popen[bytes], log_file: Path) -> Callable[[], None]:
-    """A look at a launch that writes to ``log_file``: it raises `DemoError` when a node has died, or all has ended."""
+    """Return a check of a launch with a log: it raises `DemoError` when a node has died or the launch has ended."""
 
     def check() -> None:
         text = log_file.read_text(encoding="utf-8", errors="replace")
@@ -50,14 +50,14 @@ def checker(launch: subprocess.Popen[bytes], log_file: Path) -> Callable[[], Non
 
 
 def _last_words(text: str, crash: re.Match[str]) -> str:
-    """What a dead node said last, or its exit code if it said nothing."""
+    """Return the last output and the exit code of a dead node."""
     said = re.findall(rf"^\[{re.escape(crash['label'])}\] (.*\S)", text[: crash.start()], re.M)
     return f"{said[-1] if said else 'without a word'} (exit code {crash['code']})"
 
 
 @contextmanager
 def launched(command: list[str], domain: int, log: int) -> Iterator[subprocess.Popen[bytes]]:
-    """A launch that is interrupted at the end of the block, as by Ctrl-C, and waited for."""
+    """Run a launch during the block, and interrupt it at the end as by Ctrl-C."""
     environment = os.environ | {"ROS_DOMAIN_ID": str(domain)}
     launch = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, env=environment, start_new_session=True)
     try:
@@ -80,7 +80,7 @@ def stop(launch: subprocess.Popen[bytes]) -> None:
 
 @contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Let no further signal keep the nodes from being ended; one that would have interrupted does so afterwards."""
+    """Defer signals while the nodes are ended."""
     came: list[int] = []
     before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
     for number, handler in before.items():

@@ -1,4 +1,4 @@
-"""How far the demo is: cable states, counted as they come."""
+"""Progress of the demo: count of received cable states."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from continuum_manipulator.nodekit.qos import STREAM
 from continuum_msgs.msg import CableStates
 
 START_TIMEOUT = 90.0
-"""Time until the first cable state [s]."""
+"""Longest time until the first cable state [s]."""
 
 STALL_TIMEOUT = 20.0
-"""Time between cable states [s]."""
+"""Longest time between cable states [s]."""
 
 CHECK_PERIOD = 0.5
-"""Time between two looks at the nodes [s]."""
+"""Time between two checks of the nodes [s]."""
 
 
 def follow(domain: int, n_poses: int, check: Callable[[], None]) -> bool:
-    """Show progress until ``n_poses`` cable states have come, or nothing comes any more; True if all have come.
+    """Show progress until ``n_poses`` cable states have arrived or messages stop; return True if all have arrived.
 
     Args:
         domain: ROS domain of the nodes.
-        n_poses: how many there will be.
-        check: called now and then; what it raises ends the wait.
+        n_poses: number of expected cable states.
+        check: function called regularly; its exceptions end the wait.
     """
     context = Context()
-    rclpy.init(context=context, domain_id=domain)  # not the default context: signals stay Python's own
+    rclpy.init(context=context, domain_id=domain)  # separate: Python's signal handlers remain
     try:
         node = rclpy.create_node("demo_progress", context=context)
         count = 0

@@ -1,4 +1,4 @@
-"""Signals that end a demo as Ctrl-C does, with everything it started."""
+"""Let signals end a demo with all its processes, as Ctrl-C does."""
 
 import signal
 import sys
@@ -7,17 +7,17 @@ from typing import NoReturn
 
 
 def run_command(module: str) -> NoReturn:
-    """Exit with what ``main`` of a module returns, or as Ctrl-C does where a signal interrupts it."""
+    """Exit with the result of a module's ``main``, or as after Ctrl-C if a signal interrupts it."""
     try:
         _interrupt_on(signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-        main = import_module(module).main  # slow; an interrupt of it is none of its own
+        main = import_module(module).main  # slow; a signal may interrupt the import
         sys.exit(main())
     except KeyboardInterrupt:
         sys.exit(128 + signal.SIGINT)
 
 
 def _interrupt_on(*numbers: signal.Signals) -> None:
-    """Let these signals interrupt, unless they are ignored."""
+    """Let these signals raise an interrupt, unless they are ignored."""
     for number in numbers:
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, signal.default_int_handler)

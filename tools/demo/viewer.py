@@ -1,4 +1,4 @@
-"""The viewer beside a demo that was asked for it; the demo goes on without it where it cannot start."""
+"""Optional viewer of a demo; the demo continues if the viewer cannot start."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from continuum.viewer.address import HOST, PORT, check_address
 from tools.demo.nodes import launched
 
 PATIENCE = 30.0
-"""For so long its address is waited for [s]."""
+"""Longest wait for its address [s]."""
 
 _ADDRESS = re.compile(r"open (http://\S+) in a browser")
 
 
 def port() -> int:
-    """The viewer's usual one if it is free, else 0: any that is."""
+    """Return the viewer's default port if it is free, otherwise 0 for any free port."""
     try:
         check_address(HOST, PORT)
     except InvalidValueError:
@@ -29,7 +29,7 @@ def port() -> int:
 
 @contextmanager
 def viewed(arm_file: Path, out: Path, domain: int) -> Iterator[None]:
-    """A viewer of this host, on its usual port or a free one, until the end of the block; its address is printed."""
+    """Run a viewer on this host during the block, on its default port or a free one, and print its address."""
     log_file = out / "viewer.log"
     command = ["ros2", "run", "continuum_manipulator", "viewer", "--ros-args", "--params-file", str(arm_file.resolve())]
     with (

@@ -1,1 +1,1 @@
-"""What makes documentation that no benchmark makes: API reference, table of equations, pictures, notebook outputs."""
+"""Generators of documentation other than benchmarks: API reference, table of equations, pictures, notebook outputs."""

@@ -1,4 +1,4 @@
-"""Paragraphs and tables of the pages that the tools write."""
+"""Paragraphs and tables for the pages that the tools generate."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Iterable, Sequence
 
 
 def paragraph(*parts: str) -> str:
-    """Parts that are not empty, as lines of the width that all pages have."""
+    """Join the non-empty parts and wrap them to the width of all pages."""
     return textwrap.fill(" ".join(part for part in parts if part), 120, break_long_words=False, break_on_hyphens=False)
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """A table; the word that there is none where there are no rows."""
+    """Return a table; without rows, a statement that there are none."""
     lines = [f"| {' | '.join(map(str, row))} |" for row in rows]
     if not lines:
         return "None."

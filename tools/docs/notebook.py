@@ -1,9 +1,9 @@
-"""Run the code cells of a notebook, and save in it what they print and draw: `make notebook`, without Jupyter.
+"""Run the code cells of a notebook and save their outputs in it: `make notebook`, without Jupyter.
 
     python3 -m tools.docs.notebook examples/find_the_hidden_effect.ipynb
 
-Cells run in one namespace, as in a kernel: what they print, the value of a last expression, and figures that are open
-or are that value become outputs.
+Cells run in one namespace, as in a kernel. Outputs are the printed text, the value of a last expression, and figures
+that are open or that are this value.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def main() -> None:
 
 
 def run_cells(notebook: dict[str, Any]) -> None:
-    """Put the outputs of every code cell of a notebook (nbformat 4) in the place of those that it has."""
+    """Replace the outputs of every code cell of a notebook (nbformat 4) by new ones."""
     namespace: dict[str, Any] = {"__name__": "__main__"}
     for number, cell in enumerate((cell for cell in notebook["cells"] if cell["cell_type"] == "code"), 1):
         cell["execution_count"] = number
@@ -45,7 +45,7 @@ def run_cells(notebook: dict[str, Any]) -> None:
 
 
 def outputs_of(source: str, namespace: dict[str, Any], number: int) -> list[dict[str, Any]]:
-    """Run one cell; its outputs in the order text, figures, value."""
+    """Run one cell and return its outputs in the order text, figures, value."""
     tree, value, printed = ast.parse(source), None, io.StringIO()
     last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
     with redirect_stdout(printed):
@@ -67,7 +67,7 @@ def outputs_of(source: str, namespace: dict[str, Any], number: int) -> list[dict
 
 
 def png(figure: Figure) -> str:
-    """A small picture, in base64."""
+    """Return a small picture in base64."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "figure.png"
         write_figure(path, figure, DPI)

@@ -1,4 +1,4 @@
-"""PNG files of the pages, made small: line drawings need few colours."""
+"""Compression of the pages' PNG files: line drawings need few colours."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _COLOURS = 96
 
 
 def shrink(path: Path) -> None:
-    """Write a PNG anew with a palette, a third of the size; the same picture always gives the same bytes."""
+    """Rewrite a PNG with a palette, at a third of the size; the same picture always gives the same bytes."""
     with Image.open(path) as picture:
         small = picture.convert("RGB").quantize(_COLOURS, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     made = io.BytesIO()

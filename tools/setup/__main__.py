@@ -1,4 +1,4 @@
-"""`make setup`: bring .venv, build/ and install/ up to date with the checkout, doing only what is not. `make lock`."""
+"""`make setup`: update .venv, build/ and install/ where they differ from the checkout. Also `make lock`."""
 
 import fcntl
 import sys
@@ -50,7 +50,7 @@ def _set_up() -> None:
 
 @contextmanager
 def _alone() -> Iterator[None]:
-    """Hold the set-up's lock, so that two runs in one checkout follow each other."""
+    """Hold the set-up's lock, so that two runs in one checkout do not overlap."""
     LOG.mkdir(exist_ok=True)
     with (LOG / "setup.lock").open("w") as lock_file:
         try:

@@ -9,9 +9,9 @@ FOREIGN = (
     "CONDA_PREFIX", "PYTHONHOME", "PYTHONPATH", "VIRTUAL_ENV",
     # another ROS workspace, or the wheels' guard against starting twice
     "AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH", "COLCON_PREFIX_PATH", "LD_LIBRARY_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE",
-    # the make that called: its flags are not for the makes below
+    # the calling make: its flags must not reach the makes below
     "MAKEFLAGS", "MAKELEVEL", "MFLAGS",
-    # where pip and uv would install instead
+    # other installation folders of pip and uv
     "PIP_PREFIX", "PIP_TARGET", "PIP_USER", "UV_PROJECT_ENVIRONMENT", "UV_SYSTEM_PYTHON", "UV_TARGET",
 )  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""Where the set-up reads and writes, and the one error it raises on purpose."""
+"""Paths that the set-up reads and writes, and its exception."""
 
 from pathlib import Path
 
@@ -24,7 +24,7 @@ STAMP = BUILD / "setup_stamp.json"
 
 
 class SetupError(Exception):
-    """The set-up cannot go on; the text says why and what to do."""
+    """The set-up cannot continue; the message gives the reason and the remedy."""
 
 
 def tool_pins() -> list[Path]:

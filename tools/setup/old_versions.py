@@ -4,7 +4,7 @@ import re
 
 
 def with_versions(requirements: str, versions: str) -> str:
-    """The pins of ``requirements`` with the versions that ``versions`` names, less those that it leaves out.
+    """Return the pins of ``requirements`` with the versions in ``versions``, without those that it excludes.
 
     Raises:
         ValueError: ``versions`` names a package that is not required.

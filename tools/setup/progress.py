@@ -1,4 +1,4 @@
-"""Run the commands of one step: a short line for people, everything else into the log."""
+"""Run the commands of one step: a short line for the user, everything else to the log."""
 
 import subprocess
 import sys
@@ -14,7 +14,7 @@ TAIL_LINES = 25
 
 
 class Step:
-    """One line of progress, e.g. ``  180 pinned packages ........ 31 s``; a context that commands run in."""
+    """One line of progress, e.g. ``  180 pinned packages ........ 31 s``; a context manager for its commands."""
 
     def __init__(self, title: str, hint: str) -> None:
         """Args: title: what is done. hint: what to try when it fails."""
@@ -34,7 +34,7 @@ class Step:
         """Run ``command`` in the checkout and wait.
 
         Raises:
-            SetupError: it failed; holds the end of its output.
+            SetupError: the command failed; the message contains the end of its output.
         """
         LOG_FILE.parent.mkdir(exist_ok=True)
         with LOG_FILE.open("a+", encoding="utf-8", errors="replace") as log:

@@ -1,8 +1,8 @@
 """`make test` in three parts, and `make quick`.
 
-Tests that start nodes wait more than they compute: three files at a time, each module in a separate ROS domain. What
-only computes has the rest of the processor meanwhile, at a lower priority: unit tests, one file for each core, then the
-hidden effects, which share out their cases themselves.
+Tests that start nodes wait more than they compute: three files run at a time, each module in a separate ROS domain.
+Tests that only compute use the remaining processor time at a lower priority: unit tests, one file per core, then the
+hidden effects, which distribute their cases themselves.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _AT_ONCE = 1 << 20  # bytes
 
 @dataclass(frozen=True)
 class Ended:
-    """One part, pytest's exit code and how long it took [s]."""
+    """One part with pytest's exit code and its duration [s]."""
 
     part: str
     code: int
@@ -52,7 +52,7 @@ class Ended:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run every part, also after one that failed; give pytest's exit code of the first that failed."""
+    """Run every part, even after a failure; return pytest's exit code of the first failed part."""
     parser = argparse.ArgumentParser(prog="run_tests", description="Further arguments are given to pytest.")
     parser.add_argument("--quick", action="store_true", help="the fast unit tests alone")
     options, given = parser.parse_known_args(arguments)
@@ -67,7 +67,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def run_all(given: Sequence[str], stopped: Event) -> list[Ended]:
-    """Run what starts nodes and show it; the rest meanwhile at a lower priority, shown after it."""
+    """Run and show the tests with nodes; run the rest at the same time with a lower priority, and show it later."""
     with tempfile.TemporaryFile("w+") as out, ThreadPoolExecutor(1) as pool:
         rest = pool.submit(run, REST, given, stopped, _LOWER_PRIORITY, out.fileno())
         first = run(FIRST, given, stopped)
@@ -83,10 +83,10 @@ def run_all(given: Sequence[str], stopped: Event) -> list[Ended]:
 def run(
     parts: Sequence[str], given: Sequence[str], stopped: Event, prefix: Sequence[str] = (), out: int | None = None
 ) -> list[Ended]:
-    """Run parts one after the other, until ``stopped`` is set; ``out`` is a file's descriptor.
+    """Run parts in sequence until ``stopped`` is set; ``out`` is a file descriptor.
 
-    pytest keeps the test modules that it has rewritten, whatever the caller wants of byte code. Each part has a cache:
-    two that run at the same time would overwrite what failed in the other.
+    pytest caches rewritten test modules regardless of the caller's settings for byte code. Each part has a separate
+    cache, because simultaneous parts would overwrite each other's list of failures.
     """
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     ended: list[Ended] = []
@@ -102,7 +102,7 @@ def run(
 
 
 def exit_code(codes: list[int], selected: bool = False) -> int:
-    """Exit code of the whole; a part may have no tests where only ``selected`` ones run, unless no part has any."""
+    """Return the total exit code; with ``selected`` tests a part may be empty, unless all parts are."""
     if not selected:
         return next(filter(None, codes), PASSED)
     ran = [code for code in codes if code != NOTHING_TO_RUN]

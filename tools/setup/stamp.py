@@ -1,4 +1,4 @@
-"""What the present state of .venv, build and install was made from: content hashes, kept in one small file."""
+"""Content hashes of the inputs of the present .venv, build and install, in one small file."""
 
 import hashlib
 import json
@@ -26,7 +26,7 @@ class Stamp:
 
 
 def made() -> Stamp:
-    """Return the stamp of what was built, empty where nothing usable is there."""
+    """Return the stamp of the present build, empty if there is nothing usable."""
     try:
         stamp = Stamp(**json.loads(STAMP.read_text(encoding="utf-8")))
     except (OSError, ValueError, TypeError):
@@ -40,7 +40,7 @@ def made() -> Stamp:
 
 
 def wanted() -> Stamp:
-    """Return the stamp that the checkout asks for."""
+    """Return the stamp that the checkout requires."""
     environment = _digest([str(ROOT), sys.base_prefix, sys.version, LOCK.read_bytes()])
     built_by = [environment, *(path.read_bytes() for path in sorted(SETUP.glob("*.cmake")))]
     packages = {p.name: _digest([*built_by, *_inputs(p)]) for p in package_folders()}
@@ -48,7 +48,7 @@ def wanted() -> Stamp:
 
 
 def _compiled_sources() -> list[Path]:
-    """Sources that numba's cached code may come from."""
+    """Return the sources of numba's cached code."""
     library = ROOT / "continuum" / "continuum"
     folders = ("kinematics", "dynamics/integration", "estimation", "discovery")
     return sorted(path for folder in folders for path in (library / folder).rglob("*.py"))
@@ -59,7 +59,7 @@ def _is_installed(name: str) -> bool:
 
 
 def _inputs(package: Path) -> Iterator[str | bytes]:
-    """What a build of ``package`` depends on.
+    """Yield the inputs of a build of ``package``.
 
     The files of Python packages are linked, not copied, into install/, so only their names matter; all of a CMake
     package is compiled.
@@ -76,7 +76,7 @@ def _inputs(package: Path) -> Iterator[str | bytes]:
 
 
 def _names_matter(relative: Path) -> bool:
-    """Whether a build looks at the names of such files: packages are found by __init__.py, effects by their files."""
+    """Return whether a build depends on the names of such files: __init__.py for packages, and files of effects."""
     return relative.name == "__init__.py" or relative.parts[1:-1] == ("effects",)
 
 

@@ -1,4 +1,4 @@
-"""The virtual environment .venv: made, filled with exactly the locked packages, and given its shell files."""
+"""Create the virtual environment .venv with exactly the locked packages and its shell files."""
 
 import os
 import re
@@ -31,10 +31,10 @@ NETWORK_HINT = (
 
 
 def make() -> None:
-    """Make .venv anew with exactly the locked packages.
+    """Recreate .venv with exactly the locked packages.
 
-    Not in place by `uv pip sync`: the ROS wheels carry metadata of each other, so that it would take installed ones for
-    left-overs and remove their files.
+    It is not updated in place by `uv pip sync`: the ROS wheels contain metadata of each other, so that uv would treat
+    installed ones as remnants and remove their files.
 
     Raises:
         SetupError: a step failed.
@@ -67,10 +67,10 @@ def write_shell_files() -> None:
 
 
 def lock() -> None:
-    """Resolve requirements.in, also with old versions for `make check-old`; hashes of what single tools need besides.
+    """Resolve requirements.in, also with old versions for `make check-old`, and lock the extra packages of tools.
 
     Raises:
-        SetupError: no solution, or the network failed.
+        SetupError: there is no solution, or the network failed.
     """
     with tempfile.TemporaryDirectory() as folder, Step("requirements.lock", NETWORK_HINT) as step:
         uv, old = Path(folder) / "uv" / "bin" / "uv", Path(folder) / "old.in"
@@ -92,7 +92,7 @@ def _compile(step: Step, uv: Path, requirements: Path, locked: Path, *options: s
 
 
 def _make_with_uv(step: Step, folder: Path) -> None:
-    """Make a virtual environment with the locked uv, and with setuptools for the packages that come as source."""
+    """Create a virtual environment with the locked uv, and with setuptools for source packages."""
     step.run([sys.executable, "-m", "venv", folder], clean_environment())
     with tempfile.TemporaryDirectory() as temporary:
         first = Path(temporary) / "first.lock"
@@ -113,6 +113,6 @@ def _locked(name: str) -> str:
 
 
 def _base_python() -> str:
-    """Return an interpreter for colcon's shell files, which fail where its path holds a space."""
+    """Return an interpreter for colcon's shell files, which fail if its path contains a space."""
     candidates = [os.path.realpath(sys.executable), sys.executable, "/usr/bin/python3"]
     return next((path for path in candidates if " " not in path), sys.executable)

@@ -21,7 +21,7 @@ def check_build_tools() -> None:
 
 
 def build(names: list[str]) -> None:
-    """Build the packages ``names``; Python packages are linked, so edits of their files need no build.
+    """Build the packages ``names``; Python packages are linked, so that changes of their files need no build.
 
     Raises:
         SetupError: a package does not build.
@@ -47,10 +47,10 @@ WARM_UPS = {
 
 
 def compile_solver() -> None:
-    """Fill the caches of numba and of compiled equations, so that no node and no diagnosis compiles while it runs.
+    """Fill the caches of numba and of compiled equations, so that nodes and diagnoses need not compile at run time.
 
     Raises:
-        SetupError: the inverse kinematics' solver, the dynamics' integrator or what a diagnosis needs does not compile.
+        SetupError: the inverse kinematics solver, the integrator or the code of a diagnosis does not compile.
     """
     for what, modules in WARM_UPS.items():
         with Step(f"{what}, compiled", "does not compile; the lines above say why.") as step:
@@ -67,7 +67,7 @@ def remove() -> None:
 
 
 def _remove_dead_links() -> None:
-    """Remove links to files that the checkout no longer has; colcon would stumble over them."""
+    """Remove links to files that the checkout no longer has, which make colcon fail."""
     for folder in (BUILD, INSTALL):
         for path in folder.rglob("*"):
             if path.is_symlink() and not path.exists():
@@ -75,9 +75,9 @@ def _remove_dead_links() -> None:
 
 
 def _free_scripts() -> None:
-    """Let scripts find Python on the PATH, as setup.cfg's ``[build_scripts] executable`` says.
+    """Let scripts find Python on the PATH, according to setup.cfg's ``[build_scripts] executable``.
 
-    A linked build ignores that and writes the interpreter's path, which fails where it holds a space.
+    A linked build ignores this setting and writes the interpreter's path, which fails if it contains a space.
     """
     for script in INSTALL.glob("*/lib/*/*"):
         package = script.parents[2].name

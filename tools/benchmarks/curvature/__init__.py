@@ -1,1 +1,1 @@
-"""How often the intervals of `continuum curvature` hold the true joint angles, on arms of which these are known."""
+"""Coverage of the intervals of `continuum curvature` on arms with known joint angles."""

@@ -1,8 +1,8 @@
 """Holds of simulated arms whose true joint angles are known, as `continuum curvature` finds them.
 
-Of each seed there are two recordings: one cable pulled to four tensions and held at each, and a release with a few rows
-before it. Arm, tensions, durations and noise of the sensors are drawn; the noise as in the hidden cases of test/blind,
-low, ordinary or high in one of four, two of four and one of four.
+Each seed gives two recordings: one cable pulled to four tensions and held at each, and a release with a few rows before
+it. Arm, tensions, durations and sensor noise are random; the noise is low, ordinary or high with probabilities of 1/4,
+1/2 and 1/4, as in the hidden cases of test/blind.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ PLANTS: Mapping[str, tuple[Builder, Mapping[str, Noise], int]] = {
     "MuJoCo": (mujoco_plant.Machine, mujoco_plant.NOISES, mujoco_plant.machine.STEPS),
     "Moreau": (MoreauMachine, moreau_plant.case.NOISES, moreau_plant.machine.STEPS),
 }
-"""What moves, its sensors, and steps of its integrator in a sample."""
+"""Plants: motion, sensors, and integrator steps per sample."""
 
 _LEVELS = {"low": 0.25, "ordinary": 0.5, "high": 0.25}
 _PULLS = 4
@@ -45,12 +45,12 @@ class KnownHold:
     """One hold.
 
     Attributes:
-        level: of the noise.
-        released: whether it is one before a release.
-        since: seconds from the recording's begin to its middle.
-        found: what was found.
-        true: true joint angles, their median over the hold, (n,) [rad].
-        truly: what would have been found if these had been measured.
+        level: level of the noise.
+        released: whether the hold precedes a release.
+        since: time from the start of the recording to the middle of the hold [s].
+        found: result of the comparison.
+        true: median of the true joint angles over the hold, (n,) [rad].
+        truly: result of the comparison for the true angles.
     """
 
     level: str
@@ -62,13 +62,13 @@ class KnownHold:
 
     @property
     def inside(self) -> Array:
-        """Whether the interval of each joint holds the true angle, (n,)."""
+        """Whether the interval of each joint contains the true angle, (n,)."""
         low, high = self.found.quantiles
         return np.asarray((low <= self.true) & (self.true <= high))
 
 
 def known_holds(name: str, model: Model, count: int) -> list[KnownHold]:
-    """So many holds of one of `PLANTS`, from seed 0 upwards; ``model`` is what is compared with."""
+    """Return ``count`` holds of one of `PLANTS`, from seed 0 upwards, compared with ``model``."""
     found: list[KnownHold] = []
     seed = 0
     while len(found) < count:
@@ -114,7 +114,7 @@ def _pulls(rng: np.random.Generator, side: int) -> Array:
 def _recorded(
     name: str, motion: Motion, tension: Array, noise: Noise, rng: np.random.Generator
 ) -> tuple[Recording, Array]:
-    """What the sensors read, and the true joint angles, (rows, 5) [rad]."""
+    """Return the sensors' readings, and the true joint angles, (rows, 5) [rad]."""
     sensors = Reading(JOINTS, (), rng)
     true, _ = sensors.take(motion, Noise(), rng)
     angles, _ = sensors.take(motion, noise, rng)

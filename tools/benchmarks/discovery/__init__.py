@@ -1,1 +1,1 @@
-"""Benchmark of discovery: effects hidden by a plant that the library does not know, and what the diagnosis says."""
+"""Benchmark of discovery: effects hidden by a plant that is independent of the library, and their diagnosis."""

@@ -1,10 +1,10 @@
-"""`make bench-discovery`: effects hidden in simulated measurements, and what `continuum diagnose` says of them.
+"""`make bench-discovery`: effects hidden in simulated measurements, and their diagnosis by `continuum diagnose`.
 
-Half of all cases are for development, and may be looked at; the others (--half held-out) are answered when a version
-is finished, and nothing is mended on them. Every result is one line of data/discovery_benchmark.jsonl; a further call
-goes on where this one was stopped, by --minutes, --cases or Ctrl-C. The record is of the results of the present
-sources: of the held-out half where there is any, else of the other. From the held-out half alone is made what the
-page of a diagnosis says of how often such a verdict is right.
+Half of all cases are for development and may be inspected; the others (--half held-out) are run when a version is
+finished, and the library is never tuned to them. Every result is one line of data/discovery_benchmark.jsonl; a further
+call continues where this one was stopped by --minutes, --cases or Ctrl-C. The record summarises the results of the
+present sources: of the held-out half if there are any, otherwise of the other half. The track record on the page of a
+diagnosis uses the held-out half alone.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _go_on(options: argparse.Namespace, digest: str, results: list[Result]) -> None:
-    """Add what is still to be done to the results."""
+    """Run the remaining cases and add their results."""
     done = {result.plan for result in results}
     wanted = islice(narrowed(campaign(options.half), options.only), options.cases)
     ends, stopped = time.monotonic() + 60 * options.minutes, threading.Event()

@@ -1,4 +1,4 @@
-"""What a verdict is worth beside the truth."""
+"""Assessment of a verdict against the truth."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _ALL_JOINTS: Final = (1, 2, 3, 4, 5)  # of the plants' arms
 
 
 class Answer(Enum):
-    """From the best to the worst."""
+    """Assessments from the best to the worst."""
 
     RIGHT = "right"
     SET = "in a set"
@@ -27,16 +27,16 @@ type Entry = Mapping[str, Any]
 
 
 def answer(hidden: Sequence[Entry], verdict: Mapping[str, Any] | None) -> Answer:
-    """Judge a verdict.
+    """Assess a verdict.
 
-    Right is `cause` with the hidden effects and no other, each at its joint, or at all where it belongs to the whole
-    arm. A wrong cause is one that names anything else, alone or beside what is hidden. Where an effect outside of the
-    library is hidden, right is `unknown`, or whatever says of itself that it is not complete; where nothing is,
-    `adequate`.
+    A verdict is right if it is `cause` with exactly the hidden effects, each at its joint, or at all joints if it
+    belongs to the whole arm. A wrong cause names any other effect, alone or in addition to the hidden ones. If an
+    effect outside of the library is hidden, `unknown` is right, and any verdict that declares itself incomplete; if
+    nothing is hidden, `adequate` is right.
 
     Args:
-        hidden: effects as the plants tell them.
-        verdict: as `continuum diagnose --json` writes it; None where there is none.
+        hidden: effects as reported by the plants.
+        verdict: as written by `continuum diagnose --json`; None if there is none.
     """
     if verdict is None:
         return Answer.FAILED
@@ -58,23 +58,23 @@ def answer(hidden: Sequence[Entry], verdict: Mapping[str, Any] | None) -> Answer
 
 
 def is_exactly(hidden: Sequence[Entry], named: Sequence[Entry]) -> bool:
-    """Whether a set names every hidden effect at its joints, and nothing else."""
+    """Return whether a set names every hidden effect at its joints, and nothing else."""
     return len(hidden) == len(named) and all(any(is_it(effect, cause) for cause in named) for effect in hidden)
 
 
 def is_it(effect: Entry, named: Entry) -> bool:
-    """Whether a named effect is the hidden one at its joint, or at all joints."""
+    """Return whether a named effect is the hidden one at its joint, or at all joints."""
     joints = None if named["joints"] is None else tuple(named["joints"])
     wanted = (None, _ALL_JOINTS) if effect["joint"] is None else ((effect["joint"],),)
     return bool(effect["name"] == named["effect"]) and joints in wanted
 
 
 def _is_part(hidden: Sequence[Entry], named: Entry) -> bool:
-    """Whether it is one of the hidden effects, perhaps at some only of its joints."""
+    """Return whether a named effect is one of the hidden ones, possibly at only some of its joints."""
     return any(is_it(e, named) or (e["name"] == named["effect"] and e["joint"] is None) for e in hidden)
 
 
 def label(causes: Sequence[Entry]) -> str:
-    """Effects and joints of a set."""
+    """Return the effects and joints of a set as text."""
     at = ("" if (joints := cause["joints"]) is None else "@" + ",".join(map(str, joints)) for cause in causes)
     return " + ".join(cause["effect"] + where for cause, where in zip(causes, at, strict=True)) or "nothing"

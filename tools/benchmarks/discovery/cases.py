@@ -1,4 +1,4 @@
-"""Cases in worker processes: a plant's files go in, a verdict comes out."""
+"""Cases in worker processes: from a plant's files to a verdict."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from continuum.recordings.read_recording import read_recording
 from tools.benchmarks.discovery.plans import Plan
 from tools.benchmarks.discovery.result import Result, kept
 
-_LIMIT = 600  # of one diagnosis [s]
+_LIMIT = 600  # longest duration of one diagnosis [s]
 MAKERS: Final = {"mujoco": mujoco_plant.make_case, "moreau": moreau_plant.make_case}
-_SHOWN = 1500  # characters of a failure
+_SHOWN = 1500  # characters of a failure that are kept
 MODEL = "lamecc_prototype.yaml"
 
 
 def diagnosed(files: Sequence[Path]) -> tuple[dict[str, Any], float]:
-    """The verdict on files as `continuum diagnose --json` writes it, and processor time of the diagnosis alone [s]."""
+    """Return the verdict on files as in `continuum diagnose --json`, and the processor time of the diagnosis [s]."""
     recordings, model = [read_recording(str(path)) for path in files], load_model(MODEL)
     began = time.process_time()
     result = diagnose(recordings, model, with_power=False)
@@ -41,7 +41,7 @@ def diagnosed(files: Sequence[Path]) -> tuple[dict[str, Any], float]:
 
 
 def run_case(plan: Plan, digest: str) -> Result:
-    """Make a case, hand its files to the diagnosis, keep the truth out of its sight."""
+    """Create a case and diagnose its files without access to the truth."""
     verdict, failure, seconds = None, "", float("nan")
     case = MAKERS[plan.plant](plan.effects, plan.size, plan.recordings, plan.seed, plan.noise)
     began = time.process_time()
@@ -50,7 +50,7 @@ def run_case(plan: Plan, digest: str) -> Result:
         signal.alarm(_LIMIT)
         try:
             verdict, seconds = diagnosed(mujoco_plant.write_case(case, Path(folder) / "data"))
-        except Exception:  # noqa: BLE001 - whatever went wrong is a result
+        except Exception:  # noqa: BLE001 - any failure is a result
             failure, seconds = traceback.format_exc()[-_SHOWN:], time.process_time() - began
         finally:
             signal.alarm(0)
@@ -65,13 +65,13 @@ def _too_late(*_: object) -> NoReturn:
 
 
 def compile_first() -> None:
-    """Compile what every diagnosis needs, in a process that ends then: compiling takes more memory than a diagnosis."""
+    """Compile the code of a diagnosis in a separate process, because compiling takes more memory than a diagnosis."""
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
         pool.submit(_ready_worker).result()
 
 
 def _ready_worker() -> None:
-    """Leave Ctrl-C to the campaign, and load what is compiled before any time is taken."""
+    """Ignore Ctrl-C, which the campaign handles, and load compiled code before times are measured."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with tempfile.TemporaryDirectory() as folder, contextlib.suppress(Exception):
         diagnosed(
@@ -87,17 +87,17 @@ def run_campaign(
     run: Callable[[Plan, str], Result] = run_case,
     ready: Callable[[], None] = _ready_worker,
 ) -> Iterator[Result]:
-    """Results as they come; no case is begun once it is over, those that run are waited for.
+    """Yield results as they arrive; after the end of the campaign no case is started, but running cases are completed.
 
-    Where a worker process ends by itself, the cases that ran are begun again, each in a process of its own.
+    If a worker process dies, the cases that were running start again, each in a separate process.
 
     Args:
         plans: cases.
-        jobs: of them at once.
-        digest: of the sources.
-        is_over: asked before each case.
-        run: called in a worker for each case.
-        ready: called once in each worker.
+        jobs: number of simultaneous cases.
+        digest: digest of the sources.
+        is_over: function that is queried before each case.
+        run: function that a worker calls for each case.
+        ready: function that each worker calls once.
     """
     running: dict[Future[Result], Plan] = {}
     context = multiprocessing.get_context("spawn")

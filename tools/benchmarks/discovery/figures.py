@@ -31,12 +31,12 @@ SAME: Final = {
     "sensor_scale": {"gain": 1.0},
     "tension_scale": {"gain_1": 1.0, "gain_2": 0.5},
 }
-"""Parameters of the library, by effect, that the plants' amount tells, and by what times it."""
+"""Library parameter of each effect that corresponds to the plants' amount, and its factor."""
 _BINS = 10
 
 
 class Rate(NamedTuple):
-    """``k`` times of ``n``."""
+    """``k`` of ``n`` cases."""
 
     k: int
     n: int
@@ -48,12 +48,12 @@ class Rate(NamedTuple):
 
     @property
     def value(self) -> float:
-        """0 to 1; NaN of none."""
+        """Rate from 0 to 1; NaN without cases."""
         return self.k / self.n if self.n else math.nan
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Wilson's, of 95 %, of a rate of one case at least."""
+        """Wilson's 95 % interval of a rate of at least one case."""
         ends = binomtest(self.k, self.n).proportion_ci(0.95, method="wilson")
         return float(ends.low), float(ends.high)
 
@@ -75,41 +75,41 @@ class Estimate(NamedTuple):
 
     @property
     def is_covered(self) -> bool:
-        """Whether the interval holds the truth."""
+        """Whether the interval contains the truth."""
         return self.low <= self.truth <= self.high
 
 
 def rate(results: Iterable[Result], *answers: Answer) -> Rate:
-    """How often one of some answers was given."""
+    """Return the rate of certain answers."""
     return Rate.of(result.answer in answers for result in results)
 
 
 def of_kind(results: Iterable[Result], kind: str) -> list[Result]:
-    """Those of `clean`, `one`, `pairs` or `outside`."""
+    """Return the results of the kind `clean`, `one`, `pairs` or `outside`."""
     return [result for result in results if result.plan.kind == kind]
 
 
 def found_by_effect(results: Iterable[Result]) -> dict[str, Rate]:
-    """How often each effect of the library, hidden alone, is named or in a true set; the worst first."""
+    """Return the rate at which each effect, hidden alone, is named or in a true set, the lowest rate first."""
     one = of_kind(results, "one")
     rates = {name: rate((r for r in one if r.plan.effects == (name,)), *FOUND) for name in LIBRARY}
     return dict(sorted(((name, of) for name, of in rates.items() if of.n), key=lambda item: item[1].value))
 
 
 def quantile(values: Iterable[float], part: float) -> float:
-    """The smallest value that at least a part of the values do not exceed; NaN of none."""
+    """Return the smallest value that at least a fraction of the values do not exceed; NaN without values."""
     ordered = sorted(value for value in values if math.isfinite(value))
     return ordered[max(0, math.ceil(part * len(ordered)) - 1)] if ordered else math.nan
 
 
 def closed_shares(results: Iterable[Result]) -> list[float]:
-    """Parts of the distance between open-loop error and noise that are closed, where a cause is named."""
+    """Return the closed fractions of the distance between open-loop error and noise in cases with a named cause."""
     verdicts = (result.verdict for result in results)
     return [float(v["closed"]["value"] or 0.0) for v in verdicts if v is not None and v["verdict"] == "cause"]
 
 
 def estimates(results: Iterable[Result]) -> list[Estimate]:
-    """Values of hidden effects that are named at their joints, in the most probable set."""
+    """Return the values of hidden effects that the most probable set names at their joints."""
     found = []
     for result in results:
         named = [(h, cause) for one in result.sets[:1] for cause in one["effects"] for h in result.hidden]
@@ -123,7 +123,7 @@ def estimates(results: Iterable[Result]) -> list[Estimate]:
 
 
 def bins(results: Iterable[Result]) -> list[tuple[float, Rate]]:
-    """Stated probabilities of all sets that are named, in ten steps: their mean, and how often the set was true."""
+    """Return for ten bins of the stated probabilities of named sets their mean, and the rate of true sets."""
     groups: list[list[tuple[float, bool]]] = [[] for _ in range(_BINS)]
     for result in results:
         for one in result.sets:
@@ -133,6 +133,6 @@ def bins(results: Iterable[Result]) -> list[tuple[float, Rate]]:
 
 
 def expected_error(some: Sequence[tuple[float, Rate]]) -> float:
-    """ECE: mean distance of probability and rate over the bins, weighed by their sizes (Naeini 2015); NaN of none."""
+    """Return the expected calibration error: mean |probability - rate|, weighted by bin size (Naeini 2015), or NaN."""
     n = sum(true.n for _, true in some)
     return sum(true.n * abs(stated - true.value) for stated, true in some) / n if n else math.nan

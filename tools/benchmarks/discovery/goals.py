@@ -1,4 +1,4 @@
-"""Figures of the diagnosis with what is wanted of each."""
+"""Figures of the diagnosis with their goals."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from tools.benchmarks.discovery.figures import FOUND, Rate, of_kind, quantile, r
 from tools.benchmarks.discovery.result import Result
 from tools.benchmarks.record import Figure
 
-_HARD: Final = ("backlash", "slack_cable")  # less is wanted of these
+_HARD: Final = ("backlash", "slack_cable")  # these have lower goals
 
 
 def goals(results: Sequence[Result]) -> tuple[Figure, ...]:
-    """All of which there is a case."""
+    """Return all figures with at least one case."""
     parts = _of_errors(results), _of_finding(results), _of_values(results), _of_time(results)
     return tuple(figure for part in parts for figure in part if figure is not None)
 
 
 def at_least(what: str, wanted: float, found: Rate) -> Figure | None:
-    """A rate that shall be high, 0 to 1."""
+    """Return the figure of a rate, 0 to 1, with a lower bound."""
     return _rate(what, found, at_least=100 * wanted)
 
 
 def at_most(what: str, wanted: float, found: Rate) -> Figure | None:
-    """A rate that shall be low, 0 to 1."""
+    """Return the figure of a rate, 0 to 1, with an upper bound."""
     return _rate(what, found, at_most=100 * wanted)
 
 

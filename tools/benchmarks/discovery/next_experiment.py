@@ -1,8 +1,8 @@
-"""The next run or measurement by hand that a diagnosis proposes, made in simulation: does it separate the causes?
+"""Simulate the next run or manual measurement that a diagnosis proposes, and check whether it separates the causes.
 
     python3 -m tools.benchmarks.discovery.next_experiment OUT.jsonl [CASES [PART PARTS]]
 
-Cases are those of the benchmark that were ambiguous; of several processes each takes a part.
+The cases are the ambiguous ones of the benchmark; with several processes each one takes a part.
 """
 
 from __future__ import annotations
@@ -40,15 +40,15 @@ RESULTS = Path("data/discovery_benchmark.jsonl")
 
 @dataclass(frozen=True)
 class Separation:
-    """Of one case.
+    """Result of one case.
 
     Attributes:
-        plan: of the case.
-        before, after: labels of its sets.
-        experiment: run, measured value or effect to be taken off that was proposed; the best run where none was.
-        runs: of it that were proposed, 0 where it is not expected to separate; one is made then. 1 of a measurement.
+        plan: plan of the case.
+        before, after: labels of the possible sets.
+        experiment: proposed run, measured value or effect to remove; the best run if there was no proposal.
+        runs: number of proposed runs, 0 if no separation is expected (one is made anyway); 1 for a measurement.
         separated: whether the likeliest set and its rival are no longer both possible, and the true one was not lost.
-        kept: whether the true set, where it was possible, still is, or is named.
+        kept: whether the true set, if it was possible before, is still possible or named.
     """
 
     plan: str
@@ -61,7 +61,7 @@ class Separation:
 
 
 def separation(plan: Plan) -> Separation | None:
-    """Diagnose, make the proposed run, diagnose again; None where the first diagnosis is not ambiguous."""
+    """Diagnose, make the proposed run, and diagnose again; return None if the first diagnosis is not ambiguous."""
     case = MAKERS[plan.plant](plan.effects, plan.size, plan.recordings, plan.seed, plan.noise)
     model, hidden = load_model(MODEL), list(case.truth.plain()["effects"])  # type: ignore[call-overload]
     with tempfile.TemporaryDirectory() as folder:
@@ -109,7 +109,7 @@ def _made(plan: Plan, truth: mujoco_plant.case.Truth, design: Design, number: in
 
 
 def _measured(test: HandTest, hidden: list[dict[str, Any]], random: np.random.Generator) -> HandMeasurement:
-    """A value of the plant as the usual instrument shows it."""
+    """Return a value of the plant with the error of the usual instrument."""
     factor = SAME[test.effect][test.parameter]
     at = None if test.joint is None else test.joint + 1
     found = [one for one in hidden if one["name"] == test.effect and one["joint"] in (None, at)]
@@ -120,13 +120,13 @@ def _measured(test: HandTest, hidden: list[dict[str, Any]], random: np.random.Ge
 
 
 def _rivals(result: Diagnosis) -> list[tuple[Cause, ...]]:
-    """The likeliest set and the likeliest of other effects, which an experiment is to separate."""
+    """Return the likeliest set and the likeliest one with other effects, which an experiment must separate."""
     other = rival_of([{cause.effect for cause in causes} for causes in result.sets])
     return [result.sets[0], *([] if other is None else [result.sets[other]])]
 
 
 def _without(causes: Sequence[Cause], known: Set[tuple[str, int | None]]) -> frozenset[str]:
-    """Labels of a set's effects but those that are measured."""
+    """Return the labels of a set's effects except the measured ones."""
     places = [
         (one.effect, one.joints[0] if one.joints is not None and len(one.joints) == 1 else None) for one in causes
     ]
@@ -134,7 +134,7 @@ def _without(causes: Sequence[Cause], known: Set[tuple[str, int | None]]) -> fro
 
 
 def _answers(result: Diagnosis) -> list[frozenset[str]]:
-    """Sets that are possible; where the model is adequate, that of no effects."""
+    """Return the possible sets; for an adequate model, the empty set."""
     if result.verdict.kind is Kind.ADEQUATE:
         return [frozenset()]
     return [frozenset(one.label for one in causes) for causes in result.sets if is_named(result.verdict.kind)]

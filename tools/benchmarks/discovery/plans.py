@@ -1,8 +1,8 @@
-"""What a campaign hides, case by case, in an order of which every beginning is balanced.
+"""Plans of a campaign, case by case, in an order that is balanced after any number of cases.
 
-A round hides every effect of the library at each size once, and has arms without any, effects outside of the library,
-and pairs. Plant, regime, noise and number of recordings of a case are those that its likes had least often so far
-(minimisation: Pocock and Simon, Biometrics 31, 1975, 103-115).
+A round hides every effect of the library at each size once, and contains arms without any effect, effects outside of
+the library, and pairs. Plant, regime, noise and number of recordings of a case are those that similar cases had least
+often so far (minimisation: Pocock and Simon, Biometrics 31, 1975, 103-115).
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ REGIMES: Final = {
     "slow": ("ramp", "reversals", "ramp", "cocontraction") * 2,
     "fast": ("chirp", "steps", "multisine", "chirp") * 2,
 }
-"""Recordings of a dataset; a small one has the first four."""
+"""Recordings of a dataset; a small dataset has the first four."""
 KINDS: Final = ("one", "clean", "outside", "pairs")
 HALVES: Final = ("development", "held-out")
 ROUNDS: Final = 6
 """Of each half."""
 CHOICES: Final = (*KINDS, *PLANTS, *SIZES, *REGIMES, *LIBRARY, *OUTSIDE)
-"""What a run may be narrowed to."""
+"""Properties that can restrict a run."""
 _CLEAN, _OUTSIDE, _PAIRS = 26, 10, 10
-_RUNS = {8: 3.0, 4: 1.0}  # how often each is wanted
+_RUNS = {8: 3.0, 4: 1.0}  # relative frequency of each number
 _SEED = 3_000_000
 _IN_A_ROUND = 1000  # seeds
 
@@ -65,7 +65,7 @@ class Plan:
 
     @property
     def recordings(self) -> tuple[str, ...]:
-        """Their regimes, as the plants know them."""
+        """Regimes of the recordings, as named by the plants."""
         return REGIMES[self.regime][: self.runs]
 
     def __str__(self) -> str:
@@ -73,7 +73,7 @@ class Plan:
 
 
 def campaign(half: str, rounds: int = ROUNDS) -> Iterator[Plan]:
-    """Plans of one half; no two of any half have the same seed."""
+    """Yield the plans of one half; no two plans of either half have the same seed."""
     which = HALVES.index(half)
     rng, had = np.random.default_rng([_SEED, which]), Counter[tuple[object, ...]]()
     for number in range(rounds):
@@ -83,7 +83,7 @@ def campaign(half: str, rounds: int = ROUNDS) -> Iterator[Plan]:
 
 
 def narrowed(plans: Iterable[Plan], only: Sequence[str]) -> Iterator[Plan]:
-    """Those of some kinds, plants, sizes, regimes, or effects hidden alone; of a sort of which none is named, all."""
+    """Yield the plans with given kinds, plants, sizes, regimes or single hidden effects; other properties are free."""
     sorts = [set(only) & set(sort) for sort in (KINDS, PLANTS, SIZES, REGIMES, EFFECTS)]
     for plan in plans:
         alone = plan.effects[0] if len(plan.effects) == 1 else ""
@@ -93,13 +93,13 @@ def narrowed(plans: Iterable[Plan], only: Sequence[str]) -> Iterator[Plan]:
 
 
 def shown_in(effects: Sequence[str]) -> list[str]:
-    """Regimes that can show all of some effects."""
+    """Return the regimes that can show all of the effects."""
     kinds = {regime: {RELEASE if run == RELEASE else DRIVEN for run in runs} for regime, runs in REGIMES.items()}
     return [regime for regime in REGIMES if all(EFFECTS[name].seen_in & kinds[regime] for name in effects)]
 
 
 def _hidden(number: int, rng: np.random.Generator) -> list[tuple[tuple[str, ...], str]]:
-    """Effects and size of every case of a round, all kinds evenly spread over it."""
+    """Return effects and size of every case of a round, with all kinds distributed evenly."""
     order = [str(name) for name in rng.permutation(LIBRARY)]
     outside = [((name,), SIZES[(i + turn) % 3]) for turn in range(3) for i, name in enumerate(OUTSIDE)]
     deck = [str(name) for _ in range(_PAIRS) for name in rng.choice(LIBRARY, 2, replace=False)]
@@ -116,7 +116,7 @@ def _hidden(number: int, rng: np.random.Generator) -> list[tuple[tuple[str, ...]
 def _least_had(
     effects: tuple[str, ...], size: str, seed: int, had: Counter[tuple[object, ...]], rng: np.random.Generator
 ) -> Plan:
-    """The plan whose levels its likes had least often so far."""
+    """Return the plan whose levels similar plans had least often so far."""
     levels = itertools.product(PLANTS, shown_in(effects), sorted(_RUNS), NOISES)
     options = [Plan(plant, effects, size, regime, runs, noise, seed) for plant, regime, runs, noise in levels]
     costs = np.array([sum(w * (had[mark] + 1) for mark, w in _marks(plan).items()) for plan in options])
@@ -126,9 +126,9 @@ def _least_had(
 
 
 def _marks(plan: Plan) -> dict[tuple[object, ...], float]:
-    """What is counted of a plan: its levels among the same effects, the same kind and size, and all; and their worth.
+    """Return the counted levels of a plan, for equal effects, equal kind and size, and all plans, weighted.
 
-    A level that is wanted more often counts less.
+    A level with a higher relative frequency counts less.
     """
     levels = ("plant", plan.plant), ("regime", plan.regime), ("noise", plan.noise), ("runs", plan.runs)
     groups = {("effects", plan.effects): 3.0, (plan.kind, plan.size): 1.0, ("all",): 1.0}

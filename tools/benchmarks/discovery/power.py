@@ -1,4 +1,4 @@
-"""Power as a diagnosis states it beside how often effects were found: the same arm without the effect tells it.
+"""Stated power, from the same arm without the effect, compared with the rate at which effects were found.
 
     python3 -m tools.benchmarks.discovery.power RESULTS.jsonl
 
@@ -30,15 +30,15 @@ from tools.benchmarks.discovery.result import Result, load
 _AMOUNTS: Final = SAME | {
     "angle_offset": {"offset": 1.0}, "gyro_drift": {"bias": 1.0}, "remounted_base": {"angle": 1.0},
 }  # fmt: skip
-"""The first is the size; an effect that is not here has another measure in the plants than in the library."""
+"""The first one is the size; effects that are missing here have different measures in the plants and the library."""
 
 
 class Predicted(NamedTuple):
-    """Of one case.
+    """Prediction for one case.
 
     Attributes:
-        result: what the diagnosis said of the arm with the effect.
-        probability: of naming it, as the arm without it tells.
+        result: result of the diagnosis of the arm with the effect.
+        probability: predicted probability of naming the effect, from the arm without it.
     """
 
     result: Result
@@ -46,7 +46,7 @@ class Predicted(NamedTuple):
 
 
 def predicted(result: Result) -> Predicted | None:
-    """Of a case in which one effect is hidden; None where its size cannot be told in the library's unit."""
+    """Predict a case with one hidden effect; return None if its size has no equivalent in the library's unit."""
     plan = result.plan
     if len(result.hidden) != 1 or (size := _size(result.hidden[0])) is None:
         return None
@@ -71,7 +71,7 @@ def _is_it(one: Power, hidden: Mapping[str, Any]) -> bool:
 
 
 def _size(hidden: Mapping[str, Any]) -> float | None:
-    """In typical ones."""
+    """Return the hidden size in units of the typical size, or None."""
     if hidden["name"] not in _AMOUNTS:
         return None
     parameter, factor = next(iter(_AMOUNTS[hidden["name"]].items()))
@@ -80,7 +80,7 @@ def _size(hidden: Mapping[str, Any]) -> float | None:
 
 
 def table(found: Sequence[Predicted]) -> list[tuple[str, str, int, float, float]]:
-    """Plant, size, cases, mean stated probability and the part that was found."""
+    """Return rows of plant, size, number of cases, mean stated probability and fraction found."""
     groups: dict[tuple[str, str], list[Predicted]] = defaultdict(list)
     for one in found:
         for name in (one.result.plan.plant, "both"):

@@ -1,4 +1,4 @@
-"""What became of one case, as one line of JSON, and of which sources it is."""
+"""Result of one case as one line of JSON, with the digest of the sources."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ class Result:
     """One diagnosis.
 
     Attributes:
-        digest: of the sources that made it.
-        plan: of the case.
-        hidden: effects as the plant tells them: name, joint, amount, unit, in_a_library.
-        verdict: what is kept of the JSON of `continuum diagnose`; None where there is none.
-        failure: why there is none.
-        seconds: processor time of the diagnosis alone [s].
-        memory: most that its process ever had [MiB].
+        digest: digest of the sources that produced it.
+        plan: plan of the case.
+        hidden: effects as reported by the plant: name, joint, amount, unit, in_a_library.
+        verdict: the stored part of the JSON of `continuum diagnose`; None if there is none.
+        failure: reason for a missing verdict.
+        seconds: processor time of the diagnosis [s].
+        memory: peak memory of its process [MiB].
     """
 
     digest: str
@@ -43,17 +43,17 @@ class Result:
 
     @property
     def answer(self) -> Answer:
-        """What the verdict is worth."""
+        """Assessment of the verdict."""
         return answer(self.hidden, self.verdict)
 
     @property
     def sets(self) -> Sequence[Mapping[str, Any]]:
-        """Sets of effects that are named, with their probabilities."""
+        """Named sets of effects with their probabilities."""
         return [] if self.verdict is None else list(self.verdict["sets"])
 
 
 def kept(verdict: Mapping[str, Any]) -> dict[str, Any]:
-    """What of a verdict the page may need, to four digits; what single recordings have for themselves is left out."""
+    """Return the parts of a verdict that the page needs, to four digits, without values of single recordings."""
     short = {name: verdict[name] for name in ("verdict", "complete", "sets", "helps", "shares", "closed")}
     for cause in (cause for one in ({"effects": short["helps"]}, *short["sets"]) for cause in one["effects"]):
         cause["parameters"] = [one for one in cause["parameters"] if one["recording"] is None]
@@ -71,14 +71,14 @@ def _rounded(value: Any) -> Any:
 
 
 def append(result: Result, path: Path) -> None:
-    """Add a result to a file, which is made where there is none."""
+    """Append a result to a file, which is created if it is missing."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("a", encoding="utf-8") as file:
         file.write(json.dumps(asdict(result)) + "\n")
 
 
 def load(path: Path) -> list[Result]:
-    """All results; a line that was cut off in the writing is left out."""
+    """Read all results; omit an incompletely written line."""
     found = []
     for line in path.read_text(encoding="utf-8").splitlines() if path.exists() else ():
         try:
@@ -92,9 +92,9 @@ def load(path: Path) -> list[Result]:
 
 
 def digest_of_sources() -> str:
-    """Of all sources that a verdict may depend on, of library and plants: 12 hexadecimal digits.
+    """Return a digest, 12 hexadecimal digits, of all sources of library and plants that a verdict may depend on.
 
-    Comments and formatting do not count.
+    Comments and formatting do not count, but docstrings do.
     """
     library, plants, total = Path(str(continuum.__file__)).parent, Path(str(blind.__file__)).parent, hashlib.sha256()
     for folder in (*(library / part for part in _PARTS), plants / "mujoco_plant", plants / "moreau_plant"):

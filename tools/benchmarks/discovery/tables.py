@@ -1,4 +1,4 @@
-"""The record of a campaign: figures with goals, and tables; everything is computed from the results it is given."""
+"""The record of a campaign: figures with goals, and tables, computed from the given results."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from tools.benchmarks.record import Record, Table
 
 
 def record_of(everything: Sequence[Result], earlier: int = 0) -> Record:
-    """Of the held-out half where there is any result of it, else of the other.
+    """Return the record of the held-out half if it has results, otherwise of the other half.
 
     Args:
         everything: results of the present sources, at least one.
-        earlier: other versions of the sources that answered cases of the held-out half.
+        earlier: number of earlier versions of the sources with results of the held-out half.
     """
     development, held_out = ([result for result in everything if result.plan.half == half] for half in HALVES)
     results = held_out or development
@@ -37,7 +37,7 @@ def record_of(everything: Sequence[Result], earlier: int = 0) -> Record:
 
 
 def _notes(results: Sequence[Result], others: Sequence[Result], earlier: int) -> tuple[str, ...]:
-    """How many cases of which half, of which sources; figures of the other half, if any."""
+    """Return notes on the number of cases, their half and sources, and on figures of the other half, if any."""
     kinds, half = Counter(result.plan.kind for result in results), results[0].plan.half
     count = (
         f"{len(results)} cases of the {half} half: {kinds['one']} with one hidden effect of the library,"
@@ -78,9 +78,9 @@ def _wrong(results: Sequence[Result]) -> Table:
 
 
 def _by_effect(results: Sequence[Result]) -> Table:
-    """By size and plant right + in a true set / cases, with a ! for each wrong cause or set; what was named instead.
+    """Return by size and plant right + in a true set / cases, a ! for each wrong cause or set, and what was named.
 
-    Estimates: 95 % intervals that hold the truth / values, and their median error.
+    Estimates: number of 95 % intervals that contain the truth / number of values, and their median error.
     """
     rows = []
     for names in ((), *((name,) for name in (*OUTSIDE, *LIBRARY))):
@@ -112,7 +112,7 @@ def _of_estimates(results: Sequence[Result]) -> str:
 
 
 def _said(result: Result) -> str:
-    """Effects that are named, without joints, or the verdict."""
+    """Return the named effects without joints, or the verdict."""
     sets = {" + ".join(sorted(cause["effect"] for cause in one["effects"])) or "nothing" for one in result.sets}
     if sets:
         return f"{{{', '.join(sorted(sets))}}}"
@@ -141,7 +141,7 @@ def _probabilities(results: Sequence[Result]) -> Table:
 
 
 def _times(results: Sequence[Result]) -> Table:
-    """Processor time of one diagnosis; the most memory that its process had until then, the plants included."""
+    """Return processor time of one diagnosis and peak memory of its process so far, including the plants."""
     rows = []
     for runs, regime in product((8, 4), REGIMES):
         mine = [r for r in results if (r.plan.runs, r.plan.regime) == (runs, regime)]

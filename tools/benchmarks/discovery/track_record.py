@@ -1,4 +1,4 @@
-"""How often a verdict of each kind was right, for the page of a diagnosis."""
+"""Rate at which verdicts of each kind were right, for the page of a diagnosis."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ KINDS: Final = ("adequate", "cause", "ambiguous", "unknown")
 
 
 def track_record(results: Sequence[Result]) -> dict[str, Any]:
-    """Of each kind of verdict, how many there were, how many were right, and the Wilson interval of 95 %.
+    """Return for each kind of verdict the number of cases, the number of right ones, and the 95 % Wilson interval.
 
-    Only results of the held-out half count, and only those of one version of the sources, the one of the last result.
-    A case without a verdict counts for none.
+    Only results of the held-out half count, and only those of the version of the sources of the last result. Cases
+    without a verdict do not count.
     """
     held_out = [one for one in results if one.plan.half == HALVES[1]]
     digest = held_out[-1].digest if held_out else ""
@@ -29,7 +29,7 @@ def track_record(results: Sequence[Result]) -> dict[str, Any]:
 
 
 def write_track_record(results: Sequence[Result], path: Path) -> bool:
-    """Write the file that the library reads; whether there was any result of the held-out half to write it from."""
+    """Write the file that the library reads; return whether there are results of the held-out half."""
     record = track_record(results)
     if record["cases"]:
         write_whole(path, json.dumps(record, indent=2) + "\n")
@@ -37,11 +37,11 @@ def write_track_record(results: Sequence[Result], path: Path) -> bool:
 
 
 def is_right(hidden: Sequence[Mapping[str, Any]], verdict: Mapping[str, Any]) -> bool:
-    """Whether a verdict may be relied on.
+    """Return whether a verdict is reliable.
 
-    `cause`: all that it names is hidden. `ambiguous`: one of its sets is exactly what is hidden. `adequate`: nothing is
-    hidden. `unknown`: an effect outside of the library is hidden. Of a verdict that names effects those outside of the
-    library do not count, so that no remark on a remainder makes a wrong name right.
+    `cause`: all named effects are hidden. `ambiguous`: one of its sets equals the hidden effects. `adequate`: nothing
+    is hidden. `unknown`: an effect outside of the library is hidden. For a verdict that names effects, those outside of
+    the library do not count, so that a remark on a remainder does not make a wrong name right.
     """
     known = [effect for effect in hidden if effect["in_a_library"]]
     match verdict["verdict"]:

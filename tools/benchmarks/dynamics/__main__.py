@@ -1,7 +1,7 @@
 """`make bench-dynamics`: the integrators on one release, longer arms, orders of convergence.
 
-Times are processor times on one core, the shortest of several runs, so that other work on the machine counts little.
-Keeps its record and overwrites the tables of docs/numerics.md, unless `--out` names another folder; `--quick` does not.
+Times are processor times on one core, the shortest of several runs, which reduces the influence of other processes.
+Writes its record and overwrites the tables of docs/numerics.md, or another folder with `--out`; `--quick` does not.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-if os.environ.get("OPENBLAS_NUM_THREADS") != "1":  # solving small systems by two threads takes ten times as long
+if os.environ.get("OPENBLAS_NUM_THREADS") != "1":  # with two threads, small systems take ten times as long
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     os.execv(sys.executable, [sys.executable, "-m", "tools.benchmarks.dynamics", *sys.argv[1:]])
 
@@ -34,7 +34,7 @@ SIZES = (5, 10, 20, 50, 100)
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured: joints of the longer arms, and how often a run is repeated, by its length."""
+    """Extent of the measurement: joints of the longer arms, and repetitions of a run by its length."""
 
     sizes: tuple[int, ...]
     slow: int
@@ -74,7 +74,7 @@ def _sizes(effort: Effort) -> list[Size]:
 
 
 def _slope_errors() -> dict[float, float]:
-    """Largest error of the sensitivities by relative tolerance."""
+    """Return the largest error of the sensitivities by relative tolerance."""
     scene = prototype_release()
     return {relative: slope_error(scene, Tolerances(relative, relative / 10, 0.01)) for relative in (1e-4, 1e-5, 1e-6)}
 

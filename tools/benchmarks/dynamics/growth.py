@@ -1,4 +1,4 @@
-"""What a simulated second costs as the arm grows longer, and what compiling the equations costs before that."""
+"""Cost of a simulated second and of compiling the equations as functions of the number of joints."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class Size:
     """One arm.
 
     Attributes:
-        n_joints: of the arm.
-        compiling: of its equations, once, elapsed [s].
+        n_joints: number of joints.
+        compiling: elapsed time of compiling its equations once [s].
         per_second: processor time of a simulated second [s].
-        steps: of a simulated second.
+        steps: number of steps in a simulated second.
     """
 
     n_joints: int
@@ -34,7 +34,7 @@ class Size:
 
 
 def measure(n_joints: int, repeats: int) -> Size:
-    """Release an arm of ``n_joints``, compiled anew."""
+    """Release an arm of ``n_joints`` after a new compilation."""
     scene = longer_arm(n_joints, SECONDS)
     kept = os.environ.get("XDG_CACHE_HOME")
     with tempfile.TemporaryDirectory() as folder:

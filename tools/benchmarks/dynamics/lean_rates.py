@@ -1,6 +1,6 @@
-"""Eq. 18 for slack cables as somebody would write it for speed in plain NumPy: the baseline's right-hand side.
+"""Eq. 18 for slack cables in plain NumPy, written for speed: the right-hand side of the baseline.
 
-In the links' absolute angles, where it takes the fewest operations. That it is the library's Eq. 18 is tested.
+It uses the links' absolute angles, which take the fewest operations. A test checks it against the library's Eq. 18.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def lean_rates(p: Parameters) -> Callable[[float, Array], Array]:
         friction = p.coulomb_friction * (1 + p.stribeck_gain * np.exp(-((rate / p.stribeck_speed) ** 2)))
         torque = p.stiffness * (theta - p.rest_angle) + p.viscous_friction * rate
         torque += friction * np.tanh(p.friction_slope * rate)
-        torque[:-1] -= torque[1:]  # of a link: of the joint before it less that of the joint beyond it
+        torque[:-1] -= torque[1:]  # torque on a link: that of its joint minus that of the next joint
         left = torque + (A * np.sin(apart)) @ speed**2 + weight * np.sin(p.hang_angle + angle)
         acceleration = np.linalg.solve(A * np.cos(apart) + inertia, -left)
         acceleration[1:] -= acceleration[:-1].copy()

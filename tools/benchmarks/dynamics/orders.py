@@ -14,7 +14,7 @@ from continuum.dynamics.values import parameter_vector
 from tools.benchmarks.dynamics.scene import Scene, prototype_release
 
 STEPS = (40, 80, 160)  # in 0.4 s
-_SMOOTH = {"coulomb_friction": 0.0, "inertia": 5e-3}  # the latter so that these steps see all that happens
+_SMOOTH = {"coulomb_friction": 0.0, "inertia": 5e-3}  # the larger inertia lets these steps resolve the motion
 _DIFFERENCE = 1e-4  # of a parameter
 
 
@@ -32,12 +32,12 @@ class Convergence:
 
     @property
     def orders(self) -> Array:
-        """From each number of steps to the next, which is twice as large."""
+        """Orders between each number of steps and the next, which is twice as large."""
         return np.asarray(-np.diff(np.log2(self.errors)))
 
 
 def convergence() -> list[Convergence]:
-    """The prototype's release, without dry friction and with heavier discs, in steps of one length."""
+    """Measure the prototype's release without dry friction and with heavier discs, in fixed steps."""
     model = prototype_release().model.with_values(_SMOOTH)
 
     def end(tableau: Tableau, steps: int) -> Array:
@@ -55,9 +55,9 @@ def convergence() -> list[Convergence]:
 
 
 def slope_error(scene: Scene, limits: Tolerances) -> float:
-    """Largest error of the sensitivities at these tolerances, in units of each parameter's largest sensitivity.
+    """Return the largest error of the sensitivities at these tolerances, relative to each parameter's largest one.
 
-    Beside them stand central differences of runs at a relative tolerance of 1e-9.
+    The reference is central differences of runs at a relative tolerance of 1e-9.
     """
     found = Simulator(scene.model, limits).run(scene.start, scene.times, free=scene.directions).sensitivities
     tight = Simulator(scene.model, Tolerances(1e-9, 1e-10, 0.01), fourth_order())

@@ -1,4 +1,4 @@
-"""All that was measured of the integrators, and the record of it."""
+"""All measurements of the integrators, and their record."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Score:
 
 @dataclass(frozen=True)
 class Result:
-    """All that was measured; the last score is that of the library's default."""
+    """All measurements; the last score is that of the library's default."""
 
     scores: Sequence[Score]
     sizes: list[Size]
@@ -37,21 +37,21 @@ class Result:
 
     @property
     def baseline(self) -> Score:
-        """SciPy's BDF as one would call it."""
+        """SciPy's BDF in its usual form."""
         return next(score for score in self.scores if score.name == BASELINE)
 
     @property
     def rival(self) -> Score:
-        """The fastest that is not of this library."""
+        """The fastest method outside of this library."""
         return min((one for one in self.scores if not one.name.startswith(OURS)), key=lambda one: one.seconds)
 
     def speed_up(self, score: Score) -> float:
-        """How many times as fast as the baseline it is."""
+        """Return the speed-up over the baseline."""
         return self.baseline.seconds / score.seconds
 
 
 def record_of(result: Result) -> Record:
-    """Figures with the goals for speed and nearness, and all tables."""
+    """Return the figures with goals for speed and accuracy, and all tables."""
     best, rival = result.best, result.rival
     figures = [
         Figure(
@@ -88,7 +88,7 @@ def record_of(result: Result) -> Record:
 
 
 def _with_sensitivities(result: Result) -> list[Figure]:
-    """The library's default beside the fastest rival that has sensitivities."""
+    """Return figures of the library's default and of the fastest rival with sensitivities."""
     known = [(one.with_derivatives, one.name) for one in result.scores if one.with_derivatives is not None]
     rivals = [one for one in known if not one[1].startswith(OURS)]
     if result.best.with_derivatives is None or not rivals:

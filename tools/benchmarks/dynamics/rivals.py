@@ -1,4 +1,4 @@
-"""The ways to integrate Eq. 12 that are compared, all at the thesis's tolerances, all on the same symbols."""
+"""The compared integrators of Eq. 12, all at the thesis's tolerances and with the same symbols."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class Rival:
     """One way to integrate.
 
     Attributes:
-        name: in the table.
-        run: gives joint angles at the output times, (n_times, n) [rad].
-        with_derivatives: the same with the sensitivities to ten parameters; None where it has none.
+        name: name in the table.
+        run: function that returns joint angles at the output times, (n_times, n) [rad].
+        with_derivatives: the same with sensitivities to ten parameters; None if it has none.
     """
 
     name: str
@@ -41,12 +41,12 @@ class Rival:
 
 BASELINE = "SciPy BDF, NumPy written for this case"
 OURS = "ESDIRK"
-"""Beginning of the names of the library's own."""
+"""Beginning of the names of the library's integrators."""
 SUNDAE = "CVODE by scikit-sundae, numba"
 
 
 def rivals(scene: Scene) -> Iterator[Rival]:
-    """All that are installed, the baseline first, the library's default last."""
+    """Yield all installed integrators, the baseline first, the library's default last."""
     rates = lean_rates(scene.model.parameters)
     yield Rival(BASELINE, lambda: plain_bdf(scene, rates))
     yield Rival(
@@ -73,7 +73,7 @@ def rivals(scene: Scene) -> Iterator[Rival]:
 
 
 def plain_bdf(scene: Scene, rates: Callable[[float, Array], Array]) -> Array:
-    """SciPy's BDF as one would call it, its Jacobian by differences; joint angles (n_times, n) [rad]."""
+    """Run SciPy's BDF in its usual form, with a Jacobian by differences; return joint angles (n_times, n) [rad]."""
     n = scene.model.n_joints
     done = solve_ivp(
         rates,
@@ -89,7 +89,7 @@ def plain_bdf(scene: Scene, rates: Callable[[float, Array], Array]) -> Array:
 
 
 def casadi_cvodes(scene: Scene) -> Rival:
-    """CVODES (Hindmarsh et al. 2005) as CasADi calls it: explicit rates, exact Jacobian, forward sensitivities."""
+    """CVODES (Hindmarsh et al. 2005) through CasADi: explicit rates, exact Jacobian, forward sensitivities."""
     n, p = scene.model.n_joints, parameter_vector(scene.model)
     x, free = casadi.SX.sym("x", 2 * n), casadi.SX.sym("free", scene.directions.shape[1])
     packed = casadi.vertcat(x, casadi.SX.zeros(n + 2), p + casadi.DM(scene.directions) @ free, 0.0)
@@ -117,7 +117,7 @@ def casadi_cvodes(scene: Scene) -> Rival:
 
 
 def sundae_cvode(scene: Scene, equations: CompiledEquations) -> Rival | None:
-    """CVODE as scikit-sundae calls it, rates and exact Jacobian by numba; None where it is not installed."""
+    """CVODE through scikit-sundae, with rates and exact Jacobian by numba; None if it is not installed."""
     try:
         from sksundae.cvode import CVODE
     except ImportError:

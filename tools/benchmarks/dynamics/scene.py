@@ -1,4 +1,4 @@
-"""What is simulated in the benchmark, and how a simulation is timed."""
+"""The simulated motions of the benchmark, and the timing of simulations."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class Scene:
     """A release.
 
     Attributes:
-        model: that is let go.
+        model: model of the arm.
         start: joint angles at rest, (n,) [rad].
-        times: of the outputs, (n_times,) [s].
+        times: output times, (n_times,) [s].
     """
 
     model: Model
@@ -39,7 +39,7 @@ class Scene:
 
     @property
     def directions(self) -> Array:
-        """Ten parameters to differentiate by, each of all joints alike, (n_p, 10)."""
+        """Directions of ten parameters, each equal in all joints, (n_p, 10)."""
         return shared_directions(self.model, TABLE_3 + OTHERS)
 
     def converged(self) -> Array:
@@ -58,7 +58,7 @@ def prototype_release(seconds: float = 1.6) -> Scene:
 
 
 def longer_arm(n_joints: int, seconds: float) -> Scene:
-    """An arm of the prototype's links, bent by 75 degrees in total, evenly."""
+    """Return an arm of the prototype's links, bent evenly by 75 degrees in total."""
     values = load_model("lamecc_prototype.yaml").parameters.named()
     alike = {name: PARAMETERS[name].array(float(value[0]), n_joints, name) for name, value in values.items()}
     return Scene(Model(Parameters(**alike)), np.full(n_joints, np.radians(75.0) / n_joints), output_times(seconds))
@@ -69,7 +69,7 @@ def output_times(seconds: float) -> Array:
 
 
 def cpu_time[T](run: Callable[[], T], repeats: int) -> tuple[float, T]:
-    """Shortest processor time of several runs after a first one that is not counted [s], and the last answer."""
+    """Return the shortest processor time of several runs after an uncounted first one [s], and the last result."""
     answer, shortest = run(), np.inf
     for _ in range(repeats):
         began = time.process_time()

@@ -1,1 +1,1 @@
-"""Exams of the whole way that a stranger goes, from files to a verdict; each gives a section of a page."""
+"""Exams of the complete workflow of a new user, from files to a verdict; each one gives a section of a page."""

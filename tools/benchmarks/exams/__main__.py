@@ -1,6 +1,6 @@
-"""`make exams`: the diagnosis on arms that nobody of this project made; docs/exams.md.
+"""`make exams`: the diagnosis on arms from outside of this project; docs/exams.md.
 
-Keeps its record and overwrites docs/exams.md, unless `--out` names another folder.
+Writes its record and overwrites docs/exams.md, unless `--out` names another folder.
 """
 
 from __future__ import annotations
@@ -57,13 +57,13 @@ def main() -> None:
 
 
 def processor_time() -> float:
-    """Of this process and of those that it waited for [s]."""
+    """Return the processor time of this process and of those that it has waited for [s]."""
     used = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return sum(one.ru_utime + one.ru_stime for one in used)
 
 
 def page(parts: list[str], seconds: float, processor: float, jobs: int) -> str:
-    """All sections, under what made them: in how many seconds, of the processor too, and processes."""
+    """Return all sections after a head with elapsed time, processor time and number of processes."""
     head = paragraph(
         "Made by `make exams`, which measures all but the figures of the last two sections: the diagnosis on a real",
         "arm that nobody of this project made, joint angles from real inertial sensors, and the way from a URDF to a",

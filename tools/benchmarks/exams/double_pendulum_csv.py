@@ -3,12 +3,12 @@
     python3 -m tools.benchmarks.exams.double_pendulum_csv run_00.csv pendulum_00.csv
     python3 -m tools.benchmarks.exams.double_pendulum_csv run_00.csv pendulum_00.csv --torque measured commanded
 
-Its tables have the time, angles and rates as they are read here, and two torques of each joint: ``tau_commanded_1_Nm``
-.. and ``tau_measured_1_Nm`` .., of the motors' currents. One of them becomes ``tau1_Nm`` .., unchanged, by default the
-measured one; ``--torque`` names one for both joints, or one for each. The measured torque has the sign of the command,
-positive towards positive angles, and lags behind it by some 20 ms at joint 2. Its scale is that of newton metres:
-fitted to 0.4 s windows of run_00.csv with a scale of each torque free, the chain wants 0.97 of both, with Coulomb
-friction of 0.15 and 0.12 N m, which are its makers' 0.16 and 0.12.
+Its tables have the time, angles and rates in the form that `diagnose` reads, and two torques of each joint:
+``tau_commanded_1_Nm`` .. and ``tau_measured_1_Nm`` .., from the motors' currents. One of them becomes ``tau1_Nm`` ..,
+unchanged, by default the measured one; ``--torque`` selects one for both joints, or one for each. The measured torque
+has the sign of the command, positive towards positive angles, and lags by about 20 ms at joint 2. Its unit is newton
+metres: a fit to 0.4 s windows of run_00.csv with a free scale of each torque gives 0.97 for both, with Coulomb friction
+of 0.15 and 0.12 N m; the makers give 0.16 and 0.12.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def convert(source: Path, target: Path, torques: Sequence[str] = TORQUES[:1]) ->
         torques: ``measured`` or ``commanded``, one for both joints or one for each.
 
     Raises:
-        InvalidValueError: other torques, or as many as fit no joints.
+        InvalidValueError: a torque is unknown, or their number matches no joints.
         FileError: the source cannot be read or lacks a column, or the target cannot be written.
     """
     if len(torques) not in (1, len(JOINTS)) or not set(torques) <= set(TORQUES):
@@ -60,7 +60,7 @@ def convert(source: Path, target: Path, torques: Sequence[str] = TORQUES[:1]) ->
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Convert one table; 2 where that is not possible."""
+    """Convert one table; return 2 if this is impossible."""
     parser = argparse.ArgumentParser(prog="python3 -m tools.benchmarks.exams.double_pendulum_csv", description=__doc__)
     parser.formatter_class = argparse.RawDescriptionHelpFormatter
     parser.add_argument("source", type=Path, help="table of the double pendulum")

@@ -1,4 +1,4 @@
-"""What an exam gives: its section of the page, and its figures."""
+"""Result of an exam: its section of the page, and its figures."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Exam: angle of a motor's shaft by two inertial sensors, against its encoder (data/imu_pair).
+"""Exam: angle of a motor's shaft by two inertial sensors, compared with its encoder (data/imu_pair).
 
-The shaft stands upright, so that gravity hardly shows its angle, and it never rests. `continuum.inertial` is given the
-sensor on the shaft, as the base stands still; the others are given both sensors and the axis that it finds.
+The shaft is vertical, so that gravity hardly depends on its angle, and it never rests. `continuum.inertial` receives
+the sensor on the shaft, since the base does not move; the other methods receive both sensors and the axis found by it.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from tools.docs.markdown import paragraph, table
 
 RUN = Path("data/imu_pair/yaw_slow.csv")
 GRAVITY = 9.81  # m/s2 in a g of the file
-ZEROED = 1.0  # s from the start, over which the mean error of every method is taken for its zero
+ZEROED = 1.0  # s from the start, over which the mean error of every method defines its zero
 LARGEST_DELAY = 0.1  # s
 OURS = "continuum.inertial"
 RIVALS: dict[str, Callable[[ImuRecording, Array], Array]] = {
@@ -64,14 +64,14 @@ class Score:
 
 @dataclass(frozen=True)
 class PairResult:
-    """What was found.
+    """Results of the exam.
 
     Attributes:
-        scores: of all methods, ours first.
-        duration: of the run [s].
+        scores: scores of all methods, ours first.
+        duration: duration of the run [s].
         upright: angle between the shaft and the mean specific force [degrees].
-        delay: of the gyroscopes behind the encoder [s].
-        bias, bias_error: about the axis, as gravity shows it, and its standard deviation [degrees/s].
+        delay: delay of the gyroscopes relative to the encoder [s].
+        bias, bias_error: bias about the axis, estimated from gravity, and its standard deviation [degrees/s].
         true_bias, scale: rate = true_bias + scale times the encoder's rate, by least squares of the angles [degrees/s].
     """
 
@@ -86,10 +86,10 @@ class PairResult:
 
 
 def read_run(path: Path = RUN) -> PairRun:
-    """A file of the columns that data/imu_pair/README.md names; rows with the time of the row before are left out.
+    """Read a file with the columns of data/imu_pair/README.md; omit rows with the time of the previous row.
 
     Raises:
-        FileError: it cannot be read, or lacks a column.
+        FileError: the file cannot be read, or lacks a column.
     """
     try:
         rows = np.genfromtxt(path, delimiter=",", names=True)
@@ -105,7 +105,7 @@ def read_run(path: Path = RUN) -> PairRun:
 
 
 def examined(run: PairRun) -> PairResult:
-    """Every method, with the encoder's sign, one delay for all, and each one's zero from the first second."""
+    """Evaluate every method, with the encoder's sign, one common delay, and individual zeros from the first second."""
     ours = shaft_turn(run)
     axis, times = ours.axis[0], run.recording.times
     raw = raw_difference(run.recording, axis)
@@ -123,7 +123,7 @@ def examined(run: PairRun) -> PairResult:
 
 
 def shaft_turn(run: PairRun) -> RecordedTurn:
-    """The second sensor's turn; who moved the shaft knows to which side it turned first, here from the encoder."""
+    """Return the second sensor's rotation; its first direction, known to the operator, is taken from the encoder."""
     turn = run.encoder - run.encoder[0]
     first = turn[np.argmax(np.abs(turn) >= np.abs(turn).max() / 2)]
     r = run.recording
@@ -132,9 +132,9 @@ def shaft_turn(run: PairRun) -> RecordedTurn:
 
 
 def delay(times: Array, angle: Array, encoder: Array) -> float:
-    """By which the gyroscopes' angle is best explained as the encoder's, later [s].
+    """Return the delay [s] at which the encoder's angle best explains that of the gyroscopes.
 
-    Scale, bias and zero are left free, so that no error of a method goes into it.
+    Scale, bias and zero are free, so that the result is independent of the errors of the methods.
     """
 
     def unexplained(late: float) -> float:
@@ -145,13 +145,13 @@ def delay(times: Array, angle: Array, encoder: Array) -> float:
 
 
 def delayed(times: Array, encoder: Array, late: float) -> tuple[Array, Array]:
-    """The encoder's angle a delay before each time, and where every delay up to the largest leaves it known."""
+    """Return the encoder's angle a delay before each time, and the mask of times at which all delays are covered."""
     known = (times >= times[0] + LARGEST_DELAY) & (times <= times[-1] - LARGEST_DELAY)
     return np.interp(times - late, times, encoder), known
 
 
 def _fitted(times: Array, truth: Array, angle: Array) -> tuple[Array, Array]:
-    """Scale, bias [rad/s] and zero [rad] of an angle by least squares, and the residuals [rad]."""
+    """Fit scale, bias [rad/s] and zero [rad] of an angle by least squares; return them and the residuals [rad]."""
     columns = np.stack([truth, times - times[0], np.ones_like(times)], axis=1)
     values = np.linalg.lstsq(columns, angle, rcond=None)[0]
     return values, angle - columns @ values
@@ -163,7 +163,7 @@ def _score(method: str, times: Array, error: Array) -> Score:
 
 
 def section() -> Section:
-    """What the page says of it, with the best rival."""
+    """Return the section of the page, with the best rival."""
     result = examined(read_run())
     rows = [[s.method, f"{s.rms:.2f}", f"{s.largest:.2f}", f"{s.end:+.2f}"] for s in result.scores]
     head = ("method", f"RMS error over {result.duration:.0f} s [degrees]", "largest", "at the end")

@@ -1,6 +1,6 @@
-"""Ways to find the angle between two inertial sensors, one of which turns about an axis in the other.
+"""Methods for the angle between two inertial sensors, one of which rotates about an axis fixed in the other.
 
-All give the turn since the first reading, about the same axis, in rad (n_times,).
+All return the rotation since the first reading about the same axis, (n_times,) [rad].
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from continuum.inertial.integrated_rate import integrated
 
 
 def raw_difference(recording: ImuRecording, axis: Array) -> Array:
-    """The integral of the difference of both gyroscopes' components that lie closest to the axis, unchanged."""
+    """Integrate the difference of both gyroscopes' raw components that are closest to the axis."""
     component = int(np.argmax(np.abs(axis)))
     rate = (recording.rates[:, 1] - recording.rates[:, 0])[:, [component]] * np.sign(axis[component])
     return np.asarray(integrated(recording.times, rate)[:, 0])
@@ -27,8 +27,8 @@ def raw_difference(recording: ImuRecording, axis: Array) -> Array:
 def complementary(recording: ImuRecording, axis: Array) -> Array:
     """Mahony's filter (IEEE Transactions on Automatic Control 53, 2008) of each sensor, in its proportional form.
 
-    The inclination is corrected by the direction of the accelerometer's reading with the time constant that
-    `continuum.inertial` has at rest. The heading is that of the integrated rate.
+    The direction of the accelerometer's reading corrects the inclination with the time constant of
+    `continuum.inertial` at rest. The heading is the integral of the rate.
     """
     gain = 1 / EstimatorSettings().time_constant
     up = recording.forces / np.linalg.norm(recording.forces, axis=2, keepdims=True)
@@ -56,14 +56,14 @@ def vqf_online(recording: ImuRecording, axis: Array) -> Array:
 
 
 def vqf_without_rests(recording: ImuRecording, axis: Array) -> Array:
-    """The same, with biases from motion only."""
+    """VQF with bias estimation from motion only."""
     return _by_vqf(
         recording, axis, lambda rates, forces, period: VQF(period, restBiasEstEnabled=False).updateBatch(rates, forces)
     )
 
 
 def vqf_offline(recording: ImuRecording, axis: Array) -> Array:
-    """Its variant for recordings, which uses later readings too."""
+    """VQF's variant for recordings, which also uses later readings."""
     return _by_vqf(recording, axis, lambda rates, forces, period: offlineVQF(rates, forces, None, period))
 
 
@@ -77,7 +77,7 @@ def _by_vqf(recording: ImuRecording, axis: Array, run: Callable[[Array, Array, f
 
 
 def _twist(first: Rotation, second: Rotation, axis: Array) -> Array:
-    """Turn of the second sensor in the first since the first time, about an axis in the second."""
+    """Return the rotation of the second sensor relative to the first since the start, about an axis in the second."""
     relative = first.inv() * second
     q = (relative[0].inv() * relative).as_quat()
     return np.asarray(np.unwrap(2 * np.arctan2(q[:, :3] @ axis, q[:, 3])))

@@ -1,4 +1,4 @@
-"""A planar arm of three joints as a URDF, and how MuJoCo moves it, with a payload that the URDF does not tell of."""
+"""A planar arm of three joints as a URDF, and its simulation by MuJoCo with a payload that the URDF lacks."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from continuum.arrays import Array
 
 JOINTS: Final = ("shoulder", "elbow", "wrist")
 RATE = 120  # rows a second
-SUBSTEPS = 128  # of the integrator in a row: 256 give angles that differ by 0.005 degrees at most
+SUBSTEPS = 128  # integrator steps per row: with 256, angles differ by 0.005 degrees at most
 RADIUS = 0.01  # of the payload, a ball [m]
 _HARD: Final = (0.9999, 0.9999, 0.001, 0.5, 2.0)  # impedance of dry friction: a held joint creeps by some 1e-5 rad/s
 
 
 @dataclass(frozen=True)
 class _Link:
-    """A slender link along x of its frame, and the joint that carries it: SI units, axis y, from ``bend`` on."""
+    """A slender link along x of its frame, and its joint with axis y and initial angle ``bend``, in SI units."""
 
     length: float
     mass: float
@@ -36,11 +36,11 @@ _LINKS: Final = (
 )
 HANGING: Final = (0.0, np.pi / 2, 0.0)  # where the arm rests [rad]
 LAST_MASS: Final = _LINKS[-1].mass  # kg
-TORQUES: Final = (2.5, 1.2, 0.3)  # that joints are driven by at most, a third to three quarters of their weight's [N m]
+TORQUES: Final = (2.5, 1.2, 0.3)  # largest drive torques, a third to three quarters of the gravity torques [N m]
 
 
 def urdf(payload: float = 0.0) -> str:
-    """The arm, drawn with its elbow bent and its wrist's axis reversed; with a mass fixed to its tool [kg]."""
+    """Return the arm's URDF with bent elbow and reversed wrist axis, and with a mass [kg] fixed to its tool."""
     parts, parent, at = ['<robot name="arm"><link name="base"/>'], "base", 0.0
     for name, link in zip(JOINTS, _LINKS, strict=True):
         across = link.mass * link.length**2 / 12
@@ -69,7 +69,7 @@ def _fixed(name: str, parent: str, at: float) -> str:
 
 
 def torques(random: np.random.Generator, rows: int) -> Array:
-    """Three sines at each joint, which set in within half a second, (rows, 3) [N m]."""
+    """Return three sines at each joint, which start within half a second, (rows, 3) [N m]."""
     t = np.arange(rows)[:, None, None] / RATE
     frequency, phase = random.uniform(0.3, 2.5, (3, 3)), random.uniform(0, 2 * np.pi, (3, 3))
     share = random.dirichlet(np.ones(3), 3)
@@ -78,7 +78,7 @@ def torques(random: np.random.Generator, rows: int) -> Array:
 
 
 def motion(text: str, torque: Array, substeps: int = SUBSTEPS) -> Array:
-    """Angles of a URDF's joints, which begin at rest, every row's torques held until the next, (rows, n) [rad]."""
+    """Simulate a URDF's joints from rest, with torques held from row to row; return angles (rows, n) [rad]."""
     engine = mujoco.MjModel.from_xml_string(text)
     engine.opt.integrator, engine.opt.timestep = mujoco.mjtIntegrator.mjINT_RK4, 1 / (RATE * substeps)
     engine.dof_solref[:], engine.dof_solimp[:] = (2.01 * engine.opt.timestep, 1.0), _HARD

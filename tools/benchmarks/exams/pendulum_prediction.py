@@ -1,4 +1,4 @@
-"""Prediction of a run that was not given: open-loop simulations by a model, in windows and of the whole run."""
+"""Prediction of an unseen run: open-loop simulations by a model, in windows and over the whole run."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from continuum.identification.nrmse import measured_rates, nrmse
 from continuum.recordings.recording import Recording
 
 WINDOW = 1.0  # s
-_FIRST_STEP = np.radians(2.0)  # of the search for offsets: sensors that are zeroed by eye are off by some degrees
+_FIRST_STEP = np.radians(2.0)  # of the search for offsets: sensors zeroed by eye have errors of some degrees
 
 
 @dataclass(frozen=True)
 class Error:
-    """Of simulated angles.
+    """Errors of simulated angles.
 
     Attributes:
-        rms: of each joint, (n,) [rad].
+        rms: root mean square error of each joint, (n,) [rad].
         nrmse: thesis Eq. 19.
     """
 
@@ -36,11 +36,11 @@ class Error:
 
 @dataclass(frozen=True)
 class Prediction:
-    """Of one run by one model.
+    """Prediction of one run by one model.
 
     Attributes:
-        windows: error over windows, each from the measured angles and rates at its beginning.
-        whole: the same over the whole run, from its first row.
+        windows: error over windows, each simulated from the measured angles and rates at its start.
+        whole: error over the whole run, simulated from its first row.
         offsets: of the sensors in this run, fitted to the windows, (n,) [rad].
         windows_with_offsets, whole_with_offsets: errors with these.
     """
@@ -61,9 +61,9 @@ def predicted(model: Model, run: Recording) -> Prediction:
 
 
 def fitted_offsets(simulator: Simulator, run: Recording) -> Array:
-    """What each sensor shows too much throughout the run, by the least error over windows, (n,) [rad].
+    """Return the constant offset of each sensor that minimises the error over windows, (n,) [rad].
 
-    By Nelder and Mead: dry friction makes the error too rough for derivatives.
+    Uses the Nelder-Mead method, because dry friction makes the error too rough for derivatives.
     """
 
     def square(offsets: Array) -> float:
@@ -79,13 +79,13 @@ def fitted_offsets(simulator: Simulator, run: Recording) -> Array:
 
 
 def readings(simulator: Simulator, run: Recording, length: float, offsets: Array) -> Array:
-    """Angles as sensors with these offsets [rad] read them, (rows, n) [rad]; NaN where a simulation fails.
+    """Return simulated readings of sensors with these offsets [rad], (rows, n) [rad]; NaN where a simulation fails.
 
     Args:
-        simulator: of the model.
-        run: its angles less the offsets, and its rates, begin each window; states of effects begin at zero.
-        length: of a window [s]; infinite for one.
-        offsets: (n,).
+        simulator: simulator of the model.
+        run: recording; its angles minus the offsets, and its rates, start each window; states of effects start at zero.
+        length: length of a window [s]; infinite for a single one.
+        offsets: offsets of the sensors, (n,) [rad].
     """
     n, drive, rates = run.n_joints, run.inputs_for(simulator.model), measured_rates(run)
     found = np.full_like(run.theta, np.nan)

@@ -1,4 +1,4 @@
-"""Recordings and models of the double pendulum (data/double_pendulum), and what the exam does to them."""
+"""Recordings and models of the double pendulum (data/double_pendulum), and their alterations in the exam."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MEASURED: Final = ("measured", "measured")
 
 
 def recordings(names: Sequence[str] = GIVEN, torques: Sequence[str] = MEASURED) -> list[Recording]:
-    """Runs as `diagnose` reads them, with the torque of each joint that is named."""
+    """Return runs as `diagnose` reads them, with the named torque of each joint."""
     with tempfile.TemporaryDirectory() as folder:
         files = [Path(folder) / f"{name}.csv" for name in names]
         for file in files:
@@ -33,24 +33,24 @@ def recordings(names: Sequence[str] = GIVEN, torques: Sequence[str] = MEASURED) 
 
 
 def nominal() -> Model:
-    """Its makers' values, without friction."""
+    """Return the model with its makers' values, without friction."""
     return load_model("double_pendulum.yaml")
 
 
 def with_makers_friction() -> Model:
-    """The same with the Coulomb friction that its makers identified elsewhere, dry."""
+    """Return the nominal model with the dry Coulomb friction that its makers identified elsewhere."""
     return with_dry_friction(nominal().with_values({"coulomb_friction": list(MAKERS_FRICTION)}))
 
 
 def folded(model: Model) -> Model:
-    """The same equations, where effects that only change parameters have become these parameters."""
+    """Return an equivalent model in which effects that only change parameters are replaced by changed parameters."""
     p = model.parameters
     kept = tuple(a for a in model.effects if a.effect.change_parameters(p, a.values) is p)
     return replace(model, parameters=model.changed_parameters, effects=kept)
 
 
 def with_half_the_last_mass(model: Model) -> Model:
-    """Half of the last link's mass, and all else as it is: a rotor that was a part of the link's inertia too."""
+    """Return the folded model with half of the last link's mass; its inertia, with the rotor, is unchanged."""
     whole = folded(model)
     mass = np.array(whole.parameters.mass, dtype=float)
     mass[-1] /= 2
@@ -58,14 +58,14 @@ def with_half_the_last_mass(model: Model) -> Model:
 
 
 def turned(run: Recording, joint: int, angle: float) -> Recording:
-    """A joint's readings, from 0, with an angle [rad] added."""
+    """Return the run with an angle [rad] added to the readings of a joint, counted from 0."""
     theta = run.theta.copy()
     theta[:, joint] += angle
     return replace(run, theta=theta)
 
 
 def delayed(run: Recording, joint: int, lag: float) -> Recording:
-    """A joint's angle, from 0, as it was a time before [s], linear between rows; its rate stays as it is."""
+    """Return the run with the angle of a joint, from 0, delayed by ``lag`` [s], linear between rows; rates stay."""
     theta = run.theta.copy()
     theta[:, joint] = np.interp(run.times - lag, run.times, theta[:, joint])
     return replace(run, theta=theta)

@@ -1,7 +1,7 @@
-"""Which torque drives the double pendulum, the commanded or the measured one: how near the same sets come with each.
+"""Choice between commanded and measured torques of the double pendulum, by the errors of the same sets with each.
 
-Fits of one set end at different optima, as friction makes the cost rough. Each set is therefore fitted to each choice
-from two starts that favour none, with inputs held from row to row and linear between rows, until the fit settles.
+Fits of one set end at different optima, because friction makes the cost rough. Each set is therefore fitted to each
+choice from two unbiased starts, with inputs held from row to row and linear between rows, until the fit settles.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ class TorqueFit:
     """A set fitted with one choice of torques, from one start.
 
     Attributes:
-        label: of the set.
-        held: whether inputs hold from row to row.
+        label: label of the set.
+        held: whether inputs are held from row to row.
         errors: open-loop error of each segment, (segments,) [rad].
-        independent: residuals that are independent of each other, their number.
+        independent: number of independent residuals.
     """
 
     label: str
@@ -51,8 +51,8 @@ class TorqueChoice:
 
     Attributes:
         torques: ``measured`` or ``commanded``, one for each joint.
-        fits: of every set.
-        seconds: of processor time.
+        fits: fits of every set.
+        seconds: processor time [s].
     """
 
     torques: tuple[str, ...]
@@ -61,19 +61,19 @@ class TorqueChoice:
 
     @property
     def best(self) -> TorqueFit:
-        """The fit that errs least."""
+        """Return the fit with the smallest error."""
         return min(self.fits, key=lambda one: one.error)
 
     @property
     def by_start(self) -> float:
-        """Logarithm of how much further a fit of the best fit's set and inputs ends from the worse start."""
+        """Return the logarithm of the ratio of errors between the worse and the better start of the best fit."""
         same = [one.error for one in self.fits if (one.label, one.held) == (self.best.label, self.best.held)]
         return log(max(same) / self.best.error)
 
 
 @dataclass(frozen=True)
 class Difference:
-    """By how much one choice is less likely than another.
+    """Difference in likelihood between two choices.
 
     Attributes:
         log_likelihood: independent residuals times the difference of the logarithms of the errors.
@@ -88,7 +88,7 @@ class Difference:
 
     @property
     def is_chance(self) -> bool:
-        """Whether segments, or the starts of one fit, differ by as much."""
+        """Whether segments, or the starts of one fit, differ by the same amount."""
         return self.low <= 0 or self.log_likelihood <= self.by_start
 
 
@@ -109,7 +109,7 @@ def tried(torques: Sequence[str], keys: Sequence[Key]) -> TorqueChoice:
 
 
 def _settled(judge: OutputError, found: Found, near: Sequence[Fitted]) -> Fitted:
-    """A fit, continued while it becomes nearer."""
+    """Continue a fit while its error decreases."""
     fit = judge.fit(found, near)
     while not fit.settled and (further := judge.further(found, fit)).error < fit.error:
         fit = further
@@ -117,7 +117,7 @@ def _settled(judge: OutputError, found: Found, near: Sequence[Fitted]) -> Fitted
 
 
 def difference(one: TorqueChoice, other: TorqueChoice) -> Difference:
-    """By how much the best fit of one is less likely than the other's."""
+    """Return the difference in likelihood between the best fits of two choices."""
     count = min(one.best.independent, other.best.independent)
     farther, n = log_errors(one.best.errors) - log_errors(other.best.errors), len(one.best.errors)
     half = float(stdtrit(n - 1, 0.975) * np.std(farther, ddof=1) / np.sqrt(n))

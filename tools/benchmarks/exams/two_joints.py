@@ -1,6 +1,6 @@
 """Exam: a real arm of two joints with torque-controlled drives (data/double_pendulum), diagnosed and predicted.
 
-Its makers' model has no friction. Two runs are given to the diagnosis; one is not, and is predicted by what it gave.
+Its makers' model has no friction. Two runs are given to the diagnosis; its result predicts a third, unseen run.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ NOMINAL, MAKERS, EXTENDED = "nominal, without friction", "nominal, with its make
 
 @dataclass(frozen=True)
 class Answers:
-    """All that the section says.
+    """All results of the section.
 
     Attributes:
         first: diagnosis of the given runs by the nominal model.
         halved, offset, late: by the extended model, whose last link lacks half of its mass, and of altered readings.
-        choices: of the torques that drive the arm.
-        predictions: of the run that was not given, by model.
-        notes: what was repaired while reading that run.
+        choices: choices of the torques that drive the arm.
+        predictions: predictions of the unseen run, by model.
+        notes: repairs while reading that run.
     """
 
     first: Diagnosis
@@ -57,12 +57,12 @@ class Answers:
 
 
 def first_diagnosis() -> Diagnosis:
-    """Of the given runs, by the model without friction."""
+    """Diagnose the given runs with the model without friction."""
     return _diagnosed(recordings(), nominal())
 
 
 def answers(first: Diagnosis, pool: Executor) -> Answers:
-    """Work out what follows from the first diagnosis, the longest first."""
+    """Compute the results that follow from the first diagnosis, the longest computation first."""
     extended, given = first.extended_model, recordings()
     shifted = [turned(run, ALTERED, np.radians(TURN)) if r == 0 else run for r, run in enumerate(given)]
     later = [delayed(run, ALTERED, LAG) for run in given]

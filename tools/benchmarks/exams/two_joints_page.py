@@ -1,4 +1,4 @@
-"""What the page says of the arm with two joints: every diagnosis in a row, which torque drives it, its prediction."""
+"""Section of the page on the arm with two joints: a row for every diagnosis, its drive torques, and its prediction."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tools.docs.markdown import paragraph, table
 
 
 def section(found: Answers) -> Section:
-    """All of the exam."""
+    """Return the section of the exam."""
     parts = [
         "## A real arm of two joints that torques drive",
         _cases(found),
@@ -35,7 +35,7 @@ def section(found: Answers) -> Section:
 
 
 def _figures(predictions: Mapping[str, Prediction]) -> Iterator[Figure]:
-    """Of the run that was not given, by the extended model and by the one with its makers' friction."""
+    """Yield figures of the unseen run, by the extended model and by the one with its makers' friction."""
     ours, makers = predictions[EXTENDED], predictions[MAKERS]
     for what, one, other in (
         (f"windows of {WINDOW:g} s", ours.windows, makers.windows),
@@ -148,7 +148,7 @@ def _error(one: Error) -> tuple[str, str]:
 
 
 def _missing(first: Diagnosis) -> str:
-    """What remains at each joint of the given runs."""
+    """Describe the missing torque at each joint of the given runs."""
     both = list(enumerate(zip(*first.sigma, strict=True), 1))
     arrows = [f"{before:.3f} -> {after:.3f} N m at joint {joint}" for joint, (before, after) in both]
     risen = [str(joint) for joint, (before, after) in both if after >= before]

@@ -1,4 +1,4 @@
-"""What the page says of values that the diagnoses find on the arm with two joints, against what is known of them."""
+"""Section of the page on values that the diagnoses find for the arm with two joints, compared with known values."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ COULOMB = "coulomb_friction"
 
 
 def friction(first: Diagnosis) -> str:
-    """Friction that the model file lacks, and what else the given runs show."""
+    """Describe the friction that the model file lacks, and other results of the given runs."""
     named = sum(any(cause.effect == FRICTION for cause in causes) for causes in first.sets)
     cables = sorted({c.label for causes in first.sets for c in causes if effect_named(c.effect).uses_cables})
     found = {(number, e.joint): e for number, e in estimates(first, FRICTION) if e.name == COULOMB}
@@ -46,7 +46,7 @@ def friction(first: Diagnosis) -> str:
 
 
 def _compared(one: Estimate, truth: float) -> str:
-    """Whether the interval holds what is known."""
+    """Describe whether the interval contains the known value."""
     return f"{estimate_in_words(one)}, {'holds' if one.low <= truth <= one.high else 'misses'} it"
 
 
@@ -59,7 +59,7 @@ def _near_rest(first: Diagnosis) -> str:
 
 
 def _beginning(first: Diagnosis) -> str:
-    """Whether friction could hold the arm where the offsets say that each run began."""
+    """Describe whether friction could hold the arm in the initial postures that follow from the offsets."""
     p, found = first.extended_model.changed_parameters, [e for number, e in estimates(first, OFFSET) if number == 1]
     if not found:
         return ""
@@ -80,7 +80,7 @@ def _beginning(first: Diagnosis) -> str:
 
 
 def halved(one: Diagnosis) -> str:
-    """Half of the last link's mass, restored."""
+    """Describe the recovery of half of the last link's mass."""
     p = one.refitted_model.parameters
     last = p.n_joints - 1
     masses = [(n, e) for n, e in estimates(one, INERTIA) if e.name == f"{INERTIA}.mass" and e.joint in (last, None)]
@@ -96,7 +96,7 @@ def halved(one: Diagnosis) -> str:
 
 
 def turned(first: Diagnosis, altered: Diagnosis) -> str:
-    """An angle that is added to readings, and by how much an offset moves."""
+    """Describe the change of an offset after an angle was added to readings."""
     before, after = (_offset(one) for one in (first, altered))
     text = f"The offset of q{ALTERED + 1} in {GIVEN[0]} is not in both first sets."
     if before is not None and after is not None:
@@ -109,14 +109,14 @@ def turned(first: Diagnosis, altered: Diagnosis) -> str:
 
 
 def _offset(one: Diagnosis) -> Estimate | None:
-    """Of the altered sensor in the altered run, in the first set."""
+    """Return the offset of the altered sensor in the altered run, from the first set."""
     where = (ALTERED, GIVEN[0])
     found = (e for number, e in estimates(one, OFFSET) if number == 1 and (e.joint, e.recording) == where)
     return next(found, None)
 
 
 def late(one: Diagnosis) -> str:
-    """A delay of one sensor."""
+    """Describe the delay of one sensor."""
     found = [f"Set {n}: {_compared(e, LAG)}." for n, e in estimates(one, DELAY) if e.joint == ALTERED]
     text = paragraph(
         f"q{ALTERED + 1} of both runs is read {1e3 * LAG:g} ms later, interpolated; rates stay as they are.",

@@ -1,4 +1,4 @@
-"""What the page says of how the data of the exams have come into the library, and how not."""
+"""Section of the page on the influence of the exams' data on the library."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""From a URDF to a verdict by the commands alone, on recordings of the same arm with a payload that the URDF lacks.
+"""From a URDF to a verdict by commands alone, with recordings of the same arm with a payload that the URDF lacks.
 
-MuJoCo simulates the arm from the URDF with the payload added; the model is what `continuum model from-urdf` writes, and
-the recordings hold the model's angles by the lines that the command prints.
+MuJoCo simulates the arm from the URDF with the payload added. `continuum model from-urdf` writes the model, and the
+recordings contain the model's angles according to the lines that the command prints.
 """
 
 from __future__ import annotations
@@ -34,31 +34,31 @@ from tools.docs.markdown import paragraph, table
 
 SEEDS: Final = range(8)
 RUNS, DURATION, NOISE = 4, 2.0, 0.1  # s, degrees
-SHARES: Final = (0.2, 0.3)  # of the last link's mass that the payload has
+SHARES: Final = (0.2, 0.3)  # range of the payload, as a fraction of the last link's mass
 _LINE: Final = re.compile(r"q(?P<number>\d+) = (?P<sign>-?)(?P<joint>\w+)(?: (?P<way>[+-]) (?P<zero>\S+) deg)?")
 
 
 @dataclass(frozen=True)
 class Convention:
-    """What a model's angles are in the URDF's: signs times these and zeros, (n,) each [rad]."""
+    """Model angles as functions of URDF angles: signs times these plus zeros, (n,) each [rad]."""
 
     signs: Array
     zeros: Array
 
     def angles(self, urdf: Array) -> Array:
-        """Of the model, (rows, n) [rad]."""
+        """Return the angles of the model, (rows, n) [rad]."""
         return self.signs * urdf + self.zeros
 
     def torques(self, urdf: Array) -> Array:
-        """Of the model, (rows, n) [N m]."""
+        """Return the torques of the model, (rows, n) [N m]."""
         return self.signs * urdf
 
 
 def model_by_command(urdf: Path, out: Path) -> Convention:
-    """Let the command write the model of a URDF; the convention that it prints.
+    """Let the command write the model of a URDF, and return the convention that it prints.
 
     Raises:
-        subprocess.CalledProcessError: it refused.
+        subprocess.CalledProcessError: the command failed.
     """
     command = ["continuum", "model", "from-urdf", str(urdf), "--out", str(out)]
     printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
@@ -71,7 +71,7 @@ def model_by_command(urdf: Path, out: Path) -> Convention:
 
 @dataclass(frozen=True)
 class Answer:
-    """A diagnosis, and what was hidden: a payload [kg], none where that is 0."""
+    """A diagnosis, and the hidden payload [kg], 0 for none."""
 
     seed: int
     payload: float
@@ -85,17 +85,17 @@ class Answer:
 
     @property
     def is_right(self) -> bool:
-        """Whether the payload is named alone, or in one of the sets that the data leave possible; nothing for none."""
+        """Whether the payload is named, alone or in a possible set; without one, whether the model is adequate."""
         return bool(self.payloads) if self.payload else self.result.verdict.kind is Kind.ADEQUATE
 
     @property
     def mass(self) -> Estimate | None:
-        """Of the payload, where that is named."""
+        """Estimate of the payload's mass if it is named, else None."""
         return self.payloads[0].estimates[0] if self.payloads else None
 
 
 def examine(seed: int, *, loaded: bool = True) -> Answer:
-    """Go the whole way once, with a payload, motions and noise of a seed."""
+    """Run the whole workflow once, with a payload, motions and noise from a seed."""
     random = np.random.default_rng(seed)
     share = float(random.uniform(*SHARES))
     payload = share * payload_arm.LAST_MASS if loaded else 0.0
@@ -110,7 +110,7 @@ def examine(seed: int, *, loaded: bool = True) -> Answer:
 
 
 def _record(file: Path, convention: Convention, payload: float, random: np.random.Generator) -> None:
-    """A table of angles with noise, and of torques."""
+    """Write a table of noisy angles and of torques."""
     torque = payload_arm.torques(random, round(DURATION * payload_arm.RATE) + 1)
     angles = convention.angles(payload_arm.motion(payload_arm.urdf(payload), torque))
     seen = np.degrees(angles + random.normal(scale=radians(NOISE), size=angles.shape))

@@ -1,7 +1,7 @@
 """`make fuzz`: random, mutated and coverage-guided bytes through both parsers of the bench protocol.
 
-Keeps its record. Ends with 1 where a frame was accepted that was never sent, or too much tension let through, and with
-a traceback where a parser raises.
+Writes its record. The exit code is 1 if a frame was accepted that was never sent, or too much tension was let through;
+an exception of a parser ends with a traceback.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def main() -> int:
 
 
 def _guided(size: int) -> dict[str, int] | None:
-    """What the coverage-guided search did; None where its engine is not installed."""
+    """Return the result of the coverage-guided search; None if its engine is not installed."""
     sys.path.append(EXTRA)
     if importlib.util.find_spec("atheris") is None:
         print("atheris is not installed; the coverage-guided search is left out", file=sys.stderr)

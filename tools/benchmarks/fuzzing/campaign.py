@@ -1,4 +1,4 @@
-"""Every way's bytes through the host's and the device's parser, and the device's rules of safety behind it."""
+"""Bytes of every generator through the parsers of host and device, and the safety rules of the device."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ HELLO = Hello(1, "fuzzed", 60.0, (SensorPlace(1, "a"),), 2, LIMITS)
 
 @dataclass
 class Tally:
-    """What came of some bytes.
+    """Result for the bytes of one generator.
 
     Attributes:
-        way: how they were made.
-        size: how many.
-        accepted: frames that a parser took for sound.
-        never_sent: those of them that were not sent.
-        refused: stretches that were no frame, by kind, of both parsers.
-        waiting: the most bytes that a parser kept.
-        memory: the most memory that was taken meanwhile, beyond that at the start [bytes].
-        largest_tension: that the device's rules let through [N].
+        way: name of the generator.
+        size: number of bytes.
+        accepted: number of frames that a parser accepted.
+        never_sent: number of accepted frames that were not sent.
+        refused: number of refused stretches by kind, for both parsers.
+        waiting: largest number of bytes that a parser stored.
+        memory: peak memory above that at the start [bytes].
+        largest_tension: largest tension that the device's rules let through [N].
     """
 
     way: str
@@ -46,10 +46,10 @@ class Tally:
 
 
 def run(way: str, blocks: Iterator[Block], size: int) -> Tally:
-    """Feed blocks until there were ``size`` bytes; what a parser raises is raised here."""
+    """Feed blocks until ``size`` bytes are reached; exceptions of a parser propagate."""
     tally = Tally(way)
     host, device = Decoder.of_host(), BenchController(HELLO)
-    witness = Decoder.of_device()  # hears what the device's own hears, and tells the frames
+    witness = Decoder.of_device()  # receives the same bytes as the device's decoder, and returns the frames
     cuts = np.random.default_rng(2)
     recent: list[frozenset[bytes]] = []
     tracemalloc.start()
@@ -77,6 +77,6 @@ def run(way: str, blocks: Iterator[Block], size: int) -> Tally:
 
 
 def _cut(data: bytes, random: np.random.Generator) -> list[bytes]:
-    """In pieces, as a port gives them."""
+    """Split data into pieces as a port would."""
     places = [0, *sorted(random.integers(0, len(data) + 1, _CUTS).tolist()), len(data)]
     return [data[a:b] for a, b in pairwise(places)]

@@ -12,7 +12,7 @@ _REFUSED = ("too long", "too short", "not COBS", "checksum", "other version", "u
 
 
 def record_of(tallies: Sequence[Tally], guided: Mapping[str, int] | None) -> Record:
-    """Of all ways to make bytes, and of the coverage-guided search, if there was one."""
+    """Return the record of all generators, and of the coverage-guided search if it ran."""
     size = sum(tally.size for tally in tallies) + (guided["size"] if guided else 0)
     waiting = max([*(tally.waiting for tally in tallies), guided["waiting"] if guided else 0])
     tension = max(tally.largest_tension for tally in tallies)

@@ -1,6 +1,6 @@
-"""Coverage-guided bytes through both parsers (Atheris): what leads to new code is kept and changed further.
+"""Coverage-guided bytes through both parsers (Atheris): inputs that reach new code are kept and mutated further.
 
-A process of its own, since libFuzzer ends it: ``python3 -m tools.benchmarks.fuzzing.guided BYTES RESULT.json``.
+It needs a separate process, since libFuzzer ends it: ``python3 -m tools.benchmarks.fuzzing.guided BYTES RESULT.json``.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import os
 import sys
 from pathlib import Path
 
-sys.path.append("out/fuzz/extra")  # what `make fuzz` installs for itself
+sys.path.append("out/fuzz/extra")  # packages that `make fuzz` installs
 
 import atheris
 import numpy as np
@@ -27,14 +27,14 @@ with atheris.instrument_imports(include=["continuum_hw_imu.protocol", "continuum
 _LONGEST_INPUT = 400
 _SEEDS = 200
 _TOKEN = 0
-"""Of the one who commands, so that guessed requests are obeyed too."""
+"""Token of the commander, so that guessed requests are accepted too."""
 
 
 class Target:
-    """Called with each input. The first byte tells what becomes of the rest: as it is, or sealed with a right check.
+    """Fuzz target. The first byte of an input selects whether the rest is used unchanged or sealed with its checksum.
 
     Attributes:
-        size, inputs, accepted, waiting: as counted so far.
+        size, inputs, accepted, waiting: counts so far.
     """
 
     def __init__(self, enough: int, result: Path) -> None:

@@ -1,4 +1,4 @@
-"""Bytes for the parsers: made up, or sound frames that something happened to. The same generator gives the same."""
+"""Bytes for the parsers: random bytes, or damaged valid frames. The same generator gives the same bytes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ TYPES = tuple(kind.TYPE for kind in (*OF_DEVICE, *OF_HOST))
 _BLOCK = 4096
 
 BLOCK_TIME = 36_000
-"""By the device's clock, which whoever feeds the blocks lets run so [us]."""
+"""Time between two blocks by the device's clock [us]."""
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,8 @@ class Block:
     """A piece of the line.
 
     Attributes:
-        data: what the parsers hear.
-        sent: bodies that were sealed with a right check on purpose, and so may be accepted.
+        data: bytes for the parsers.
+        sent: bodies that were deliberately sealed with a right checksum, and may therefore be accepted.
     """
 
     data: bytes
@@ -44,20 +44,20 @@ class Block:
 
 
 def made_up(random: np.random.Generator) -> Iterator[Block]:
-    """Bytes at random, of all values alike."""
+    """Yield uniformly random bytes."""
     while True:
         yield Block(random.bytes(_BLOCK))
 
 
 def made_up_with_ends(random: np.random.Generator) -> Iterator[Block]:
-    """Bytes at random, cut by zeros into stretches of the length of frames, and sound as COBS."""
+    """Yield random bytes, split by zeros into stretches of the length of frames, and valid as COBS."""
     while True:
         stretches = [cobs.encoded(random.bytes(int(random.integers(1, LONGEST_BODY + 20)))) for _ in range(30)]
         yield Block(b"\0".join(stretches) + b"\0")
 
 
 def sealed(random: np.random.Generator) -> Iterator[Block]:
-    """Frames with a right check around any type and payload: past the check, into the messages."""
+    """Yield frames of any type and payload with a right checksum, which reach the decoding of messages."""
     while True:
         contents = [
             HEADER.pack(VERSION, int(random.choice(TYPES)), *map(int, random.integers(0, 1 << 16, 2)))
@@ -69,7 +69,7 @@ def sealed(random: np.random.Generator) -> Iterator[Block]:
 
 
 def mutated(random: np.random.Generator) -> Iterator[Block]:
-    """Sound frames of every type, some of them lost, hurt, cut, repeated, or behind noise."""
+    """Yield valid frames of every type, some of them lost, damaged, truncated, repeated, or after noise."""
     line = FaultyLine(random)
     for kind, share in (("lose", 0.05), ("damage", 0.4), ("repeat", 0.1), ("noise", 0.2)):
         line.add(LineFault(LineFaultKind(kind), share, np.inf, size=300))
@@ -82,7 +82,7 @@ def mutated(random: np.random.Generator) -> Iterator[Block]:
 
 
 def restless(random: np.random.Generator) -> Iterator[Block]:
-    """Requests of two hosts that want everything at once, hurt on the way: to the rules of safety."""
+    """Yield damaged requests of two competing hosts, for the safety rules."""
     line = FaultyLine(random)
     for kind, share in (("lose", 0.05), ("damage", 0.05), ("repeat", 0.1)):
         line.add(LineFault(LineFaultKind(kind), share, np.inf))
@@ -108,7 +108,7 @@ WAYS: dict[str, Callable[[np.random.Generator], Iterator[Block]]] = {
 
 
 def content_of(frame: Frame) -> bytes:
-    """The body without its check that a frame was read from."""
+    """Return the body, without checksum, from which a frame was read."""
     body = cobs.decoded(frame.encode()[1:-1])
     return b"" if body is None else body[: -checksum.SIZE]
 
@@ -128,7 +128,7 @@ def _request(random: np.random.Generator, now: int) -> Message:
 
 
 def sound_contents(random: np.random.Generator) -> Iterator[bytes]:
-    """Bodies without their checks of messages that can be read: from random payloads, those that can."""
+    """Yield bodies, without checksums, of random payloads that can be decoded."""
     kinds = (*OF_DEVICE, *OF_HOST)
     sizes = {kind: _sizes(kind.TYPE) for kind in kinds}
     while True:
@@ -138,7 +138,7 @@ def sound_contents(random: np.random.Generator) -> Iterator[bytes]:
 
 
 def _sizes(number: int) -> list[int]:
-    """Lengths that payloads of a type have."""
+    """Return the possible lengths of payloads of a type."""
     return {0x01: [30, 89], 0x02: [67, 132], 0x03: [8, 16], 0x04: [4], 0x05: [14], 0x06: [2]}.get(
         number, {0x81: [0], 0x85: [12, 16], 0x86: [0], 0x87: [8]}.get(number, [4])
     )

@@ -1,1 +1,1 @@
-"""How the library's identification compares with the thesis's particle swarm, on arms whose truth is known."""
+"""Comparison of the library's identification with the thesis's particle swarm, on arms with known parameters."""

@@ -1,4 +1,4 @@
-"""Five parameters identified from four of eight releases, and what the identified model makes of the other four."""
+"""Identification of five parameters from four of eight releases, and validation on the other four."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ MODEL = "lamecc_prototype.yaml"
 
 @dataclass(frozen=True)
 class Answer:
-    """What one method found.
+    """Result of one method.
 
     Attributes:
-        errors: relative, of each parameter.
-        held: whether its 95 % interval holds the truth; None without intervals.
-        position: NRMSE of the angles of the runs kept for validation, mean.
-        seconds: of processor time, equations compiled.
+        errors: relative error of each parameter.
+        held: whether the 95 % interval of each parameter contains the truth; None without intervals.
+        position: mean NRMSE of the angles in the validation runs.
+        seconds: processor time with compiled equations [s].
     """
 
     errors: tuple[float, ...]

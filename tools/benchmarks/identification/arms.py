@@ -1,4 +1,4 @@
-"""Arms whose truth is known, and eight release tests of each: the plant of the blind tests, with nothing hidden."""
+"""Arms with known parameters, and eight release tests of each: the plant of the blind tests, without hidden effects."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from continuum.recordings.recording import Recording
 from continuum.recordings.recording_csv import read_recording_csv
 
 IDENTIFY = (1, 2, 5, 8)
-"""The thesis's repetitions for identification (Table 4); the others validate."""
+"""The thesis's repetitions for identification (Table 4); the others are for validation."""
 _NAMES = {
     "stiffness": "stiffness",
     "viscous_friction": "viscous",
@@ -22,7 +22,7 @@ _NAMES = {
     "stribeck_gain": "stribeck",
     "stribeck_speed": "stribeck_rate",
 }
-"""Of the thesis's five parameters, and what the plant calls them."""
+"""Names of the thesis's five parameters in the plant."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class MeasuredArm:
     """Runs of an arm.
 
     Attributes:
-        runs: what was measured.
+        runs: measured runs.
         truth: the thesis's five parameters, means over the joints, by name.
     """
 

@@ -1,4 +1,4 @@
-"""The library's fit and the thesis's swarm on the same arms, and the record of it."""
+"""The library's fit and the thesis's swarm on the same arms, and their record."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tools.benchmarks.identification.answers import Answer
 from tools.benchmarks.record import Figure, Record, Table
 
 MOST_ERROR = 0.05
-"""Goal: no parameter is off by more."""
+"""Goal: largest relative error of a parameter."""
 
 SWARM = "the thesis's swarm"
 
@@ -25,7 +25,7 @@ class Comparison:
 
 
 def record_of(compared: Sequence[Comparison]) -> Record:
-    """Errors of each parameter, times, errors in validation, and how often intervals hold the truth."""
+    """Return the record of errors, times, validation errors, and coverage of the intervals."""
     seconds, position = (_medians(compared, name) for name in ("seconds", "position"))
     held = [one for c in compared for one in c.fit.held or ()]
     figures = [

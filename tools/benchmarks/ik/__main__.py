@@ -1,7 +1,7 @@
-"""`make bench-ik`: the inverse kinematics solver against plain FABRIKc and SciPy, on reachable targets drawn by a seed.
+"""`make bench-ik`: the inverse kinematics solver compared with FABRIKc and SciPy, on random reachable targets.
 
-Every figure is of one core. The solver answers all targets; slow rivals answer a stated subsample of the same ones.
-The record of the whole run is kept; that of a run with any option changed is printed alone.
+All figures are for one core. The solver answers all targets; slow rivals answer a stated subsample. The record of a
+complete run is written; that of a run with changed options is only printed.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def main() -> None:
             ("SciPy trust region", scipy_least_squares("trf"), options.rivals // 3),
         ):
             if name.endswith("Marquardt") and n_sections > 3:
-                continue  # MINPACK takes no more unknowns than equations
+                continue  # MINPACK does not accept more unknowns than equations
             score = score_rival(sample, 1e-6, min(n, count), rival)
             rivals.append(RivalRow(n_sections, bend, name, score))
             print(*rivals[-1].cells, sep=" | ", flush=True)

@@ -1,9 +1,9 @@
-"""Configurations estimated from cable lengths with an encoder's noise: how far off, how often refused, and how fast.
+"""Estimation of configurations from noisy cable lengths: errors, refused estimates, and times.
 
     python3 -m tools.benchmarks.ik.cable_estimate
 
-Keeps its record and overwrites two tables of docs/cable-estimate.md. Arms of 1 to 6 sections of the prototype stand in
-random postures, bent up to their limits.
+Writes its record and overwrites two tables of docs/cable-estimate.md. Arms of 1 to 6 sections of the prototype are in
+random postures within their bend limits.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ LEAST_SD = 1e-6  # what the node `cable_estimator` permits [m]
 
 @dataclass(frozen=True)
 class Trial:
-    """Estimates of one arm's postures (n, n_sections, 2) [rad], and what each took [s]."""
+    """Estimates of one arm's postures (n, n_sections, 2) [rad], and their processor times [s]."""
 
     arm: Arm
     postures: Array
@@ -43,7 +43,7 @@ class Trial:
 
     @property
     def refused(self) -> int:
-        """Estimates that the node `cable_estimator` does not publish."""
+        """Number of estimates that the node `cable_estimator` does not publish."""
         published = (EstimateStatus.CONVERGED, EstimateStatus.INCONSISTENT)
         return sum(one.status not in published for one in self.estimates)
 
@@ -54,7 +54,7 @@ class Trial:
 
     @property
     def expected(self) -> float:
-        """The same, as the covariances say [rad]."""
+        """Root mean square error according to the covariances [rad]."""
         return float(np.sqrt(np.mean([one.covariance.diagonal() for one in self.estimates])))
 
     @property
@@ -71,7 +71,7 @@ def main() -> None:
 
 
 def record_of(trials: Mapping[tuple[float, int], Sequence[Trial]]) -> Record:
-    """Trials by noise [m] and cables of a section, of arms of each number of sections."""
+    """Return the record of trials by noise [m] and cables of a section, for arms of each number of sections."""
     every = [trial for some in trials.values() for trial in some]
     noisy = [trial for (noise, _), some in trials.items() if noise > 0.0 for trial in some]
     n, slowest = sum(len(one.estimates) for one in every), time_rows(trials)
@@ -134,7 +134,7 @@ def _figures(noise: float, trials: Sequence[Trial]) -> tuple[str, ...]:
 
 
 def time_rows(trials: Mapping[tuple[float, int], Sequence[Trial]]) -> list[list[float]]:
-    """Medians [us] by sections and cables at the largest noise, which takes the most steps."""
+    """Return medians [us] by sections and cables at the largest noise, which needs the most steps."""
     slow = [trials[NOISE[-1], cables] for cables in CABLES]
     return [[1e6 * statistics.median(some[i].times) for some in slow] for i in range(len(SECTIONS))]
 

@@ -1,4 +1,4 @@
-"""The record of `make bench-ik`: the worst rows of the solver with their goals, beside FABRIKc on the same targets."""
+"""The record of `make bench-ik`: the solver's worst rows with goals, and FABRIKc on the same targets."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _AT = 1e-6  # tolerance of the goals [m] and [rad]
 
 @dataclass(frozen=True)
 class Row:
-    """The solver on one kind of targets: bends up to so many degrees, from a start, at a tolerance [m] and [rad]."""
+    """The solver on one kind of targets: largest bend in degrees, start, and tolerance [m] and [rad]."""
 
     n_sections: int
     bend: int
@@ -46,7 +46,7 @@ def record_of(rows: Sequence[Row], rivals: Sequence[RivalRow], helix: Helix, opt
     at, published = [row for row in rows if row.tolerance == _AT], [row for row in rivals if row.solver == FABRIKC]
 
     def worst(pick: Callable[[Score], float], of: Callable[..., float], **which: int) -> tuple[float, float]:
-        """Of the solver's rows, and of FABRIKc's."""
+        """Return the worst values of the solver's rows and of FABRIKc's."""
         ours, theirs = (
             [pick(row.score) for row in some if all(getattr(row, key) == value for key, value in which.items())]
             for some in (at, published)

@@ -1,9 +1,9 @@
-"""The robot's two solvers as nodes: the demo's helix by `ros2 launch`, recorded, one after the other.
+"""The robot's two solvers as nodes: recordings of the demo's helix by `ros2 launch`, in sequence.
 
     python3 -m tools.benchmarks.ik.launched
 
-Keeps its record and overwrites a table of docs/inverse-kinematics.md. The time per answer is that between a pose and
-its answer in the recording, so it holds the time of both messages on their way; 41 s for each solver.
+Writes its record and overwrites a table of docs/inverse-kinematics.md. The time per answer is the time between a pose
+and its answer in the recording, and includes the transmission of both messages. Each solver takes 41 s.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ HEAD = ("solver", "poses", "reached", "missed", "messages lost", "time per answe
 
 @dataclass(frozen=True)
 class Followed:
-    """Poses asked for and reached, messages lost, and times per answer: median and 99th percentile [ms]."""
+    """Numbers of poses, reached poses and lost messages, and times per answer: median and 99th percentile [ms]."""
 
     poses: int
     reached: int
@@ -72,7 +72,7 @@ def main() -> None:
 
 
 def record_of(newton: Followed, fabrikc: Followed) -> Record:
-    """Of both solvers in one run."""
+    """Return the record of both solvers in one run."""
     what, rival = "helix by `ros2 launch`, solver `newton`", "`fabrikc`"
     figures = (
         Figure(f"{what}: poses missed", newton.missed, rival=rival, rival_value=fabrikc.missed),
@@ -91,7 +91,7 @@ def _followed(recording: Path, arm: Arm, n_poses: int) -> Followed:
 
 
 def _answer_times(recording: Path) -> Array:
-    """From the arrival of each pose to that of its answer, (n_answers,) [s]."""
+    """Return the times from the arrival of each pose to that of its answer, (n_answers,) [s]."""
     arrivals = dict[str, dict[int, int]]()
     with AnyReader([recording]) as reader:
         for connection, arrival, raw in reader.messages():

@@ -1,4 +1,4 @@
-"""`python3 -m tools.benchmarks.ik.limits`: how targets beyond and at bend limits are answered, counted by status."""
+"""`python3 -m tools.benchmarks.ik.limits`: statuses of the answers to targets at and beyond bend limits."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ BENT = (
     (1.5, 1.5, 1.5),
     (0.5, 0.5, 0.5),
 )
-"""Least and most bend of a section of the targets, and its limit [rad]."""
+"""Smallest and largest bend of a section of the targets, and its limit [rad]."""
 
 
 def main() -> None:

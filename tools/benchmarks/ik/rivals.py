@@ -28,7 +28,7 @@ def fabrikc(max_iterations: int) -> Rival:
 
 
 class _ArrivedError(Exception):
-    """Ends a search of SciPy's, which knows no tolerance of the tip, where the tip has arrived."""
+    """End a search of SciPy, which has no tolerance for the tip, when the tip has arrived."""
 
     def __init__(self, x: Array) -> None:
         self.x = x
@@ -37,7 +37,7 @@ class _ArrivedError(Exception):
 def scipy_least_squares(method: str) -> Rival:
     """SciPy's ``lm`` (MINPACK's Levenberg-Marquardt) or ``trf`` with the exact Jacobian, from a nearly straight arm.
 
-    Stopped as soon as the tip is within the tolerance.
+    The search stops as soon as the tip is within the tolerance.
     """
 
     def solve(sample: Sample, target: Target, tolerance: float) -> tuple[Array, int]:
@@ -78,7 +78,7 @@ def damped_least_squares(sample: Sample, target: Target, tolerance: float) -> tu
 
 
 def tip_error(sample: Sample, target: Target, w: Array, tolerance: float) -> tuple[Array, bool]:
-    """What the tip lacks: position and, times a tenth of the arm's length, direction (6,) [m]; whether it is there."""
+    """Return the tip error (6,) [m], its direction weighted by a tenth of the length, and whether it is solved."""
     pose = arm_pose(w, sample.arm)
     position, direction = target.position - pose[:3, 3], target.direction - pose[:3, 2]
     is_there = np.linalg.norm(position) <= tolerance and np.linalg.norm(direction) <= tolerance
@@ -86,7 +86,7 @@ def tip_error(sample: Sample, target: Target, w: Array, tolerance: float) -> tup
 
 
 def tip_derivatives(sample: Sample, w: Array) -> Array:
-    """How the configuration moves position and direction (6, 2 n_sections), weighted alike [m/rad]."""
+    """Return the jacobian of position and direction (6, 2 n_sections), with the same weights [m/rad]."""
     rows = arm_jacobian(w, sample.arm)
     turned = np.cross(rows[3:], arm_pose(w, sample.arm)[:3, 2], axisa=0).T
     return np.concatenate([rows[:3], 0.1 * sample.arm.length * turned])

@@ -1,4 +1,4 @@
-"""Targets that an arm can reach, because postures drawn by a seed made them."""
+"""Reachable targets, computed from random postures."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from continuum.kinematics.ik_target import Target, Targets
 
 @dataclass(frozen=True)
 class Sample:
-    """Targets that an arm can reach, because a posture of it made them; positions and directions of the tip."""
+    """Reachable targets from postures of the arm: positions and directions of the tip."""
 
     arm: Arm
     targets: Targets
@@ -25,7 +25,7 @@ class Sample:
 
 
 def prototype_arm(n_sections: int) -> Arm:
-    """Sections of five of the prototype's modules (Table 1), turned by 30 degrees each, as the demo's arm."""
+    """Return an arm of sections with five of the prototype's modules (Table 1), each twisted by 30 degrees."""
     return Arm(
         tuple(Section(f"s{i}", 5, 0.01925, 0.032, twist=math.radians(30) if i else 0.0) for i in range(n_sections))
     )
@@ -49,9 +49,9 @@ def each_target(sample: Sample, n: int) -> Iterator[tuple[int, Target]]:
 
 
 def arrived(sample: Sample, k: int, w: Array, tolerance: float) -> bool:
-    """Judged by the library's forward kinematics, not by the solver's own word; a hundredth is left to rounding.
+    """Return whether a solution is right by the library's forward kinematics, with a margin of 1 % for rounding.
 
-    A section bent beyond its limit is no answer.
+    A section bent beyond its limit is not a solution.
     """
     pose = arm_pose(w, sample.arm)
     if np.any(bend(w) > [section.bend_limit + 1e-9 for section in sample.arm.sections]):

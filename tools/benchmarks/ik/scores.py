@@ -1,4 +1,4 @@
-"""What a solver did with a sample of targets: part solved, time, iterations."""
+"""Score of a solver on a sample of targets: fraction solved, time, iterations."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SCORE_HEAD = ("solved", "median [us]", "p99 [us]", "iterations", "iterations, p9
 
 @dataclass(frozen=True)
 class Score:
-    """What a solver did: part solved, processor time per target [us] and iterations, with 99th percentiles."""
+    """Score of a solver: fraction solved, processor time per target [us] and iterations, with 99th percentiles."""
 
     solved: float
     n: int
@@ -37,7 +37,7 @@ class Score:
 
     @property
     def cells(self) -> tuple[str, ...]:
-        """Under `SCORE_HEAD`; 99th percentiles of enough targets alone."""
+        """Return the cells under `SCORE_HEAD`; 99th percentiles only with enough targets."""
         n_failed, enough = round((1.0 - self.solved) * self.n), self.n >= _FEWEST_FOR_P99
         part = f"{100 * self.solved:.3f} %" if enough else f"{100 * self.solved:.1f} %"
         failed = f" ({n_failed} of {self.n} not)" if n_failed or not enough else ""
@@ -50,8 +50,8 @@ class Helix:
     """The demo's helix.
 
     Attributes:
-        single: a call for each pose, from the answer before.
-        path: one call for the whole path; times are means over all poses.
+        single: score with one call per pose, starting from the previous solution.
+        path: score with one call for the whole path; times are means over all poses.
         farthest: largest distance of the tip to the helix [m].
     """
 
@@ -61,14 +61,14 @@ class Helix:
 
 
 def quietest(measure: Callable[[], Score]) -> Score:
-    """The quickest of three measurements, as others use the machine too; solved is what was solved in every one."""
+    """Return the fastest of three measurements, to exclude other load; solved counts targets solved in all of them."""
     scores = [measure() for _ in range(3)]
     best = min(scores, key=lambda score: score.median)
     return replace(best, solved=min(score.solved for score in scores))
 
 
 def score_solver(sample: Sample, tolerance: float, from_random: bool) -> Score:
-    """Time what a program does target by target: it makes the target, which checks it, and calls the solver."""
+    """Time each target as in a program: construction of the checked target, and the call of the solver."""
     solver = InverseKinematics(sample.arm, tolerance)
 
     def answer(k: int) -> Answer:
@@ -90,11 +90,11 @@ def score_rival(sample: Sample, tolerance: float, n: int, rival: Rival) -> Score
 
 
 type Answer = tuple[Array, int, bool]
-"""Configuration, iterations, and whether the solver says that it has arrived."""
+"""Configuration, iterations, and whether the solver reports success."""
 
 
 def _score_calls(answer: Callable[[int], Answer], sample: Sample, tolerance: float, n: int) -> Score:
-    """One call follows the other, as in a program; whether they have arrived is looked at when all are there."""
+    """Time consecutive calls, as in a program, and check the solutions afterwards."""
     times, answers = np.empty(n), []
     for k in range(n):
         began = time.thread_time()
@@ -106,7 +106,7 @@ def _score_calls(answer: Callable[[int], Answer], sample: Sample, tolerance: flo
 
 
 def score_helix() -> Helix:
-    """Follow it in both ways."""
+    """Follow the helix in both ways."""
     share = get_package_share_directory
     arm = load_arm(Path(share("continuum_description")) / "config" / "three_sections.yaml")
     parameters = flattened(read_parameter_file(Path(share("trajectory_generator")) / "config" / "helix.yaml"))
@@ -130,7 +130,7 @@ def score_helix() -> Helix:
 
 
 def score_of(times: Array, iterations: Array, solved: Array) -> Score:
-    """Of processor times [s], iterations and whether targets were reached, (n,) each."""
+    """Return the score from processor times [s], iterations and whether targets were reached, (n,) each."""
     return Score(
         float(np.mean(solved)),
         len(solved),

@@ -2,9 +2,9 @@
 
     python3 -m tools.benchmarks.ik.solvers
 
-Keeps its record and overwrites a table of docs/inverse-kinematics.md. Positions and directions are reached by three
-sections whose bends are drawn up to a limit, each from the straight arm; then the demo's helix is followed as the node
-`robot` does.
+Writes its record and overwrites a table of docs/inverse-kinematics.md. Three sections with random bends up to a limit
+give positions and directions, each solved from the straight arm; then the demo's helix is followed as by the node
+`robot`.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def _row(targets: str, name: str, score: Score) -> tuple[str, ...]:
 
 
 def _followed(tracker: Tracker) -> Score:
-    """Of the demo's helix, poses with their velocities."""
+    """Return the score on the demo's helix, poses with their velocities."""
     share = Path(get_package_share_directory("trajectory_generator"))
     trajectory = trajectory_from_mapping(flattened(read_parameter_file(share / "config" / "helix.yaml")))
     path = trajectory.sample(trajectory.times(RATE))

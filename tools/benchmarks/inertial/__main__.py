@@ -1,7 +1,7 @@
-"""`make bench-inertial`: errors of joint angles from inertial sensors, on a synthetic arm of which the truth is known.
+"""`make bench-inertial`: errors of joint angles from inertial sensors, on a synthetic arm with known angles.
 
-The arm, its sensors and what happens to them are those of the tests (continuum/test/inertial_arm.py). The record of the
-whole run is kept, and shown in docs/inertial.md; that of a run with any option changed is printed alone.
+The arm, its sensors and their faults are those of the tests (continuum/test/inertial_arm.py). The record of a complete
+run is written and shown in docs/inertial.md; that of a run with changed options is only printed.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def main() -> None:
 
 
 def record_of(off: Mapping[str, Array], troubled: Sequence[Sequence[str]], seconds: float) -> Record:
-    """Of the errors of all methods, the rows of faults, and the time that one sample takes [s]."""
+    """Return the record of the errors of all methods, the rows of faults, and the time for one sample [s]."""
     ours, rival = (off[name].max(axis=0) for name in (OURS, VQF))
     figures = [
         Figure(
@@ -77,7 +77,7 @@ def record_of(off: Mapping[str, Array], troubled: Sequence[Sequence[str]], secon
 
 
 def accuracy(motion: Motion, seeds: int) -> dict[str, Array]:
-    """RMS of the worst joint at rest, pulled and released, (seeds, 3) [degrees], of every method."""
+    """Return for every method the RMS of the worst joint at rest, pulled and released, (seeds, 3) [degrees]."""
     methods: dict[str, tuple[float, bool, Method]] = {
         OURS: (LIVE, True, live(True)),
         "live, 60 Hz, rates at instants": (LIVE, False, live(False)),
@@ -112,7 +112,7 @@ def by_vqf(recording: ImuRecording, motion: Motion) -> Array:
 
 
 def faults(motion: Motion, seeds: int) -> list[list[str]]:
-    """Rows of every fault, live."""
+    """Return the rows of all faults with the live estimator."""
     rows = []
     for number, kind in enumerate(KINDS):
         largest, worst, good = [], [], []
@@ -129,7 +129,7 @@ def faults(motion: Motion, seeds: int) -> list[list[str]]:
 
 
 def speed(motion: Motion) -> float:
-    """Of one sample of five sensors [s]."""
+    """Return the processor time for one sample of five sensors [s]."""
     recording, _ = sensed(motion, LIVE, SensorModel(), 0)
     known = calibrated(recording)
     began = time.perf_counter()

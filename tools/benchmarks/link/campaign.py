@@ -1,4 +1,4 @@
-"""Every fault alone and in pairs, while the arm is pulled to and fro beyond what its receiver allows."""
+"""Every fault alone and in pairs, while commands beyond the receiver's limits pull the arm back and forth."""
 
 from __future__ import annotations
 
@@ -23,37 +23,37 @@ MOST, FASTEST = 12.0, 120.0
 """Limits of the receiver [N], [N/s]; the bridge allows more, and more is commanded."""
 
 COMMANDED, HALF = 16.0, 0.4
-"""Tension that the cables are pulled with in turn [N], and for how long each [s]."""
+"""Tension of the alternating pulls [N], and duration of each pull [s]."""
 
 PULLED_ON = 1.0
-"""Time for which it is pulled on after the fault [s]."""
+"""Time for which the pulls continue after the fault [s]."""
 
 CALM = 2.5
-"""Time of rest after it [s], within which angles come back."""
+"""Duration of the rest after the pulls [s], within which the angles return."""
 
 RIGHT = 1.5
-"""A joint angle published as good that is further off the truth is wrong [degrees]: three times the RMS allowed."""
+"""Error above which a published joint angle counts as wrong [degrees]: three times the allowed RMS."""
 
 _FALLEN = "fell back to inactive, cables slack:"
-"""The bridge's words before it says why."""
+"""Beginning of the bridge's message, before the reason."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """What one case showed.
+    """Result of one case.
 
     Attributes:
-        faults: their names.
+        faults: names of the faults.
         load: average load of the machine in the last minute.
-        stalled: by how much the emulator itself was late with a frame after the fault, as the machine was busy [s].
-        resumed: time until all sensors' data stream whole again after the fault's end [s]; None: they did not.
-        angles_back: the same of the joint states, after fault's end or the arm's coming to rest, whichever is later.
-        states: how many joint states were published, during the fault and after it.
-        largest_error: of any angle in these [degrees].
-        wrong: joint states with an angle further off than `RIGHT`.
-        largest_tension: at the receiver, set point [N].
-        fastest_rise: of a set point [N/s].
-        fell_back: why the bridge let the cables go and became inactive, in its words; empty where it did not.
+        stalled: largest delay of the emulator with a frame after the fault because the machine was busy [s].
+        resumed: time from the end of the fault until all sensors' data are complete again [s]; None if they are not.
+        angles_back: the same for joint states, from the end of the fault or of the arm's motion, whichever is later.
+        states: number of joint states published during the fault and after it.
+        largest_error: largest error of their angles [degrees].
+        wrong: number of joint states with an error above `RIGHT`.
+        largest_tension: largest set point at the receiver [N].
+        fastest_rise: largest rate of a set point [N/s].
+        fell_back: reason for which the bridge became inactive, from its message; empty if it did not.
     """
 
     faults: list[str]
@@ -71,7 +71,7 @@ class Case:
 
 @dataclass(frozen=True)
 class _Course:
-    """What was heard of a case: begin, end of the fault, end of all; of this machine's monotonic clock [s]."""
+    """Messages of a case, and the times of its start, the end of the fault and its end, by the monotonic clock [s]."""
 
     case: tuple[str, ...]
     begin: float
@@ -97,7 +97,7 @@ def measure(folder: Path, cases: Sequence[tuple[str, ...]]) -> list[Case]:
 
 
 def to_and_fro(t: float) -> Array:
-    """The cables in turn, suddenly."""
+    """Return the tensions of sudden alternating pulls at a time [s]."""
     return COMMANDED * np.eye(2)[int(t / HALF) % 2]
 
 
@@ -130,7 +130,7 @@ def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
 
 
 def evaluated(course: _Course, truth: Truth, sent: tuple[Array, Array]) -> Case:
-    """What a course showed, beside the truth, and what was sent, as of `load_sent`."""
+    """Evaluate a course against the truth and the sent frames, from `load_sent`."""
     written, measured_at = sent
     after = (measured_at > course.back) & (measured_at < course.end)
     here = truth.between(course.begin, course.end)
@@ -154,7 +154,7 @@ def evaluated(course: _Course, truth: Truth, sent: tuple[Array, Array]) -> Case:
 
 
 def _rest_begins(truth: Truth) -> float:
-    """Instant from which on the arm does not move any more [s]."""
+    """Return the time at which the arm comes to rest [s]."""
     moving = ~truth.resting()
     return float(truth.time[np.flatnonzero(moving)[-1]]) if moving.any() else float(truth.time[0])
 

@@ -1,4 +1,4 @@
-"""Minutes of streaming with release tests all the time: angles beside the truth, frames, delays, load."""
+"""Minutes of streaming with continuous release tests: errors of angles, frames, delays, load."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ SWING = 2.0
 """Time after a release that counts as the release test [s]."""
 
 PULLED, HIGHEST, CALM = 2.0, 15.0, 5.0
-"""Time of a pull [s], its tension at the end [N], time for which the arm then swings and rests [s]."""
+"""Duration of a pull [s], its final tension [N], and time for which the arm then swings and rests [s]."""
 
 MINUTE = 60.0
 
 
 @dataclass(frozen=True)
 class Minute:
-    """Of a run: load of the machine (average of the last minute, at its end), and delays until received [ms]."""
+    """One minute of a run: load of the machine (average of that minute), and delays until reception [ms]."""
 
     load: float
     median: float
@@ -41,19 +41,19 @@ class ClosedLoop:
     """One run.
 
     Attributes:
-        minutes: its length.
-        releases: how often the arm was let go.
-        frames: of the sensors that the emulator wrote, from the first to the last with a joint state.
-        rate: joint states a second, by their stamps.
-        lost: frames that the bridge counts as lost, by gaps in the sequence.
-        missing: frames without a joint state.
-        skipped: time for which the emulator could not keep up [s].
+        minutes: duration [min].
+        releases: number of releases.
+        frames: number of sensor frames that the emulator wrote, from the first to the last with a joint state.
+        rate: joint states per second, by their stamps.
+        lost: number of frames that the bridge counts as lost, by gaps in the sequence.
+        missing: number of frames without a joint state.
+        skipped: time that the emulator skipped [s].
         released, resting: RMS of the worst joint [degrees].
         released_largest: largest error of any joint in release tests [degrees].
-        shift: stamp less true instant: smallest, median, largest [ms].
-        until: delay from the last byte written, by the stage that it is counted to: median, 99 %, largest [ms].
-        by_minute: of each minute.
-        bridge_share, emulator_share: of one core.
+        shift: stamp minus true instant: smallest, median, largest [ms].
+        until: delay from the last written byte to each stage: median, 99 %, largest [ms].
+        by_minute: values of each minute.
+        bridge_share, emulator_share: fractions of one core.
     """
 
     minutes: float
@@ -74,7 +74,7 @@ class ClosedLoop:
 
 
 def measure(minutes: float, folder: Path) -> ClosedLoop:
-    """Run it."""
+    """Run the closed loop."""
     releases, loads, states = [], [], []
     with rig(folder) as bench, bench.bridge(max_tension=20.0) as bridge:
         pids = bridge.node.process.pid, bench.bench.process.process.pid
@@ -116,7 +116,7 @@ def measure(minutes: float, folder: Path) -> ClosedLoop:
 
 
 def _courses(bench: Rig, bridge: Bridge) -> Iterator[float]:
-    """Pull and release by turns, one cable, the other, and by hand; the instants of letting go [s]."""
+    """Pull one cable, the other, and the hand in turn; yield the times of the releases [s]."""
     while True:
         for cable in (0, 1):
             bench.drive(bridge, lambda t, k=cable: HIGHEST * min(t / (0.75 * PULLED), 1.0) * np.eye(2)[k], PULLED)
@@ -149,7 +149,7 @@ def _scatter(delay: Array) -> list[float]:
 
 
 def by_minute(found: Delays, begin: float, loads: Sequence[float]) -> list[Minute]:
-    """Delays until received, of every whole minute since ``begin`` [s]; ``loads`` at their ends."""
+    """Return the delays until reception of every complete minute since ``begin`` [s], with ``loads`` at their ends."""
     minutes = []
     for k, load in enumerate(loads):
         inside = (found.written >= begin + k * MINUTE) & (found.written < begin + (k + 1) * MINUTE)

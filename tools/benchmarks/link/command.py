@@ -1,4 +1,4 @@
-"""The command line: which parts are run, and their record."""
+"""The command line: selection of the parts, and their record."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tools.benchmarks.report import DOCS, publish
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the parts, and make the record of all that was kept."""
+    """Run the parts, and write the record of all stored results."""
     parser = argparse.ArgumentParser(prog="make bench-link ARGS=...", description=tools.benchmarks.link.__doc__)
     add = parser.add_argument
     add("--minutes", type=float, default=10.0, help="of the closed loop; default %(default)g")
@@ -61,12 +61,12 @@ def main(arguments: list[str] | None = None) -> int:
                 print(part, flush=True)
                 keep(options.out, part, run((options.out / part).resolve()), options.niceness)
         publish(record_of(load(options.out)), options.docs)
-    except (ContinuumError, AssertionError) as error:  # these of the tests' harness: something did not come in time
+    except (ContinuumError, AssertionError) as error:  # AssertionError: a time-out in the tests' harness
         print(f"bench-link: {error}", file=sys.stderr)
         return 1
     return 0
 
 
 def _cases(names: list[str]) -> list[tuple[str, ...]]:
-    """Those made of these faults alone; all without a name."""
+    """Return the cases that consist of these faults only; without names, all cases."""
     return [case for case in CASES if not names or set(case) <= set(names)]

@@ -1,4 +1,4 @@
-"""The bridge is killed or hangs, or the port goes, while a cable is tight: how long until it is slack."""
+"""Time until cables are slack after the bridge is killed or hangs, or the port disappears, while a cable is tight."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ from tools.benchmarks.link.rig import RATE, Rig, rig
 from tools.benchmarks.link.truth import Truth, load_truth
 
 TENSION = 10.0
-"""At that instant [N]."""
+"""Tension at that instant [N]."""
 
 WATCHED = 2.0
-"""Time for which it is watched after [s]."""
+"""Time of observation after it [s]."""
 
 LIMITS = ReceiverLimits()
 
 TICK = 1 / RATE
-"""Between two rows of the truth [s]."""
+"""Time between two rows of the truth [s]."""
 
 
 @dataclass(frozen=True)
 class Crash:
-    """One way to go.
+    """Results of one kind of crash.
 
     Attributes:
-        name: in words.
-        begins: docs/bench-protocol.md's time until the receiver begins to let go at the latest [s].
-        times: until all set points are zero for good, of each repetition [s].
-        begun: until the receiver began to let go, of each [s].
-        loads: average load of the machine in the last minute, at each.
+        name: description.
+        begins: latest start of the release according to docs/bench-protocol.md [s].
+        times: time until all set points remain zero, for each repetition [s].
+        begun: time until the start of the release, for each repetition [s].
+        loads: average load of the machine in the last minute, for each repetition.
     """
 
     name: str
@@ -46,20 +46,19 @@ class Crash:
 
     @property
     def stated(self) -> float:
-        """Time until slack [s]."""
+        """Specified time until the cables are slack [s]."""
         return self.begins + LIMITS.slack_time
 
 
 @dataclass(frozen=True)
 class Kind:
-    """What happens.
+    """One kind of crash.
 
     Attributes:
-        name: in words.
-        begins: time until the receiver begins to let go at the latest [s]: the port is seen to close, or
-            heartbeats stop.
-        number: signal that the bridge is sent; None where the port is unplugged.
-        is_seen: whether the emulator notices that the port is closed.
+        name: description.
+        begins: latest start of the release [s]: when the closed port is detected, or heartbeats stop.
+        number: signal to the bridge; None if the port is unplugged.
+        is_seen: whether the emulator detects that the port is closed.
     """
 
     name: str
@@ -77,12 +76,12 @@ KINDS = (
 
 
 def measure(folder: Path, repetitions: int) -> list[Crash]:
-    """Each so many times, each time with a bridge that begins anew."""
+    """Repeat each kind of crash, each time with a new bridge."""
     return [crash for is_seen in (True, False) for crash in _measure_all(folder, is_seen, repetitions)]
 
 
 def _measure_all(folder: Path, is_seen: bool, repetitions: int) -> list[Crash]:
-    """Those of one emulator."""
+    """Measure the kinds of crash of one emulator."""
     instants: list[tuple[Kind, list[tuple[float, float]]]] = []
     with rig(folder, *([] if is_seen else ["--no-hang-up"])) as bench:
         for kind in KINDS:
@@ -94,7 +93,7 @@ def _measure_all(folder: Path, is_seen: bool, repetitions: int) -> list[Crash]:
 
 
 def evaluated(kind: Kind, found: list[tuple[float, float]], truth: Truth) -> Crash:
-    """Beside the truth: instants [s] at which it happened, and the load then."""
+    """Evaluate crashes, times [s] and loads, against the truth."""
     parts = [(truth.between(at - 1.0, at + WATCHED), at) for at, _ in found]
     times = [part.slack_after(at) for part, at in parts]
     begun = [part.let_go_after(at) for part, at in parts]
@@ -102,7 +101,7 @@ def evaluated(kind: Kind, found: list[tuple[float, float]], truth: Truth) -> Cra
 
 
 def _instant(bench: Rig, kind: Kind) -> tuple[float, float]:
-    """Pull, let it happen, and watch; the instant [s], and the load then."""
+    """Pull, trigger the crash and observe; return its time [s] and the load."""
     with bench.bridge() as bridge:
         bridge.pull([TENSION, 0.0], lambda: bench.bench.status["set_points"][0] > TENSION - 0.1)
         bench.drive(bridge, lambda _: np.array([TENSION, 0.0]), 0.2)

@@ -1,11 +1,11 @@
-"""The faults of the campaign, and the cases made of them: each alone, and all pairs."""
+"""The faults of the campaign, and its cases: each fault alone, and all pairs."""
 
 from __future__ import annotations
 
 from itertools import combinations
 
 LASTS = 2.0
-"""Of every fault [s]."""
+"""Duration of every fault [s]."""
 
 FAULTS = {
     "lost": f"lose share=0.3 for={LASTS} way=both",
@@ -18,14 +18,14 @@ FAULTS = {
     "drift": "drift ppm=500",
     "unplugged": f"unplug for={LASTS}",
 }
-"""What the emulator is told, by name."""
+"""Orders to the emulator, by name."""
 
 NO_DRIFT = "drift ppm=0"
-"""Ends the one that does not end by itself."""
+"""Order that ends the fault without an end."""
 
 CASES = [*((name,) for name in FAULTS), *combinations(FAULTS, 2)]
 
 
 def orders(case: tuple[str, ...]) -> list[str]:
-    """For the beginning of a case; a port that goes is the last, or its turn would come before the other fault's."""
+    """Return the orders at the start of a case; unplugging comes last, so that the other fault starts before it."""
     return [FAULTS[name] for name in sorted(case, key=lambda name: name == "unplugged")]

@@ -1,4 +1,4 @@
-"""What is wanted of the bridge, with what was measured."""
+"""Goals of the bridge, with the measured values."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tools.benchmarks.link.soak import Soak
 from tools.benchmarks.record import Figure
 
 RISE_ROUNDING = 2 * STEP * RATE
-"""Of a rate taken from two set points, each rounded [N/s]."""
+"""Rounding error of a rate between two rounded set points [N/s]."""
 
 SLACK = LIMITS.slack_time
 
@@ -23,7 +23,7 @@ FLAT = 1.0
 
 
 def goals(results: Results) -> tuple[Figure, ...]:
-    """Those of which there are figures, what is a danger first."""
+    """Return the goals with available figures, safety first."""
     figures: list[Figure] = []
     parts: Sequence[tuple[object, Callable[..., Iterator[Figure]]]] = (
         (results.crash_tests, _crashes),

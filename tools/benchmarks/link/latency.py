@@ -1,4 +1,4 @@
-"""How long sensors' frames take until their joint states are there, and which never were."""
+"""Delays from sensor frames to their joint states, and frames without a joint state."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from tools.benchmarks.link.truth import Truth
 
 @dataclass(frozen=True)
 class Delays:
-    """Of each frame with its joint state, from when the emulator wrote its last byte; (n,) [s].
+    """Delays of each frame with its joint state, from the last byte that the emulator wrote; (n,) [s].
 
     Attributes:
-        written: when that was, of this machine's monotonic clock.
+        written: time of that byte by this machine's monotonic clock.
         published, received, called: see `State`.
-        missing: frames between the first and the last of these that became no joint state.
-        shift: stamp less the true instant.
+        missing: number of frames without a joint state between the first and the last frame.
+        shift: stamp minus the true instant.
     """
 
     written: Array
@@ -34,7 +34,7 @@ class Delays:
 
 
 def load_sent(path: Path, truth: Truth) -> tuple[Array, Array]:
-    """When each frame was written, and the instant that it tells of; of the monotonic clock, (frames,) each [s]."""
+    """Return the times at which each frame was written and measured, by the monotonic clock, (frames,) each [s]."""
     table = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
     instants = dict(zip((truth.device.astype(np.int64) % WRAP_TIME).tolist(), truth.time.tolist(), strict=True))
     measured_at = np.array([instants[int(device)] for device in table[:, 1]])
@@ -42,11 +42,11 @@ def load_sent(path: Path, truth: Truth) -> tuple[Array, Array]:
 
 
 def delays(states: Sequence[State], written: Array, measured_at: Array) -> Delays:
-    """States beside their frames: those of the nearest instant, by the states' stamps.
+    """Match states to frames by the nearest instant, and return their delays.
 
     Args:
-        states: in the order of their stamps.
-        written, measured_at: as of `load_sent`.
+        states: joint states in the order of their stamps.
+        written, measured_at: as returned by `load_sent`.
     """
     stamps = np.array([state.stamp for state in states])
     right = np.clip(np.searchsorted(measured_at, stamps), 1, len(measured_at) - 1)

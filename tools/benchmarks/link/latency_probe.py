@@ -1,4 +1,4 @@
-"""Who listens to a bridge and notes when each message came; little is kept of each, so that it can go on for long."""
+"""Subscriber to a bridge that records the arrival of each message; it stores little, so that it can run for long."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class State:
     """One joint state; times are of this machine's monotonic clock [s].
 
     Attributes:
-        stamp: instant that it tells of.
-        published: when the bridge gave it to DDS.
-        received: when DDS had it in the subscriber's process.
-        called: when the subscriber, which is in Python, was called with it.
-        angles: of the joints, (n,) [rad].
+        stamp: instant of its content.
+        published: time at which the bridge passed it to DDS.
+        received: time at which DDS received it in the subscriber's process.
+        called: time at which the Python subscriber was called.
+        angles: joint angles, (n,) [rad].
     """
 
     stamp: float
@@ -39,17 +39,17 @@ class State:
 
 @dataclass(frozen=True)
 class Sample:
-    """Of one sensor: instant that it tells of, and when DDS had it here; of the monotonic clock [s]."""
+    """Sample of one sensor: instant of its content, and time of its reception by DDS, by the monotonic clock [s]."""
 
     stamp: float
     received: float
 
 
 class LatencyProbe:
-    """In the place of the tests' `Ears`: lists that grow with every message.
+    """Replacement of the tests' `Ears`: lists that grow with every message.
 
     Args:
-        probe: whose node listens.
+        probe: probe whose node subscribes.
     """
 
     def __init__(self, probe: Probe) -> None:
@@ -79,7 +79,7 @@ class LatencyProbe:
 
 
 def since_boot() -> float:
-    """What has to be added to this machine's time of day to have its monotonic clock [s]."""
+    """Return the offset from this machine's time of day to its monotonic clock [s]."""
     instant, now = read_together(time.monotonic, time.time_ns)
     return instant - now / NANOSECONDS
 
@@ -93,6 +93,6 @@ def _sample_taker(samples: list[Sample]) -> Any:
 
 
 def _stamp_of(data: bytes) -> float:
-    """Time of the header with which a message begins, behind the four bytes that tell the byte order [s]."""
+    """Return the time in the header of a serialised message, after the four bytes for the byte order [s]."""
     sec, nanosec = struct.unpack_from("<iI" if data[1] & 1 else ">iI", data, 4)
     return float(sec + nanosec / NANOSECONDS)

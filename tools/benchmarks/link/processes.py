@@ -1,4 +1,4 @@
-"""What a process takes of the machine, as the kernel counts it."""
+"""Resource usage of a process, as counted by the kernel."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from continuum.arrays import Array
 
 @dataclass(frozen=True)
 class Usage:
-    """Up to now.
+    """Resource usage of a process so far.
 
     Attributes:
         at: monotonic time [s].
-        seconds: processor time, of all threads [s].
-        memory: resident [KiB].
+        seconds: processor time of all threads [s].
+        memory: resident memory [KiB].
     """
 
     at: float
@@ -28,7 +28,7 @@ class Usage:
 
 
 def usage(process: int) -> Usage:
-    """Of a process by its number."""
+    """Return the usage of a process by its id."""
     fields = Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
     ticks = int(fields[11]) + int(fields[12])  # utime, stime
     status = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
@@ -37,9 +37,9 @@ def usage(process: int) -> Usage:
 
 
 def take_niceness(niceness: int) -> None:
-    """Give this process, and so those that it will start, a niceness from -20 to 19, if it has not that already.
+    """Set the niceness, -20 to 19, of this process and its children, unless it is set already.
 
-    Linux shares the processors out among sessions first (autogroups), so this one's session gets it too.
+    Linux distributes processors among sessions first (autogroups), so the niceness is also set for the session.
     """
     if niceness == os.getpriority(os.PRIO_PROCESS, 0):
         return
@@ -50,10 +50,10 @@ def take_niceness(niceness: int) -> None:
 
 
 def core_share(before: Usage, after: Usage) -> float:
-    """Part of one core that was taken in between."""
+    """Return the fraction of one core used in between."""
     return (after.seconds - before.seconds) / (after.at - before.at)
 
 
 def slope(times: Array, values: Array) -> float:
-    """Of the straight line nearest to values at times."""
+    """Return the slope of the least-squares line through values at times."""
     return float(np.polyfit(times - times[0], values, 1)[0])

@@ -1,4 +1,4 @@
-"""Results of the parts as files, so that the record can be made of several runs."""
+"""Results of the parts as files, so that the record can summarise several runs."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from tools.benchmarks.link.soak import Memory, Soak
 
 @dataclass(frozen=True)
 class Results:
-    """What there is; None where a part was not run yet. By part, the niceness of its processes.
+    """Available results, None for parts without a run, and the niceness of the processes by part.
 
-    All runs of the closed loop are kept, the newest is the last: delays depend on what else the machine did.
+    All runs of the closed loop are kept, the newest last, because delays depend on other load of the machine.
     """
 
     closed: list[ClosedLoop] | None
@@ -30,24 +30,24 @@ class Results:
 
 
 PARTS = "closed", "campaign", "crash_tests", "soak"
-"""Each in a file of its name."""
+"""Parts, each stored in a file of its name."""
 
 
 def keep(folder: Path, part: str, result: Any, niceness: int) -> None:
-    """Write what a part measured."""
+    """Write the results of a part."""
     plain = [asdict(one) for one in result] if isinstance(result, Sequence) else asdict(result)
     text = json.dumps({"niceness": niceness, "result": plain}, indent=1)
     write_whole(folder / f"{part}.json", f"{text}\n")
 
 
 def together(kept: Sequence[Case] | None, new: Sequence[Case]) -> list[Case]:
-    """Cases kept and new ones, which count in the place of those of the same faults."""
+    """Merge stored cases with new ones, which replace those with the same faults."""
     cases = {tuple(case.faults): case for case in (*(kept or []), *new)}
     return list(cases.values())
 
 
 def load(folder: Path) -> Results:
-    """All that was kept."""
+    """Load all stored results."""
     kept = {part: _plain(folder / f"{part}.json") for part in PARTS}
     closed, campaign, crash_tests, soak = (kept[part] and kept[part]["result"] for part in PARTS)
     for run in closed or []:

@@ -1,4 +1,4 @@
-"""When a stream is whole again after a fault."""
+"""Time at which a stream is complete again after a fault."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from collections.abc import Sequence
 from tools.benchmarks.link.latency_probe import Sample, State
 
 WHOLE = 0.5
-"""A stream is good from an instant on if nothing is missing in so long a stretch from there [s]."""
+"""A stream counts as complete from an instant on if nothing is missing for this time [s]."""
 
 LARGEST_STEP = 1.5
-"""From stamp to stamp, of the period; more means that one is missing."""
+"""Largest distance of consecutive stamps in periods; a larger one means a missing message."""
 
 
 def good_again(received: Sequence[Sample | State], back: float, period: float) -> float | None:
-    """Time from ``back`` until the first message came of a stretch without gaps [s]; None if there is no such stretch.
+    """Return the time from ``back`` to the arrival of the first message without later gaps [s]; None if there is none.
 
     Args:
-        heard: of one topic, in the order of arrival.
-        back: instant from which on the link is sound; messages that tell of earlier instants do not count.
-        period: between two messages [s].
+        received: messages of one topic, in the order of arrival.
+        back: time from which the link is intact; messages with earlier stamps do not count.
+        period: time between two messages [s].
     """
     later = [one for one in received if one.stamp >= back]
     first = 0

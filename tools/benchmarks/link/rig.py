@@ -1,4 +1,4 @@
-"""Emulated bench, calibrated bridge and listener, set up for a measurement and ended in any case."""
+"""Emulated bench, calibrated bridge and subscriber, set up for a measurement and ended in any case."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ from tools.benchmarks.link.latency_probe import LatencyProbe
 from tools.demo.folder import claimed
 
 RATE = 60.0
-"""Of the sensors, live [Hz]."""
+"""Live rate of the sensors [Hz]."""
 
 COMMAND_PERIOD = 1 / 30
-"""Between two tension commands [s]."""
+"""Time between two tension commands [s]."""
 
 CALIBRATION, SENT = "sensors.yaml", "sent.csv"
 FILES = "port", "control", "truth.csv", CALIBRATION, SENT
-"""In the folder of a measurement."""
+"""File in the folder of a measurement."""
 
 Pull = Callable[[float], Array]
-"""Tension of each cable [N] at a time since some instant [s]."""
+"""Function from the time since some instant [s] to the tension of each cable [N]."""
 
 
 @dataclass(frozen=True)
 class Rig:
-    """What a measurement works with.
+    """Equipment of a measurement.
 
     Attributes:
         domain: ROS domain.
-        folder: of the emulator's files.
+        folder: folder of the emulator's files.
         bench: the emulator's process.
         ears: the listener.
     """
@@ -60,7 +60,7 @@ class Rig:
         return self.folder / SENT
 
     def calibrate(self) -> None:
-        """Leave the sensors' calibration in its file."""
+        """Calibrate the sensors and write their calibration file."""
         with bridge_at(self.latency_probe, self.bench, self.domain, calibration=self.calibration) as bridge:
             bridge.wait_for_state("inactive")
             bridge.calibrate()
@@ -72,7 +72,7 @@ class Rig:
 
     @contextmanager
     def bridge(self, **parameters: object) -> Iterator[Bridge]:
-        """A bridge with that calibration that is active, once its joint states come."""
+        """Run an active bridge with that calibration, and wait for its joint states."""
         self.wait_for_free_port()
         given = {"calibration": self.calibration, "keep_bias": True, "autostart": "activate", **parameters}
         with bridge_at(self.latency_probe, self.bench, self.domain, **given) as bridge:
@@ -81,14 +81,14 @@ class Rig:
             yield bridge
 
     def wait_for_joints(self, bridge: Bridge) -> None:
-        """Until some come from now on."""
+        """Wait for new joint states."""
         before = len(self.latency_probe.joints)
         bridge.probe.wait_until(
             lambda: len(self.latency_probe.joints) > before + 5, lambda: f"states; {bridge.diagnostic('angles')}"
         )
 
     def drive(self, bridge: Bridge, pull: Pull | None, lasts: float) -> None:
-        """Command tensions (None: nothing), and listen, for so long [s]."""
+        """Command tensions (None: nothing) and process messages for a time [s]."""
         begin = due = time.monotonic()
 
         def over() -> bool:
@@ -105,7 +105,7 @@ class Rig:
 
 @contextmanager
 def rig(folder: Path, *options: str) -> Iterator[Rig]:
-    """An emulated bench in a ROS domain of its own, sensors calibrated; ``options`` are of the emulator.
+    """Run an emulated bench in a separate ROS domain with calibrated sensors; ``options`` are those of the emulator.
 
     Raises:
         DemoError: another measurement uses the folder.

@@ -1,4 +1,4 @@
-"""Streaming for long: whether bridge and emulator take more and more memory."""
+"""Long streaming, to detect growing memory of bridge and emulator."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from tools.benchmarks.link.processes import Usage, core_share, slope, usage
 from tools.benchmarks.link.rig import RATE, rig
 
 PERIOD = 5.0
-"""Between two looks at the memory [s]."""
+"""Time between two readings of the memory [s]."""
 
 SETTLING = 0.2
-"""Part of the run before which buffers of fixed length still fill, and which does not count."""
+"""Fraction of the run that does not count, because buffers of fixed length still fill."""
 
 
 @dataclass(frozen=True)
 class Memory:
-    """Of one process: [MiB] when settled and at the end, growth in an hour at 60 Hz [MiB], part of one core."""
+    """Memory of one process: settled and final [MiB], growth in an hour at 60 Hz [MiB], and fraction of one core."""
 
     settled: float
     last: float
@@ -34,12 +34,12 @@ class Soak:
     """One run.
 
     Attributes:
-        minutes: its length.
-        rate: of the sensors [Hz], asked for.
-        reached: joint states a second, in the mean.
+        minutes: duration [min].
+        rate: requested rate of the sensors [Hz].
+        reached: mean number of joint states per second.
         load: average load of the machine over the run.
-        lost: frames that the bridge counts as lost.
-        bridge, emulator: their memory.
+        lost: number of frames that the bridge counts as lost.
+        bridge, emulator: memory of the two processes.
     """
 
     minutes: float
@@ -52,12 +52,12 @@ class Soak:
 
     @property
     def hours(self) -> float:
-        """Of streaming at 60 Hz with as many frames."""
+        """Hours of streaming at 60 Hz with the same number of frames."""
         return self.minutes / 60.0 * self.reached / RATE
 
 
 def measure(minutes: float, rate: float, folder: Path) -> Soak:
-    """Stream at a rate [Hz], the cables pulled gently to and fro."""
+    """Stream at a rate [Hz] while the cables are pulled gently in turn."""
     readings: tuple[list[Usage], list[Usage]] = [], []
     loads, received = [], 0
     with rig(folder, "--rate", str(rate)) as bench, bench.bridge() as bridge:
@@ -84,7 +84,7 @@ def measure(minutes: float, rate: float, folder: Path) -> Soak:
 
 
 def memory_of(seen: list[Usage], speed: float) -> Memory:
-    """Of looks at a process that did ``speed`` times the work of live streaming."""
+    """Evaluate readings of a process that did ``speed`` times the work of live streaming."""
     settled = seen[int(SETTLING * len(seen)) :]
     times, memory = (
         np.array([getattr(reading, name) for reading in settled], dtype=float) for name in ("at", "memory")

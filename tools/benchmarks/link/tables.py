@@ -21,7 +21,7 @@ _STAGES = {
 
 
 def record_of(results: Results) -> Record:
-    """Of all that there is."""
+    """Return the record of all available results."""
     niceness = ", ".join(f"{part} {number}" for part, number in results.niceness.items())
     tables, notes = dict[str, Table](), [f"{os.cpu_count()} cores; niceness: {niceness or 'unknown'}."]
     if results.closed:
@@ -56,7 +56,7 @@ def _of_soak(run: Soak) -> str:
 
 
 def _closed(runs: Sequence[ClosedLoop]) -> Mapping[str, Table]:
-    """Delays of the newest run, its minutes, and all runs, the newest last."""
+    """Return tables of the delays of the newest run, its minutes, and all runs, the newest last."""
     run = runs[-1]
     return {
         "delays": Table.of(
@@ -75,7 +75,7 @@ def _closed(runs: Sequence[ClosedLoop]) -> Mapping[str, Table]:
 
 
 def _loads(run: ClosedLoop) -> str:
-    """The least and the most of its whole minutes."""
+    """Return the smallest and the largest load of the complete minutes."""
     loads = [minute.load for minute in run.by_minute]
     return f"{min(loads):.1f} to {max(loads):.1f}" if loads else "unknown"
 

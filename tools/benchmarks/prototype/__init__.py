@@ -1,1 +1,1 @@
-"""What the diagnosis says of the prototype itself, by the one run of it that was published."""
+"""Diagnosis of the prototype from its only published run."""

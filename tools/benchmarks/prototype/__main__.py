@@ -1,6 +1,6 @@
-"""`make prototype`: diagnose the real arm by the one run of it that was published; docs/prototype.md and its picture.
+"""`make prototype`: diagnose the real arm from its only published run; docs/prototype.md and its picture.
 
-Keeps its record and overwrites these files, unless `--out` names another folder.
+Writes its record and overwrites these files, unless `--out` names another folder.
 """
 
 from __future__ import annotations

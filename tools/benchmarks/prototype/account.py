@@ -1,4 +1,4 @@
-"""All figures of the page: the diagnosis, its repetitions, the end of the run predicted, every effect alone."""
+"""All figures of the page: the diagnosis, its repetitions, the prediction of the end of the run, every effect alone."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ THE_GUESS = "inertia"
 
 @dataclass(frozen=True)
 class Predicted:
-    """A simulation of rows that no fit has seen: terms of Eq. 19 by joint, and errors by joint [deg], (n,) each."""
+    """A simulation of unseen rows: terms of Eq. 19 by joint, and errors by joint [deg], (n,) each."""
 
     model: str
     begins: str
@@ -69,7 +69,7 @@ class Account:
 
 
 def account(tell: Callable[[str, float], None]) -> Account:
-    """Work it all out."""
+    """Compute all figures."""
     path, model = DATA / "rep7_measured.csv", load_model("lamecc_prototype.yaml")
     run = read_recording_csv(path)
     result = diagnose([run], model, progress=tell)
@@ -89,7 +89,7 @@ def account(tell: Callable[[str, float], None]) -> Account:
 
 
 def end_predicted(run: Recording, cut: int, model: Model) -> tuple[Diagnosis, list[Predicted]]:
-    """Diagnose what is before a row, and simulate the rest by both models, from two estimates of where it begins."""
+    """Diagnose the rows before ``cut``, and simulate the rest by both models, from two estimates of its first state."""
     first, out = replace(run.rows(slice(0, cut)), name=f"{run.name}, beginning"), []
     result, found = diagnose([first], model, with_power=False), examine([first], model)
     for name, one in (("refitted", found.baseline), ("extended", ended_with(found, result))):
@@ -108,7 +108,7 @@ def end_predicted(run: Recording, cut: int, model: Model) -> tuple[Diagnosis, li
 
 
 def simulated_from(problem: Problem, state: State, part: Recording, q: Array, w: Array) -> Array:
-    """Other rows of the run by a state's values, from angles and rates (n,), as sensors read it, (n_times, n) [rad]."""
+    """Simulate other rows with a state's values from angles and rates (n,); return the readings, (n_times, n) [rad]."""
     run, rows = run_of(part, problem.structure.given).with_held(problem.runs[0].held), np.ones((part.times.size, 1))
     way = Trajectory(rows * q, rows * w, 0 * rows * q, 0 * rows * q)
     there = Simulators(replace(problem, runs=(run,)), (part,))
@@ -117,7 +117,7 @@ def simulated_from(problem: Problem, state: State, part: Recording, q: Array, w:
 
 
 def every_effect_alone(found: Examination) -> list[tuple[str, float]]:
-    """Each effect whose sizes enter linearly, at the joints where it promises most, the most promising first."""
+    """Return each linear effect at the joints where it predicts most, the most promising first."""
     base, best = found.baseline, dict[str, tuple[str, float]]()
     for one in promises(found.judge, base.fit, base.found.lin.library):
         best.setdefault(one.hypothesis.effect, (one.hypothesis.label, one.gain))
@@ -134,7 +134,7 @@ def guess_with(found: Examination, best: Examined) -> tuple[str, float]:
 
 
 def ended_with(found: Examination, result: Diagnosis) -> Examined:
-    """The candidate that a diagnosis ended with."""
+    """Return the candidate with which a diagnosis ended."""
     key = {(cause.effect, cause.joints) for cause in result.causes}
     return next(one for one in (found.baseline, *found.others) if set(one.candidate.effects) == key)
 

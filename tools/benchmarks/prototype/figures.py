@@ -10,7 +10,7 @@ from tools.benchmarks.record import Figure, Record
 
 
 def record_of(account: Account) -> Record:
-    """How near simulations come to the measured run, and to its end, which no fit has seen."""
+    """Return the record of the errors of simulations for the measured run, and for its unseen end."""
     result, (run,) = account.diagnosis, account.diagnosis.recordings
     figures = [
         Figure(

@@ -1,4 +1,4 @@
-"""The same diagnosis again, in processes: readings a little different, and other kernels of linear algebra."""
+"""Repeat the diagnosis in other processes, with slightly different readings and other kernels of linear algebra."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def said(result: Diagnosis) -> Said:
 
 
 def kernel() -> str:
-    """What OpenBLAS calls the kernel that NumPy uses; empty where it does not tell."""
+    """Return OpenBLAS's name of the kernel that NumPy uses; empty if it is unknown."""
     for library in (Path(np.__file__).parents[1] / "numpy.libs").glob("libscipy_openblas64*"):
         name = ctypes.CDLL(str(library)).scipy_openblas_get_corename64_
         name.restype = ctypes.c_char_p
@@ -48,7 +48,7 @@ def kernel() -> str:
 
 
 def repeated(path: Path, wanted: str, *noise: float) -> Said:
-    """The diagnosis of a CSV file in a process of its own."""
+    """Diagnose a CSV file in a separate process."""
     environment = os.environ | ({"OPENBLAS_CORETYPE": wanted} if wanted else {})
     command = [sys.executable, "-m", "tools.benchmarks.prototype.stability", str(path), *map(str, noise)]
     done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, text=True, check=True)

@@ -1,1 +1,1 @@
-"""The thesis's published results of its dynamic model, made again: `make reproduction`."""
+"""Reproduction of the published results of the thesis's dynamic model: `make reproduction`."""

@@ -1,6 +1,6 @@
-"""`make reproduction`: the thesis's dynamic results made again, docs/reproduction.md and its pictures.
+"""`make reproduction`: reproduce the thesis's dynamic results; docs/reproduction.md and its pictures.
 
-Keeps its record and overwrites these files, unless `--out` names another folder.
+Writes its record and overwrites these files, unless `--out` names another folder.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from tools.one_line import in_one_line
 NOT_PRINTED = tuple(("center_of_mass", 1e-3 * mm) for mm in (13.5, 25.0)) + tuple(
     ("friction_slope", slope) for slope in (100.0, 1000.0)
 )
-"""Other values of what the thesis does not print: b2 and b1 of Table 1, and a third of k_v and three times it."""
+"""Alternatives to values that the thesis does not print: b2 and b1 of Table 1, and k_v divided and multiplied by 3."""
 
 
 def main() -> None:
@@ -57,7 +57,7 @@ def main() -> None:
 
 
 def record_of(release: Release) -> Record:
-    """How near Eq. 12 comes to the author's simulation of repetition 7, and to the measurement."""
+    """Return the record of the distances of Eq. 12 to the author's simulation and the measurement of repetition 7."""
     worst, over = release.distance(release.from_rest).max(), over_all(release.distance(release.thrown))
     ours, what = release.velocity_nrmse(release.thrown.theta), "repetition 7, Eq. 12"
     figures = (

@@ -18,12 +18,12 @@ FIRST_ROW = slice(0, 1)
 
 @dataclass(frozen=True)
 class Curvature:
-    """Bent by one cable.
+    """Comparison of an arm bent by one cable.
 
     Attributes:
-        pulled: the dynamic model at Fig. 10's bend, its cable having been taken in.
-        returning: the same where it was let out last.
-        simulated, measured: both models beside the first rows of repetition 7, as if measured at rest.
+        pulled: the dynamic model at Fig. 10's bend, after its cable was taken in.
+        returning: the same after the cable was let out.
+        simulated, measured: both models compared with the first rows of repetition 7, as if measured at rest.
     """
 
     pulled: HeldPosture
@@ -33,7 +33,7 @@ class Curvature:
 
 
 def compare_curvature(release: Release) -> Curvature:
-    """At Fig. 10's total bend, and at those from which repetition 7 was let go."""
+    """Compare at Fig. 10's total bend, and at the bends from which repetition 7 was released."""
     model = prototype()
     arm = RestingArm(model)
     pulled, returning = (held_posture(arm, TOTAL_BEND, None, approach) for approach in (1, -1))

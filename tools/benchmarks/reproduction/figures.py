@@ -14,7 +14,7 @@ _MEASURED, _PUBLISHED, _OURS = "0.55", "tab:orange", "tab:blue"
 
 
 def draw_release(release: Release, path: Path) -> None:
-    """Joint angles over time, and how far ours are from the author's."""
+    """Draw joint angles over time, and the differences between ours and the author's."""
     figure = Figure(figsize=(11.0, 8.0), layout="constrained")
     axes = figure.subplots(5, 2, sharex=True, sharey="col", width_ratios=[2, 1])
     times = release.published.times

@@ -1,4 +1,4 @@
-"""The page of the reproduction: its text, around figures that were computed just now."""
+"""The page of the reproduction: its text with newly computed figures."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ def page(release: Release, otherwise: Mapping[tuple[str, float], Release], curva
     """The whole page.
 
     Args:
-        release: of repetition 7.
-        otherwise: the same with another value, by the parameter and the value.
-        curvature: of the thesis's chapter 4.3.
+        release: release of repetition 7.
+        otherwise: the same with another value, by parameter and value.
+        curvature: comparison of the thesis's chapter 4.3.
     """
     rest, thrown = release.distance(release.from_rest), release.distance(release.thrown)
     n = rest.size
@@ -124,7 +124,7 @@ first measured row constant curvature is closer. The arm may already move in the
 
 
 def _row(what: str, one: Comparison, joints: str) -> str:
-    """Table and sentence of one first row."""
+    """Return table and sentence of one first row."""
     rows = (
         ("in the row", one.theta, "", ""),
         ("constant curvature", one.constant, *_distances(one.angles_to_constant, one.tip_to_constant)),
@@ -141,7 +141,7 @@ def _row(what: str, one: Comparison, joints: str) -> str:
 
 
 def _distances(angles: Distance, tip: Distance) -> tuple[str, str]:
-    """With their intervals of 95 %."""
+    """Return the distances with their 95 % intervals."""
     return (
         f"{np.degrees(angles.value):.2f} ({np.degrees(angles.low):.2f} to {np.degrees(angles.high):.2f})",
         f"{1e3 * tip.value:.0f} ({1e3 * tip.low:.0f} to {1e3 * tip.high:.0f})",

@@ -1,4 +1,4 @@
-"""The release of repetition 7: our solution of Eq. 12 beside the author's, and both beside the measurement."""
+"""The release of repetition 7: our solution of Eq. 12 compared with the author's, and both with the measurement."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ TABLE_4_POSITION, TABLE_4_VELOCITY = 0.58105, 0.63264  # the thesis's NRMSE of r
 
 @dataclass(frozen=True)
 class Release:
-    """What became of the release.
+    """Motions of the release.
 
     Attributes:
-        measured, published: the prototype, and the author's simulation.
-        from_rest: ours from the author's first row, at rest.
-        thrown: ours with the initial joint rates that bring it closest to the author's.
+        measured, published: measurement of the prototype, and the author's simulation.
+        from_rest: our simulation from the author's first row, at rest.
+        thrown: our simulation with the initial joint rates that minimise the distance to the author's.
     """
 
     measured: Recording
@@ -46,17 +46,17 @@ class Release:
         return nrmse(measured_rates(simulated), measured_rates(self.measured))
 
     def position_nrmse(self, theta: Array) -> float:
-        """The same of positions, which may not be how Table 4 normalised them."""
+        """The same for positions, which Table 4 may have normalised differently."""
         return nrmse(theta, self.measured.theta)
 
 
 def over_all(distance: Array) -> float:
-    """Root mean square over the joints too [deg]."""
+    """Return the root mean square over all joints [deg]."""
     return float(np.sqrt(np.mean(distance**2)))
 
 
 def prototype(**changed: float) -> Model:
-    """Tables 1 and 3, and what neither prints, or other values."""
+    """Return the model of Tables 1 and 3 with the unprinted values, or with changed values."""
     return load_model("lamecc_prototype.yaml").with_values(changed)
 
 

@@ -1,4 +1,4 @@
-"""`make seeded-faults`: put each fault of the list into a copy of the checkout, and tell which ones no test finds."""
+"""`make seeded-faults`: put each fault of the list into a copy of the checkout, and report those that no test finds."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ KILLED, SURVIVED, BROKEN = "killed", "survived", "broken entry"
 
 
 def main(arguments: list[str] | None = None, root: Path = ROOT, table: Path = TABLE) -> int:
-    """Try all faults; 1 where one survives, an entry is broken, or a test that found one fails without it too."""
+    """Try all faults; return 1 if one survives, an entry is broken, or a test that found one also fails without it."""
     parser = argparse.ArgumentParser(prog="make seeded-faults ARGS=...", description=__doc__)
     parser.add_argument("--only", default="", metavar="TEXT", help="faults in files whose path has this text")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="at a time; default %(default)s")
@@ -36,7 +36,7 @@ def main(arguments: list[str] | None = None, root: Path = ROOT, table: Path = TA
             copies.put(CopyOfCheckout(root, Path(folder, str(number))))
 
         def tried(fault: Fault) -> tuple[str, str]:
-            """Outcome, and the test that found it; tests further away run where the nearest ones find nothing."""
+            """Return the outcome and the test that found the fault; distant tests run if the nearest find nothing."""
             if problem := fault.problem(root):
                 return BROKEN, problem
             copy = copies.get()
@@ -63,7 +63,7 @@ def main(arguments: list[str] | None = None, root: Path = ROOT, table: Path = TA
 
 
 def record_of(outcomes: Sequence[tuple[Fault, str]]) -> Record:
-    """The part of the faults that is found, and which are not."""
+    """Return the record of the fraction of faults that is found, and of those that are not."""
     found, n = sum(outcome == KILLED for _, outcome in outcomes), len(outcomes)
     rows = [(outcome, fault.path, fault) for fault, outcome in outcomes if outcome != KILLED]
     figure = Figure("seeded faults that a test finds", 100 * found / n, "%", at_least=100, n=n)
@@ -73,7 +73,7 @@ def record_of(outcomes: Sequence[tuple[Fault, str]]) -> Record:
 
 
 def print_summary(outcomes: list[tuple[Fault, str]]) -> None:
-    """How many faults became what, by package."""
+    """Print the number of faults by outcome and package."""
     counts = Counter((name, outcome) for fault, outcome in outcomes for name in (fault.package, "all"))
     print(f"\n{'':<32}" + "".join(f"{outcome:>14}" for outcome in (KILLED, SURVIVED, BROKEN)))
     for name in [*sorted({fault.package for fault, _ in outcomes}), "all"]:

@@ -1,7 +1,7 @@
-"""A copy of the checkout in which tests run: nothing is edited that anyone else, or a node, may read meanwhile.
+"""A copy of the checkout in which tests run, so that files in use elsewhere are never edited.
 
-Source files keep their times, so that what numba and Python compiled is used again; a file with a fault has another
-time and another digest, and so has whatever is compiled from it. Environment and build are those of the checkout.
+Source files keep their times, so that compiled code of numba and Python is reused; a file with a fault has another time
+and another digest, and so has the code compiled from it. Environment and build are those of the checkout.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from tools.benchmarks.seeded_faults.table import Fault
 _LINKED = (".venv", "build", "install")
 _LEFT_OUT = shutil.ignore_patterns(*_LINKED, ".git", "log", "out", ".*_cache", ".hypothesis")
 _LONGEST = 900.0
-"""A test run that takes longer hangs [s]."""
+"""Time after which a test run counts as hanging [s]."""
 
 
 class CopyOfCheckout:
-    """The copy of ``root`` in ``place``, which is not there yet."""
+    """The copy of ``root`` in ``place``, which must not exist yet."""
 
     def __init__(self, root: Path, place: Path) -> None:
         self._root, self._place = root, place
@@ -34,7 +34,7 @@ class CopyOfCheckout:
             (place / name).symlink_to(root / name)
 
     def failures_with(self, fault: Fault, tests: Sequence[str]) -> list[str]:
-        """Ids of the tests that fail with the fault, the first of them alone; the file is as before afterwards."""
+        """Run tests with the fault until the first failure and return its id; the file is restored afterwards."""
         file = self._place / fault.path
         write_whole(file, file.read_text(encoding="utf-8").replace(fault.text, fault.instead))
         try:
@@ -43,13 +43,13 @@ class CopyOfCheckout:
             shutil.copy2(self._root / fault.path, file)
 
     def failures(self, tests: Sequence[str], *options: str) -> list[str]:
-        """Ids of the tests that fail; where they hang, or pytest itself fails, the files."""
+        """Return the ids of failing tests; if they hang or pytest fails, the files."""
         paths = os.environ.get("PYTHONPATH", "").split(os.pathsep)
         copied = [path.replace(f"{self._root}/build/", f"{self._place}/") for path in paths]
         environment = {
             **os.environ,
             "PYTHONPATH": os.pathsep.join([*copied, *paths]),
-            "PYTHONDONTWRITEBYTECODE": "1",  # that of a file of the same second and size would stand for the faulty one
+            "PYTHONDONTWRITEBYTECODE": "1",  # byte code of a file with equal time and size would replace the faulty one
         }
         cache = self._place / ".pytest_cache"
         shutil.rmtree(cache, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""The list of faults, `faults.toml`: by file, what stands there, what a fault makes of it, and who is to find it."""
+"""The list of faults, `faults.toml`: by file, the original text, its faulty replacement, and the tests to find it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault: ``text``, which stands once in the file ``path``, becomes ``instead``; the nearest test is first."""
+    """One fault: ``text``, which occurs once in the file ``path``, becomes ``instead``; the nearest test is first."""
 
     path: str
     text: str
@@ -18,12 +18,12 @@ class Fault:
 
     @property
     def package(self) -> str:
-        """The package, or the folder of the library or of the tools, that the file belongs to."""
+        """Package of the file, or its folder in the library or the tools."""
         parts = Path(self.path).parts[:-1]
         return "/".join(parts[1:3] if parts[:1] == ("continuum",) else parts[: 2 if parts[:1] == ("tools",) else 1])
 
     def problem(self, root: Path) -> str:
-        """Why the entry is of no use, in words; empty where it is of use."""
+        """Return why the entry is invalid; empty if it is valid."""
         missing = [name for name in (self.path, *self.tests) if not (root / name).exists()]
         if missing:
             return f"there is no {', '.join(missing)}"
@@ -35,6 +35,6 @@ class Fault:
 
 
 def read_faults(table: Path) -> list[Fault]:
-    """All faults of the table."""
+    """Read all faults of the table."""
     files = tomllib.loads(table.read_text(encoding="utf-8"))["file"]
     return [Fault(one["path"], *pair, tests=tuple(one["tests"])) for one in files for pair in one["faults"]]

@@ -1,1 +1,1 @@
-"""What the viewer costs, and what it costs others."""
+"""Processor load of the viewer, and its effect on other nodes."""

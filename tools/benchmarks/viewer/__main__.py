@@ -1,6 +1,6 @@
 """`make bench-viewer`: processor time of the viewer, and latency of other nodes with and without it.
 
-The record of the whole run is kept, and shown in docs/viewer.md; that of a run with options changed is printed alone.
+The record of a complete run is written and shown in docs/viewer.md; that of a run with changed options is only printed.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from tools.one_line import in_one_line
 
 SECTIONS = (1, 3, 10)
 LISTENERS = 3
-"""Section nodes whose answers are timed; ten of them keep two cores busy by themselves."""
+"""Number of section nodes whose answers are timed; ten of them would use two cores completely."""
 
 
 def main() -> None:
@@ -55,7 +55,7 @@ class Latencies:
 
 
 def record_of(loads: Mapping[tuple[int, bool], Load], latencies: Latencies) -> Record:
-    """Of the viewer's loads by sections and whether somebody looks, and of the latency of others."""
+    """Return the record of the viewer's loads by sections and with or without a client, and of others' latencies."""
     medians = {name: np.median(getattr(latencies, name), axis=0) for name in ("without", "viewed")}
     change = 100 * (medians["viewed"][1] / medians["without"][1] - 1)
     figures = (
@@ -83,7 +83,7 @@ def record_of(loads: Mapping[tuple[int, bool], Load], latencies: Latencies) -> R
 
 
 def processor_time(domain: int, seconds: float) -> dict[tuple[int, bool], Load]:
-    """By sections, with somebody who looks and without."""
+    """Return the loads by sections, with and without a client."""
     loads = {}
     for n in SECTIONS:
         with arm_on_disk(n) as (arm, file), moving(arm, domain) as arm_in_motion:
@@ -94,7 +94,7 @@ def processor_time(domain: int, seconds: float) -> dict[tuple[int, bool], Load]:
 
 
 def others(domain: int, seconds: float, turns: int) -> Latencies:
-    """Latency of section nodes with and without a viewer, in turn."""
+    """Measure the latency of section nodes alternately with and without a viewer."""
     found: dict[bool, list[tuple[float, float]]] = {True: [], False: []}
     with arm_on_disk(10) as (arm, file), ExitStack() as held:
         names = range(1, LISTENERS + 1)
@@ -130,7 +130,7 @@ def others(domain: int, seconds: float, turns: int) -> Latencies:
 
 @contextmanager
 def arm_on_disk(n_sections: int) -> Iterator[tuple[Arm, Path]]:
-    """An arm of so many sections, and its parameter file."""
+    """Return an arm with ``n_sections`` sections, and its parameter file."""
     arm = default_arm(n_sections)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "arm.yaml"
@@ -141,7 +141,7 @@ def arm_on_disk(n_sections: int) -> Iterator[tuple[Arm, Path]]:
 
 @contextmanager
 def moving(arm: Arm, domain: int) -> Iterator[MovingArm]:
-    """The arm in motion."""
+    """Run the moving arm during the block."""
     arm_in_motion = MovingArm(arm, domain)
     with arm_in_motion.probe:
         yield arm_in_motion

@@ -1,6 +1,6 @@
-"""``python3 -m tools.benchmarks.viewer.looker ADDRESS``: takes all that a page sends, as a browser, but draws nothing.
+"""``python3 -m tools.benchmarks.viewer.looker ADDRESS``: receives all data of a page like a browser, without drawing.
 
-A browser in software would need more of the processor than all that is measured.
+A browser with software rendering would need more processor time than everything that is measured.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ CAMERA = {
     "near": 0.01, "far": 100.0, "image_height": 600, "image_width": 800, "look_at": (0.0, 0.0, 0.0),
     "up_direction": (0.0, 0.0, 1.0),
 }  # fmt: skip
-"""What a browser says first."""
+"""First message of a browser."""
 
 
 def main() -> None:
-    """Take what comes until the page ends."""
+    """Receive data until the page ends."""
     address = sys.argv[1].replace("http", "ws")
     protocol = Subprotocol(f"viser-v{viser.__version__}")
     with connect(address, subprotocols=[protocol], compression=None, max_size=None) as socket:

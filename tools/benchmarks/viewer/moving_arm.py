@@ -1,4 +1,4 @@
-"""An arm that moves all the time, in messages of one rate: joints, cables with tensions, and targets of the tip."""
+"""Messages of a continuously moving arm at one rate: joints, cables with tensions, and targets of the tip."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from continuum_manipulator.nodekit.stamps import nanoseconds
 from continuum_msgs.msg import CableStates
 
 RATE = 120.0
-"""Messages a second on each topic [Hz]."""
+"""Messages per second on each topic [Hz]."""
 
 _POSTURES = 240
 
 
 class MovingArm:
-    """Publishes, and measures how long a section's answer to joint states takes.
+    """Publishes messages, and measures the latency of a section's answers to joint states.
 
     Args:
         arm: the arm.
@@ -45,7 +45,7 @@ class MovingArm:
         self._number = 0
 
     def run(self, duration: float) -> None:
-        """Go on for so long [s]."""
+        """Move for a ``duration`` [s]."""
         begin = time.monotonic()
         for k in range(int(duration * RATE)):
             due = begin + k / RATE
@@ -71,7 +71,7 @@ class MovingArm:
 
 
 def _way(n_sections: int) -> list[np.ndarray]:
-    """Postures (n_sections, 2) [rad] round in a circle."""
+    """Return postures (n_sections, 2) [rad] on a closed loop."""
     turns = 2 * np.pi * np.arange(_POSTURES) / _POSTURES
     sections = np.arange(n_sections)
     return [0.4 * np.stack([np.sin(turn + sections), np.cos(2 * turn + sections)], axis=1) for turn in turns]

@@ -1,4 +1,4 @@
-"""The viewer as a process, somebody who looks, and the processor time that it takes."""
+"""The viewer as a process, with a client, and its processor time."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from tools.benchmarks.link.processes import core_share, usage
 from tools.benchmarks.viewer.moving_arm import MovingArm
 
 SETTLING = 5.0
-"""Time given to a viewer that has just started, and to who looks at it [s]."""
+"""Time for a viewer and its client to start [s]."""
 
 
 @dataclass(frozen=True)
 class Load:
-    """Of one process over a time.
+    """Load of one process over a time.
 
     Attributes:
-        core: share of one core.
-        frames: a second [Hz].
+        core: fraction of one core.
+        frames: frames per second [Hz].
     """
 
     core: float
@@ -33,7 +33,7 @@ class Load:
 
 @contextmanager
 def viewer(arm_file: Path, moving: MovingArm, domain: int, looked_at: bool = True) -> Iterator[NodeProcess]:
-    """A viewer on a free port; the arm moves on meanwhile."""
+    """Run a viewer on a free port while the arm moves."""
     node = NodeProcess("continuum_manipulator", "viewer", domain, files=(arm_file,), parameters={"port": 0})
     with ended_in_any_case(node):
         moving.probe.wait_for_report("viewer")
@@ -52,7 +52,7 @@ def viewer(arm_file: Path, moving: MovingArm, domain: int, looked_at: bool = Tru
 
 
 def measured_load(node: NodeProcess, moving: MovingArm, duration: float) -> Load:
-    """Of the viewer while the arm moves for so long [s]."""
+    """Return the load of the viewer while the arm moves for a ``duration`` [s]."""
     moving.probe.wait_for_report("viewer")
     frames, before = moving.probe.count("viewer", "frames"), usage(node.process.pid)
     moving.run(duration)

@@ -1,4 +1,4 @@
 """`make bench-demo`: a bench is calibrated, pulled and released next to a simulated arm, recorded, and diagnosed.
 
-The bench is emulated, its arm with one joint that is too tight, unless `--port` names a real one.
+Without `--port` for a real bench, the bench is emulated, and its arm has one joint that is too tight.
 """

@@ -1,4 +1,4 @@
-"""The command line of the demo, and its course from the first start to the diagnosis."""
+"""The command line of the demo, and its sequence from the start to the diagnosis."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ RESULTS = (*(run.name for run in RUNS), "nodes.log", "recorder.log", "arm.yaml",
 
 
 HIDDEN, JOINT, RATIO = "joint_friction", 2, 2.0
-"""Effect hidden in the emulated arm: viscous and Coulomb friction of one joint, from 1, larger by so many times."""
+"""Effect hidden in the emulated arm: joint, from 1, and relative increase of its viscous and Coulomb friction."""
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the demo; returns 0 if all of it was done, 1 if not."""
+    """Run the demo; return 0 if all of it was completed, 1 if not."""
     parser = argparse.ArgumentParser(prog="make bench-demo ARGS=...", description=tools.demo.bench.__doc__)
-    parser.add_argument("--port", default="", help="serial port of a real bench; without, one is emulated")
+    parser.add_argument("--port", default="", help="serial port of a real bench; default: an emulated one")
     parser.add_argument("--out", type=Path, default=Path("out/bench_demo"), metavar="FOLDER",
                         help="default: %(default)s")  # fmt: skip
     parser.add_argument("--no-diagnosis", action="store_true", help="end with the recordings")
@@ -60,10 +60,10 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def record_runs(port: str, out: Path) -> None:
-    """Calibrate, pull and release, and leave a recording of each run in ``out``.
+    """Calibrate, pull and release, and write a recording of each run to ``out``.
 
     Raises:
-        ContinuumError: a node died, or did not do what it was asked.
+        ContinuumError: a node died, or did not carry out a request.
     """
     with domain_for_demo() as domain, claimed(out, RESULTS):
         log_file = out / "nodes.log"
@@ -84,7 +84,7 @@ def record_runs(port: str, out: Path) -> None:
 
 
 def diagnosed(out: Path) -> int:
-    """Run `continuum diagnose` on the recordings; returns 0 whatever it finds."""
+    """Run `continuum diagnose` on the recordings; return 0 for any verdict."""
     files = ["--json", out / "verdict.json", "--report", out / "diagnosis.html", "--extended", out / "better.yaml"]
     words = ["diagnose", *(out / run.name for run in RUNS), *files]
     print(f"continuum {' '.join(str(word) for word in words)}", flush=True)
@@ -93,7 +93,7 @@ def diagnosed(out: Path) -> int:
 
 
 def _launch_command(port: str, out: Path) -> list[str]:
-    """Bridge and simulated arm, and without a port an emulated bench whose arm has the hidden effect."""
+    """Return the launch command of bridge and simulated arm, and without a port of an emulated bench."""
     words = ["ros2", "launch", "continuum_hw_imu", "bench.launch.xml", "simulated:=true"]
     words.append(f"calibration:={out / 'sensors.yaml'}")
     if port:
@@ -109,7 +109,7 @@ def _launch_command(port: str, out: Path) -> list[str]:
 
 
 def with_hidden_effect(model: Model) -> Model:
-    """The model with one joint that is too tight."""
+    """Return the model with one joint that is too tight."""
     at_joint = RATIO * (np.arange(model.n_joints) == JOINT - 1)
     effect = ActiveEffect(effect_named(HIDDEN), {"viscous": at_joint, "coulomb": at_joint})
     return replace(model, effects=(*model.effects, effect))
@@ -143,7 +143,7 @@ def recorder(folder: Path, domain: int, conductor: Conductor) -> Iterator[None]:
     """Record the run's topics into ``folder`` during the block.
 
     Raises:
-        DemoError: it does not begin.
+        DemoError: the recorder does not start.
     """
     log_file = folder.parent / "recorder.log"
     topics = ", ".join(TOPICS)

@@ -1,4 +1,4 @@
-"""Who commands the nodes of the demo: services, tensions over time, and what they answer."""
+"""Commands to the nodes of the demo: services and tensions over time, with their answers."""
 
 from __future__ import annotations
 
@@ -26,23 +26,23 @@ from tools.demo.bench.runs import Run
 from tools.demo.errors import DemoError
 
 PERIOD = 1 / 60
-"""Between two tension commands [s]."""
+"""Time between two tension commands [s]."""
 
 PATIENCE = 30.0
-"""For a node, an answer or a message [s]."""
+"""Longest wait for a node, an answer or a message [s]."""
 
 STATES = {"measured": "joint_states", "simulated": "simulated/joint_states"}
 
 
 class Conductor:
-    """As a context it ends with its node.
+    """Commander of the demo; a context manager that closes its node.
 
     Args:
         domain: ROS domain.
-        check: called while it waits; what it raises ends the wait.
+        check: function called while waiting; its exceptions end the wait.
 
     Attributes:
-        received: joint states since they were last cleared, as (stamp [ns], joint angles (n,) [rad]), by `STATES`.
+        received: joint states since the last clearing, as (stamp [ns], joint angles (n,) [rad]), by `STATES`.
     """
 
     def __init__(self, domain: int, check: Callable[[], None]) -> None:
@@ -66,10 +66,10 @@ class Conductor:
         rclpy.try_shutdown(context=self._context)
 
     def wait_until(self, condition: Callable[[], object], what: str) -> None:
-        """Listen until ``condition`` holds.
+        """Process messages until ``condition`` holds.
 
         Raises:
-            DemoError: it does not within `PATIENCE`.
+            DemoError: it does not hold within `PATIENCE`.
         """
         deadline = time.monotonic() + PATIENCE
         while not condition():
@@ -79,21 +79,21 @@ class Conductor:
             self._executor.spin_once(timeout_sec=0.05)
 
     def listen(self, duration: float) -> None:
-        """Listen for so long [s]."""
+        """Process messages for a ``duration`` [s]."""
         end = time.monotonic() + duration
         self.wait_until(lambda: time.monotonic() >= end, "the clock")
 
     def wait_for_states(self) -> None:
-        """Until both arms say how they are."""
+        """Wait for joint states of both arms."""
         for received in self.received.values():
             received.clear()
         self.wait_until(lambda: all(self.received.values()), "joint states of both arms")
 
     def trigger(self, service: str, patient: bool = False) -> str:
-        """What a service answered; ``patient``, it is asked again until it does its work.
+        """Call a service and return its answer; if ``patient``, repeat the call until it succeeds.
 
         Raises:
-            DemoError: it did not.
+            DemoError: the service failed.
         """
         deadline = time.monotonic() + PATIENCE
         while True:
@@ -105,7 +105,7 @@ class Conductor:
             self.listen(0.3)
 
     def activate(self) -> None:
-        """Let tension through to the bench, unless it is: it lets go of a bridge that a busy machine keeps silent.
+        """Activate the bridge unless it is active; the bench ends the claim of a bridge that was silent for too long.
 
         Raises:
             DemoError: the bridge refuses.
@@ -118,13 +118,13 @@ class Conductor:
             raise DemoError("bench_bridge cannot be activated")
 
     def place_simulated_arm(self) -> None:
-        """Into the posture that the bench's arm has, at rest."""
+        """Place the simulated arm at rest in the posture of the bench's arm."""
         self.wait_for_states()
         posture = self.received["measured"][-1][1]
         self._call(ResetArm, "simulated/dynamics/reset", ResetArm.Request(position=posture.tolist()))
 
     def carry_out(self, run: Run) -> None:
-        """Pull as a run says, release both arms where it does, and wait until it is over."""
+        """Pull as specified by a run, release both arms if the run does, and wait for its end."""
         begin = time.monotonic()
         while (t := time.monotonic() - begin) < run.pulled:
             self._command(run.pull(t))
@@ -159,7 +159,7 @@ class Conductor:
 
 
 def side_by_side(received: dict[str, list[tuple[int, Array]]]) -> tuple[Array, Array, Array]:
-    """Times since the first measured (n,) [s], angles measured and simulated at them, (n, n_joints) each [rad]."""
+    """Return times since the first measurement (n,) [s], measured and simulated angles, (n, n_joints) each [rad]."""
     measured, simulated = (received[name] for name in ("measured", "simulated"))
     stamps, known = (np.array([stamp for stamp, _ in arm]) for arm in (measured, simulated))
     table = np.array([angles for _, angles in simulated])

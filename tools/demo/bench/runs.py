@@ -1,4 +1,4 @@
-"""The runs of the demo: tensions over time, and when all cables are released."""
+"""The runs of the demo: tensions over time and the release of all cables."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ class Run:
     """One recording.
 
     Attributes:
-        name: of its folder.
-        pull: tension of each cable [N] at a time since the run began [s].
-        pulled: for how long it is pulled [s].
-        released: all tension then drops at once; otherwise `pull` ends slack.
-        after: for how long it is recorded further [s].
+        name: name of its folder.
+        pull: function from the time since the start of the run [s] to the tension of each cable [N].
+        pulled: duration of the pull [s].
+        released: whether all tension then drops at once; otherwise `pull` ends slack.
+        after: duration of the recording after the pull [s].
     """
 
     name: str
@@ -30,7 +30,7 @@ class Run:
 
 
 def ramp(tension: float, cable: int, over: float) -> Callable[[float], Array]:
-    """One cable pulled up to ``tension`` [N] within ``over`` [s], and held."""
+    """Return a pull of one cable that rises to ``tension`` [N] within ``over`` [s], and holds it."""
 
     def pull(t: float) -> Array:
         tensions = np.zeros(2)
@@ -41,7 +41,7 @@ def ramp(tension: float, cable: int, over: float) -> Callable[[float], Array]:
 
 
 def profile(t: float) -> Array:
-    """To and fro, ever further: each cable in its turn, by half a sine of 1.5 s; highest 18 N after 6 s."""
+    """Return alternating pulls of growing size: half sines of 1.5 s on each cable in turn, up to 18 N after 6 s."""
     swing = np.sin(np.pi * t / 1.5)
     highest = 6.0 + 12.0 * min(t / 6.0, 1.0)
     return highest * np.maximum([swing, -swing], 0.0)
@@ -54,4 +54,4 @@ RUNS = (
 )
 
 BEND = Run("bend", lambda t: np.array([15.0 * np.sin(np.pi * min(t, 3.0) / 3.0) ** 2, 0.0]), 3.0, False, 1.5)
-"""Towards cable 1 and back, which shows the sensors' axes."""
+"""Bend towards cable 1 and back, which determines the sensors' axes."""

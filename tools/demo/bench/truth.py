@@ -1,4 +1,4 @@
-"""How far the bridge's angles were from the emulated arm's."""
+"""Errors of the bridge's angles relative to those of the emulated arm."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ from continuum_manipulator.nodekit.two_clocks import read_together
 
 
 def error_of_angles(received: list[tuple[int, Array]], truth_file: Path) -> Array:
-    """Published less true joint angles, (n, n_joints) [rad]; ``received`` as (stamp [ns], angles (n_joints,) [rad])."""
+    """Return published minus true joint angles, (n, n_joints) [rad].
+
+    ``received`` holds pairs of stamp [ns] and angles (n_joints,) [rad].
+    """
     truth = read_truth(truth_file)
     instant, now = read_together(time.monotonic, time.time_ns)
     since = instant - now / NANOSECONDS  # from ROS time to the truth file's clock
@@ -24,5 +27,5 @@ def error_of_angles(received: list[tuple[int, Array]], truth_file: Path) -> Arra
 
 
 def rms_degrees(difference: Array) -> float:
-    """Root mean square of angles [rad], in degrees."""
+    """Return the root mean square of angles [rad], in degrees."""
     return float(np.degrees(np.sqrt(np.mean(difference**2))))

@@ -12,7 +12,7 @@ from tools.docs.api.reference import modules_of, write_reference
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Write the pages; 1 where a link leads nowhere or a page loads something from elsewhere."""
+    """Write the pages; return 1 if a link is broken or a page loads an external resource."""
     parser = argparse.ArgumentParser(prog="make api ARGS=...", description=__doc__)
     parser.add_argument("--package", default="continuum", metavar="NAME", help="default: %(default)s")
     parser.add_argument("--out", type=Path, default=Path("out/api"), metavar="FOLDER", help="default: %(default)s")

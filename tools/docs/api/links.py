@@ -1,4 +1,4 @@
-"""Check of HTML pages: what they link to in their own folder is there, and they load nothing from elsewhere."""
+"""Check HTML pages for broken links within their folder and for external resources."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _LOADING = {"src", "srcset", "poster", "data"}
 
 
 class _Page(HTMLParser):
-    """What one page names: anchors that it has, links that a reader may follow, addresses that a browser loads."""
+    """Anchors of one page, links that a reader may follow, and addresses that a browser loads."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -37,7 +37,7 @@ class _Page(HTMLParser):
             elif name == "style":
                 self.loaded.update(_LOADED_BY_STYLE.findall(value))
 
-    def handle_endtag(self, tag: str) -> None:  # noqa: ARG002  (of any: styles hold no tags)
+    def handle_endtag(self, tag: str) -> None:  # noqa: ARG002  (any tag: styles contain no tags)
         self._in_style = False
 
     def handle_data(self, data: str) -> None:
@@ -46,7 +46,7 @@ class _Page(HTMLParser):
 
 
 def problems(folder: Path) -> list[str]:
-    """One line for every link within ``folder`` that leads nowhere, and for every address that a page loads."""
+    """Return one line for every broken link within ``folder``, and for every address that a page loads."""
     pages = {path.resolve(): _Page(path.read_text(encoding="utf-8")) for path in sorted(folder.rglob("*.html"))}
     found = []
     for path, page in pages.items():

@@ -13,10 +13,10 @@ import pdoc.render
 
 
 def modules_of(package: str) -> list[str]:
-    """Dotted names of a package and of all modules in it, also where an ``__all__`` above names their contents alone.
+    """Return the dotted names of a package and all its modules, including those that an ``__all__`` does not list.
 
     Raises:
-        ModuleNotFoundError: no such package.
+        ModuleNotFoundError: the package does not exist.
     """
     found = importlib.util.find_spec(package)
     if found is None or found.submodule_search_locations is None:
@@ -26,11 +26,11 @@ def modules_of(package: str) -> list[str]:
 
 
 def write_reference(modules: Iterable[str], folder: Path) -> None:
-    """Write a page for each module, an index and a search into ``folder``; the pages load nothing from elsewhere."""
+    """Write a page for each module, an index and a search to ``folder``; the pages load no external resources."""
     pdoc.render.configure(docformat="google", footer_text="continuum", search=True, show_source=True)
     with warnings.catch_warnings():
-        # constructors that dataclass and NamedTuple generate name types that their module imports for itself
+        # generated constructors of dataclass and NamedTuple refer to types that only their modules import
         warnings.filterwarnings("ignore", r"Error parsing type annotation", UserWarning)
-        # every module is named, and so are packages, which are walked: pages are made once all the same
+        # every module is given explicitly and found in its package again; each page is written once nevertheless
         warnings.filterwarnings("ignore", r"The module specification .* has already been added", UserWarning)
         pdoc.pdoc(*modules, output_directory=folder)

@@ -1,4 +1,4 @@
-"""`make equations`: look up what the rows name, and write docs/equations.md.
+"""`make equations`: look up the names in the rows, and write docs/equations.md.
 
 Overwrites this file, which is under version control, unless `--out` names another.
 """

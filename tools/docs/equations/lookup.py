@@ -1,4 +1,4 @@
-"""What the rows name is looked up where it is defined: the library, the command's parser, Makefile, packages, tests."""
+"""Look up the names in the rows where they are defined: library, the command's parser, Makefile, packages, tests."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 
 class RowError(ContinuumError):
-    """A row names something that is not there, or nothing."""
+    """A row contains a name that does not exist, or no name."""
 
     def __init__(self, row: Row, problem: str) -> None:
         super().__init__(f"{row.number}: {problem}")
@@ -30,7 +30,7 @@ def check_rows(rows: Iterable[Row], root: Path = ROOT) -> None:
     """Look up every name and every test.
 
     Raises:
-        RowError: one is not there, or a row has none and does not say why.
+        RowError: a name does not exist, or a row has no name and no reason.
     """
     for row in rows:
         if not (row.names and row.tests) and not row.reason:
@@ -42,7 +42,7 @@ def check_rows(rows: Iterable[Row], root: Path = ROOT) -> None:
 
 
 def problem_of_name(name: str, root: Path = ROOT) -> str:
-    """Why a name is of no use, in words; empty where it names something."""
+    """Describe why a name is invalid; empty if it exists."""
     match name.split():
         case ["continuum", *words] if words:
             found = _has_command(tuple(words))
@@ -62,13 +62,13 @@ def problem_of_name(name: str, root: Path = ROOT) -> str:
 
 
 def problem_of_test(test: str, root: Path = ROOT) -> str:
-    """Why a test is of no use, in words; empty where pytest would run it."""
+    """Describe why a test is invalid; empty if pytest would run it."""
     path, _, function = test.partition("::")
     return "" if function in _tests(root / path) else f"there is no test `{test}`"
 
 
 def _is_defined(dotted: str) -> bool:
-    """Whether it is a function, class or constant; a module alone says too little."""
+    """Return whether the name is a function, class or constant; a module alone is too unspecific."""
     try:
         return not inspect.ismodule(pkgutil.resolve_name(dotted))
     except (ImportError, AttributeError):
@@ -77,7 +77,7 @@ def _is_defined(dotted: str) -> bool:
 
 @cache
 def _has_command(words: tuple[str, ...]) -> bool:
-    """Whether the parser of `continuum` shows the usage of just this command."""
+    """Return whether the parser of `continuum` shows the usage of exactly this command."""
     out = io.StringIO()
     with redirect_stdout(out), redirect_stderr(io.StringIO()):
         try:
@@ -89,7 +89,7 @@ def _has_command(words: tuple[str, ...]) -> bool:
 
 @cache
 def _executables(setup: Path) -> frozenset[str]:
-    """Names of the console scripts of a package's setup.py."""
+    """Return the names of the console scripts of a package's setup.py."""
     pairs = [node for node in ast.walk(ast.parse(_text(setup))) if isinstance(node, ast.Dict)]
     scripts = [
         value
@@ -102,7 +102,7 @@ def _executables(setup: Path) -> frozenset[str]:
 
 @cache
 def _tests(path: Path) -> frozenset[str]:
-    """Names of the test functions of a module; none where pytest would not look."""
+    """Return the names of the test functions of a module; empty if pytest would not collect it."""
     if not re.fullmatch(r"test_\w+\.py", path.name):
         return frozenset()
     body = ast.parse(_text(path)).body
@@ -110,5 +110,5 @@ def _tests(path: Path) -> frozenset[str]:
 
 
 def _text(path: Path) -> str:
-    """Empty where there is no such file."""
+    """Return the text of a file; empty if it does not exist."""
     return path.read_text(encoding="utf-8") if path.is_file() else ""

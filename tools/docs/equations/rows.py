@@ -14,11 +14,11 @@ class Row:
     """One equation, table or figure.
 
     Attributes:
-        number: as the thesis numbers it, "Eq. 9", "Table 3" or "Figure 14".
-        what: what it is.
-        names: functions, classes, commands, launch files or other files that are its counterpart here.
+        number: number in the thesis, "Eq. 9", "Table 3" or "Figure 14".
+        what: description.
+        names: functions, classes, commands, launch files or other files that implement it.
         tests: tests that cover it, `path::name`.
-        reason: why there are no names, or no tests; empty where there are both.
+        reason: reason for missing names or tests; empty if there are both.
     """
 
     number: str
@@ -29,11 +29,11 @@ class Row:
 
     @property
     def kind(self) -> str:
-        """Its number without the number: "Eq.", "Table" or "Figure"."""
+        """Kind of the row: "Eq.", "Table" or "Figure"."""
         return self.number.partition(" ")[0]
 
 
 def read_rows(path: Path = ROWS) -> list[Row]:
-    """All rows of a table."""
+    """Read all rows of a file."""
     entries = tomllib.loads(path.read_text(encoding="utf-8"))["row"]
     return [Row(**{key: tuple(x) if isinstance(x, list) else x for key, x in entry.items()}) for entry in entries]

@@ -1,1 +1,1 @@
-"""`make figures`: the pictures of README.md that no page's own command makes."""
+"""`make figures`: the pictures of README.md that no other command generates."""

@@ -21,7 +21,7 @@ from tools.one_line import in_one_line
 type Draw = Callable[[ArmRecording, Path], None]
 
 PICTURES: dict[str, Draw] = {"helix.png": draw_arm, "cables.png": write_cable_figure}
-"""What draws each picture from the run."""
+"""Functions that draw each picture from the run."""
 
 
 def main() -> None:

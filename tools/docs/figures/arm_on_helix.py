@@ -1,4 +1,4 @@
-"""The arm on its way along the helix: discs, cables coloured as in the thesis's Fig. 14, and where the tip has been."""
+"""The arm on the helix: discs, cables coloured as in the thesis's Fig. 14, and the path of the tip."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tools.docs.figures.posture import backbone, discs
 
 _NOW = 0.8
 _BEFORE = (0.25, 0.55)
-"""Where on the run the arm is shown, and by its backbone alone before that, 0 to 1."""
+"""Fractions of the run, 0 to 1, at which the arm is drawn, and before that only its backbone."""
 
 _MM = 1e3
 

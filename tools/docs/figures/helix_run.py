@@ -1,4 +1,4 @@
-"""The helix of thesis 4.1 followed without ROS: what `make demo` records, from the same library and parameter files."""
+"""The helix of thesis 4.1 without ROS: the data of `make demo`, from the same library and parameter files."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ HELIX = ROOT / "trajectory_generator" / "config" / "helix.yaml"
 
 
 def helix_run() -> ArmRecording:
-    """Let the arm follow the trajectory at its own rate; what the nodes would have recorded.
+    """Let the arm follow the trajectory at its rate, and return the recording that the nodes would produce.
 
     Raises:
-        ContinuumError: a file is not right.
+        ContinuumError: a file is invalid.
     """
     arm, parameters = load_arm(ARM), flattened(read_parameter_file(HELIX))
     trajectory = trajectory_from_mapping(parameters)

@@ -1,4 +1,4 @@
-"""The picture of the front page: what the demo's search finds."""
+"""The picture of the front page: the result of the demo's search."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tools.docs.small_png import shrink
 
 
 def draw_hidden_effect(path: Path) -> None:
-    """Let the demo's effect be found, and keep its picture."""
+    """Find the demo's effect, and write its picture."""
     with tempfile.TemporaryDirectory() as folder:
         find_hidden_effect(SEED, Path(folder))
         write_whole(path, (Path(folder) / "hidden_effect.png").read_bytes())

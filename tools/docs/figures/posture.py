@@ -12,7 +12,7 @@ from continuum.kinematics.cables import hole_points
 from continuum.kinematics.chain import section_bases
 
 _RIM = np.linspace(0.0, 2.0 * np.pi, 33)
-_WIDER = 1.2  # a disc's rim beside the radius of its holes
+_WIDER = 1.2  # ratio of the radius of a disc's rim to that of its holes
 
 
 def backbone(w: Array, arm: Arm) -> Array:
@@ -26,7 +26,7 @@ def discs(w: Array, arm: Arm) -> Array:
 
 
 def _rings(w: Array, arm: Arm, wide: float) -> Iterator[Array]:
-    """For each section, circles round its discs (n_joints + 1, n_rim, 3) [m], ``wide`` times as wide as its holes."""
+    """Yield for each section circles (n_joints + 1, n_rim, 3) [m] on its discs, ``wide`` times as wide as its holes."""
     for section, bent, rotation, origin in zip(arm.sections, w, *section_bases(w, arm), strict=True):
         holes = hole_points(bent, section, np.full(_RIM.size, wide * section.a), _RIM)
         yield np.swapaxes(holes, 0, 1) @ rotation.T + origin

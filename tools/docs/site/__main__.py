@@ -17,7 +17,7 @@ CONFIGURATION = Path(__file__).with_name("mkdocs.yml")
 
 
 def main() -> int:
-    """Assemble the source, build the site; 1 where a page, a link or a heading that is linked is missing."""
+    """Assemble the source and build the site; return 1 if a page, a link or a linked heading is missing."""
     logging.basicConfig(level=logging.WARNING, format="docs: %(message)s")
     assemble(OUT / "source")
     try:

@@ -1,4 +1,4 @@
-"""The folder that the site is built from: pages of docs/, front page, examples, and the reference of the library."""
+"""The source folder of the site: pages of docs/, front page, examples, and the reference of the library."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ KINDS = ("Tutorials", "How-to guides", "Reference", "Explanation")
 """Headings of docs/README.md, whose tables are the navigation."""
 
 GENERATED = {ROOT / "README.md": "start.md", ROOT / "examples": "examples.md"}
-"""What is outside of docs/ and has a page in the site."""
+"""Files outside of docs/ that have a page in the site."""
 
 REFERENCE = "api/index.html"
 _BESIDES = {"Tutorials": [{"First steps": "start.md"}], "Reference": [{"The library's modules": REFERENCE}]}
-"""Entries of the navigation that the index has no row for."""
+"""Entries of the navigation without a row in the index."""
 
 type Navigation = list[dict[str, str | list[dict[str, str]]]]
 _LINK = re.compile(r"(?<!!)\[([^\]]*)\]\(([^)\s]+)\)")
@@ -27,7 +27,7 @@ _PICTURE = re.compile(r"(!\[[^\]]*\]\()([^)\s]+)\)")
 
 
 def assemble(folder: Path) -> None:
-    """Fill a folder, which is made again, with all that the site shows."""
+    """Recreate a folder and fill it with the content of the site."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(DOCS, folder)
     for page in folder.glob("*.md"):
@@ -39,7 +39,7 @@ def assemble(folder: Path) -> None:
 
 
 def navigation() -> Navigation:
-    """The tables of docs/README.md by heading, each page by its own title."""
+    """Return the tables of docs/README.md by heading, with the title of each page."""
     index = (DOCS / "README.md").read_text(encoding="utf-8")
     found: Navigation = [{"Pages": "README.md"}]
     for kind in KINDS:
@@ -50,7 +50,7 @@ def navigation() -> Navigation:
 
 
 def examples() -> str:
-    """A page with every script of examples/, whole."""
+    """Return a page with the complete scripts of examples/."""
     parts = ["# Examples", "Scripts to copy and change. Run them from the checkout, after `source install/setup.bash`."]
     for script in sorted((ROOT / "examples").glob("*.py")):
         parts += [f"## {script.stem.replace('_', ' ')}", f"`examples/{script.name}`"]
@@ -59,11 +59,11 @@ def examples() -> str:
 
 
 def within_site(text: str, folder: Path) -> str:
-    """A page's text, its links relative to the site; a link to a file that the site lacks becomes the file's name.
+    """Return a page's text with links relative to the site; links to files outside the site become their names.
 
     Args:
         text: Markdown.
-        folder: in which the page stands in the checkout.
+        folder: folder of the page in the checkout.
     """
 
     def link(found: re.Match[str]) -> str:
@@ -84,7 +84,7 @@ def within_site(text: str, folder: Path) -> str:
 
 
 def _within(address: str, folder: Path) -> str | None:
-    """Where the site has what an address of a page in ``folder`` leads to; None where it has not."""
+    """Return the place in the site of an address in a page of ``folder``; None if the site does not contain it."""
     path = (folder / address).resolve()
     if path in GENERATED:
         return GENERATED[path]
@@ -92,7 +92,7 @@ def _within(address: str, folder: Path) -> str | None:
 
 
 def _title(page: str) -> str:
-    """A page's first heading."""
+    """Return a page's first heading."""
     text = examples() if page in GENERATED.values() else (DOCS / page).read_text(encoding="utf-8")
     heading = re.search(r"^# (.+)$", text, re.MULTILINE)
     return heading[1] if heading else page

@@ -1,4 +1,4 @@
-"""Recordings (rosbag2 folders, MCAP or SQLite) opened by ``rosbags``, with errors in one line."""
+"""Open recordings (rosbag2 folders, MCAP or SQLite) by ``rosbags``, with one-line errors."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from ros2_standin.errors import UserError
 
 @contextmanager
 def open_bag(path: Path) -> Iterator[Reader]:
-    """The open recording.
+    """Open a recording.
 
     Args:
         path: the rosbag2 folder, or one storage file of it.
 
     Raises:
-        UserError: there is none, or it cannot be read.
+        UserError: the recording does not exist or cannot be read.
     """
     try:
         with Reader(path) as reader:

@@ -26,7 +26,7 @@ def info_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def info_verb(args: argparse.Namespace) -> None:
-    """Print what a recording holds."""
+    """Print a summary of a recording."""
     with open_bag(args.bag_path) as reader:
         if args.topic_name:
             print("\n".join(sorted(reader.topics)))
@@ -35,7 +35,7 @@ def info_verb(args: argparse.Namespace) -> None:
 
 
 def bag_text(path: Path, reader: Reader) -> str:
-    """What an open recording holds, in the stock tool's lines."""
+    """Return the summary of an open recording in the format of the stock tool."""
     files = sorted(file for file in (path.iterdir() if path.is_dir() else [path]) if file.suffix in _STORAGE)
     # The reader's interval is half open: one nanosecond more than from the first message to the last.
     duration, end = (reader.duration - 1, reader.end_time - 1) if reader.message_count else (0, 0)

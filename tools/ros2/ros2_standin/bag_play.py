@@ -1,4 +1,4 @@
-"""``ros2 bag play``: the recorded bytes again, with the recorded quality of service and intervals."""
+"""``ros2 bag play``: publish the recorded bytes with the recorded quality of service and intervals."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ros2_standin.interface_types import message_class
 from ros2_standin.session import Session, nonnegative_float, open_session, positive_float
 
 _ACKNOWLEDGED = Duration(seconds=2)
-"""Longest wait at the end for reliable readers to have heard the last messages."""
+"""Longest wait at the end for reliable readers to receive the last messages [s]."""
 
 _DEFAULT_DEPTH = 100
 _UNLIMITED_DEPTH = 1000
@@ -60,7 +60,7 @@ def play_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def play_verb(args: argparse.Namespace) -> None:
-    """Play once, or over and over."""
+    """Play once or repeatedly."""
     for rule in args.remap:
         args.ros_args += ["--ros-args", "-r", rule]
     with open_bag(args.bag_path) as reader, open_session(args, "rosbag2_player") as session:
@@ -92,7 +92,7 @@ def _report(text: str) -> None:
 
 
 def playing_text(path: Path, connections: Iterable[Connection], duration: int) -> str:
-    """What is going to be played, topic by topic; ``duration`` [ns] of the bag."""
+    """Return a description of the played topics; ``duration`` [ns] of the bag."""
     topics = sorted((connection.topic, connection.msgcount) for connection in connections)
     lines = [f"playing '{path}': {max(duration, 0) / 1e9:.1f} s, {len(topics)} topics; recorded messages of each:"]
     return "\n".join([*lines, *(f"{count:>8}  {topic}" for topic, count in topics)])
@@ -102,7 +102,7 @@ def _play(session: Session, messages: Iterable[tuple[int, Publisher, object]], f
     """Publish each message when its time has come; times of the bag in ns, ``rate`` of bag over wall time.
 
     Returns:
-        How many messages of the bag, those of ``/clock`` left out.
+        Number of messages of the bag, without those of ``/clock``.
     """
     begin = time.monotonic()
     count = 0
@@ -119,7 +119,7 @@ def _play(session: Session, messages: Iterable[tuple[int, Publisher, object]], f
 def with_clock(
     messages: Iterable[tuple[int, Publisher, bytes]], clock: Publisher, first: int, last: int, period: float
 ) -> Iterator[tuple[int, Publisher, object]]:
-    """The messages with the ticks of ``/clock`` between them, from ``first`` to ``last`` [ns], every ``period`` [s]."""
+    """Yield the messages interleaved with ticks of ``/clock`` from ``first`` to ``last`` [ns], every ``period`` [s]."""
     step = max(1, round(period * 1e9))
     tick = first
 
@@ -156,7 +156,7 @@ def _wanted(args: argparse.Namespace, reader: Reader) -> list[Connection]:
 
 
 def _absolute(topic: str) -> str:
-    """A topic's name from the root; older recorders wrote relative ones."""
+    """Return a topic's absolute name; older recorders wrote relative ones."""
     return topic if topic.startswith("/") else f"/{topic}"
 
 
@@ -166,9 +166,9 @@ def _publisher(node: Node, connection: Connection) -> Publisher:
 
 
 def recorded_qos(offered: list[Qos]) -> QoSProfile:
-    """One profile to offer for what several publishers offered: as strict as the strictest, so that all readers match.
+    """Return one profile for several recorded publishers: as strict as the strictest, so that all readers match.
 
-    Where nothing was recorded it is reliable, volatile, keep last.
+    Without a recorded profile it is reliable, volatile, keep last.
     """
     profile = QoSProfile(depth=_DEFAULT_DEPTH)
     if offered:

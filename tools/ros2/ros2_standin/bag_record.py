@@ -1,4 +1,4 @@
-"""``ros2 bag record``: hands over to the workspace's own recorder node, which writes rosbag2."""
+"""``ros2 bag record``: start the workspace's recorder node, which writes rosbag2."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def record_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def record_verb(args: argparse.Namespace) -> None:
-    """Become the recorder; an interrupt ends the recording well."""
+    """Become the recorder; an interrupt ends the recording normally."""
     topics = [*args.topics, *args.more_topics]
     if bool(topics) == args.all:
         raise UserError("[ERROR] [ros2bag]: Must specify only one option out of --all and a list of topics")
@@ -46,6 +46,6 @@ def record_verb(args: argparse.Namespace) -> None:
 
 
 def _flow(value: object) -> str:
-    """A parameter's value in one line of YAML, texts always quoted."""
+    """Return a parameter's value in one line of YAML, with texts always quoted."""
     text = yaml.safe_dump(value, default_flow_style=True, default_style='"' if isinstance(value, str) else None)
     return text.removesuffix("\n").removesuffix("\n...")

@@ -1,4 +1,4 @@
-"""Command line: finds the verb, imports its module, runs it, and turns errors and signals into exit codes."""
+"""Command line: find the verb, import its module, run it, and convert errors and signals to exit codes."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from ros2_standin.commands import COMMANDS, Family, Verb
 from ros2_standin.errors import UserError
 
 NOTE = (
-    "This is not the stock ros2: it is a small stand-in that this workspace's set-up carries for machines without a "
+    "This is not the stock ros2, but a small stand-in that this workspace's set-up provides for machines without a "
     "ROS 2 installation. It covers run, launch (XML, in part Python), topic, node, param, service, lifecycle, "
-    "interface, bag (rosbag2, MCAP) and pkg, in the stock grammar. Where a stock ros2 is on the PATH, that one is used."
+    "interface, bag (rosbag2, MCAP) and pkg, in the stock grammar. A stock ros2 on the PATH has precedence."
 )
 
 
@@ -41,7 +41,7 @@ def main(argv: Sequence[str]) -> int:
     except KeyboardInterrupt:
         return int(signal.SIGINT)
     except BrokenPipeError:
-        # The reader of our output has gone, as in `ros2 topic echo ... | head`.
+        # The reader of the output has closed it, as in `ros2 topic echo ... | head`.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
 
@@ -51,7 +51,7 @@ def _terminate(signum: int, _frame: FrameType | None) -> None:
 
 
 def find_verb(argv: Sequence[str]) -> Verb | None:
-    """The verb that ``argv`` names, None where it names none (help, or a mistake that the parser will report)."""
+    """Return the verb in ``argv``; None without a verb (help, or a mistake that the parser will report)."""
     command = COMMANDS.get(argv[0]) if argv else None
     if isinstance(command, Family):
         return command.verbs.get(argv[1]) if len(argv) > 1 else None
@@ -59,7 +59,7 @@ def find_verb(argv: Sequence[str]) -> Verb | None:
 
 
 def split_ros_args(argv: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Part a command line into its own arguments and the ``--ros-args ... [--]`` ones, flags included."""
+    """Split a command line into the verb's arguments and the ``--ros-args ... [--]`` ones, flags included."""
     own: list[str] = []
     ros_args: list[str] = []
     inside = False
@@ -76,7 +76,7 @@ def split_ros_args(argv: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def build_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
-    """Parser of the whole command, with arguments only for the one verb that ``argv`` names."""
+    """Return the parser of the whole command, with arguments only for the verb in ``argv``."""
     parser = argparse.ArgumentParser(
         prog="ros2",
         description=f"ros2 (stand-in of this workspace). {NOTE}",
@@ -99,7 +99,7 @@ def build_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
 
 
 def _add_choices(parser: argparse.ArgumentParser, metavar: str) -> argparse._SubParsersAction:
-    """Sub-parsers; naming none of them prints the help and ends well."""
+    """Add sub-parsers; without a choice, the command prints the help and ends normally."""
 
     def show_help(_args: argparse.Namespace) -> int:
         parser.print_help()

@@ -8,14 +8,14 @@ from types import MappingProxyType
 
 @dataclass(frozen=True)
 class Verb:
-    """What one verb does, and where.
+    """One verb and its module.
 
     Attributes:
         summary: one line of help.
-        module: module below ``ros2_standin`` that has the two functions.
+        module: module below ``ros2_standin`` that contains the two functions.
         name: ``<name>_arguments(parser)`` and ``<name>_verb(args) -> int | None`` are the two functions.
-        passes_arguments: everything after the positional arguments belongs to the program that is started, so
-            ``--ros-args`` is left alone.
+        passes_arguments: whether everything after the positional arguments belongs to the started program, including
+            ``--ros-args``.
     """
 
     summary: str

@@ -1,6 +1,6 @@
-"""Signals that end the command, heard also where a library loses what their handlers raise.
+"""Signals that end the command, even if a library loses the exceptions of their handlers.
 
-rclpy hands messages over in C++: an interrupt that comes meanwhile is raised there, and comes out as another error.
+rclpy passes messages in C++: an interrupt during this time is raised there and becomes another error.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from types import FrameType
 
 @contextmanager
 def ends_are_received() -> Iterator[Callable[[], None]]:
-    """Note the SIGINT and SIGTERM that come; gives what raises once more what the handler of the last one raised.
+    """Record SIGINT and SIGTERM; yield a function that raises the exception of the last handler again.
 
-    A signal that no handler of Python's takes is left alone.
+    Signals without a Python handler are not changed.
     """
     came: list[int] = []
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}

@@ -1,4 +1,4 @@
-"""Plain data (as YAML gives it) into the fields of a message."""
+"""Convert plain data (from YAML) to the fields of a message."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ros2_standin.errors import UserError
 from ros2_standin.interface_types import message_class
 
 Stamper = Callable[[object], None]
-"""Writes a time message (``builtin_interfaces/Time``) into the field that asked for it."""
+"""Function that writes a time message (``builtin_interfaces/Time``) to a field with ``now`` or ``auto``."""
 
 _ARRAY = re.compile(r"(?P<item>[^\[]+)\[(?P<size>\d+)\]")
 _SEQUENCE = re.compile(r"sequence<(?P<item>[^,]+)(,\s*(?P<bound>\d+))?>")
@@ -30,7 +30,7 @@ def fill_message(message: object, values: object, where: str = "") -> list[Stamp
         where: name of the message within the whole one, for errors.
 
     Raises:
-        UserError: an unknown field, or a value that does not fit; it names the field and what is allowed.
+        UserError: a field is unknown or a value is not allowed; the message names the field and the allowed values.
     """
     fields: dict[str, str] = message.get_fields_and_field_types()
     if values is None:
@@ -55,7 +55,7 @@ def fill_message(message: object, values: object, where: str = "") -> list[Stamp
 
 
 def convert(kind: str, value: object, label: str, stampers: list[Stamper]) -> object:
-    """``value`` as a field of type ``kind`` (in rosidl's notation) takes it; raises UserError if it does not fit."""
+    """Convert ``value`` for a field of type ``kind`` (in rosidl's notation); raise UserError if this is impossible."""
     if match := _ARRAY.fullmatch(kind):
         size = int(match["size"])
         items = _items(match["item"], value, label, stampers)

@@ -15,11 +15,11 @@ _Dumper = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 
 @dataclass(frozen=True)
 class Shortening:
-    """What is left out of a message's text.
+    """Shortening of a message's text.
 
     Attributes:
-        longest: lists and texts are cut after this many items; None never cuts.
-        no_arrays, no_strings: say only the type and length of lists, or texts.
+        longest: lists and texts are truncated after this many items; None never truncates.
+        no_arrays, no_strings: whether only the type and length of lists, or texts, are printed.
     """
 
     longest: int | None = None
@@ -66,7 +66,7 @@ def yaml_text(value: object, flow: bool = False) -> str:
 
 
 def csv_text(value: object) -> str:
-    """Plain data as one line: every value there is, in order, parted by commas."""
+    """Return plain data as one line: all values in order, separated by commas."""
     return ",".join(_leaves(value))
 
 
@@ -82,10 +82,10 @@ def _leaves(value: object) -> Iterator[str]:
 
 
 def pick(message: object, path: Sequence[str]) -> object:
-    """The part of a message that a dotted name (already split) tells.
+    """Return the part of a message with a dotted name (already split).
 
     Raises:
-        UserError: no such field.
+        UserError: the field does not exist.
     """
     for i, name in enumerate(path):
         if not hasattr(message, "get_fields_and_field_types") or name not in message.get_fields_and_field_types():

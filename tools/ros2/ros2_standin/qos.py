@@ -1,4 +1,4 @@
-"""Quality of service: the stock options, and profiles that fit the publishers that are there."""
+"""Quality of service: the stock options, and profiles that match the existing publishers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from rclpy.qos import (
 from ros2_standin.session import nonnegative_float, nonnegative_int
 
 _BURST = 200
-"""Messages that a subscription holds back for a busy reader."""
+"""Number of messages that a subscription keeps for a busy reader."""
 
 _KINDS = {
     "reliability": QoSReliabilityPolicy,
@@ -31,7 +31,7 @@ _KINDS = {
 
 
 def add_qos_arguments(parser: argparse.ArgumentParser, verb: str, preset: str) -> None:
-    """The options ``--qos-*``, which go over the preset."""
+    """Add the options ``--qos-*``, which override the preset."""
     parser.add_argument(
         "--qos-profile",
         choices=QoSPresetProfiles.short_keys(),
@@ -52,7 +52,7 @@ def add_qos_arguments(parser: argparse.ArgumentParser, verb: str, preset: str) -
 
 
 def qos_from_arguments(args: argparse.Namespace) -> QoSProfile:
-    """The preset with what the ``--qos-*`` options say over it."""
+    """Return the preset with the overrides of the ``--qos-*`` options."""
     profile = copy(QoSPresetProfiles.get_from_short_key(args.qos_profile or args.qos_preset))
     if args.qos_depth is not None:
         profile.depth = args.qos_depth
@@ -65,7 +65,7 @@ def qos_from_arguments(args: argparse.Namespace) -> QoSProfile:
 
 
 def qos_for_subscribing(args: argparse.Namespace, node: Node, topic: str) -> QoSProfile:
-    """As ``qos_from_arguments``; what was not asked for follows the topic's publishers, with room for bursts."""
+    """As ``qos_from_arguments``, but unspecified policies match the topic's publishers, with depth for bursts."""
     profile = qos_from_arguments(args)
     if args.qos_depth is None:
         profile.depth = max(profile.depth, _BURST)
@@ -80,7 +80,7 @@ def qos_for_subscribing(args: argparse.Namespace, node: Node, topic: str) -> QoS
 
 
 def compatible(offered: Sequence[QoSProfile]) -> tuple[QoSReliabilityPolicy, QoSDurabilityPolicy]:
-    """The strictest request that every one of the ``offered`` (at least one) profiles can serve."""
+    """Return the strictest request that all ``offered`` profiles (at least one) satisfy."""
     reliable = all(profile.reliability == QoSReliabilityPolicy.RELIABLE for profile in offered)
     lasting = all(profile.durability == QoSDurabilityPolicy.TRANSIENT_LOCAL for profile in offered)
     return (

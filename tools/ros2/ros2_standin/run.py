@@ -1,4 +1,4 @@
-"""``ros2 run``: the stand-in's process becomes the program, so signals and exit code are the program's own."""
+"""``ros2 run``: the stand-in's process becomes the program, so that signals and exit code are those of the program."""
 
 from __future__ import annotations
 

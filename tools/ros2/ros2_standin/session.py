@@ -1,4 +1,4 @@
-"""A short-lived node of the command, with the waiting that every verb needs."""
+"""A short-lived node of the command, with the waiting functions of the verbs."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from ros2_standin.end_signals import ends_are_received
 from ros2_standin.errors import UserError
 
 _POLL = 0.05
-"""Longest time between two looks at the graph, or at a pending interrupt [s]."""
+"""Longest time between two checks of the graph or of a pending interrupt [s]."""
 
 _SETTLED = 0.5
-"""A graph that has not changed for this long counts as known [s]."""
+"""Time without a change after which the graph counts as known [s]."""
 
 
 class Session:
-    """A node and its executor, spun by hand so that an interrupt is heard at once.
+    """A node and its executor, spun explicitly so that an interrupt takes effect at once.
 
     Attributes:
-        node: the command's own node; its name begins with ``_``, so it is hidden.
+        node: the command's node; its name starts with ``_``, so that it is hidden.
         spin_time: longest time that discovery may take [s].
     """
 
@@ -38,7 +38,7 @@ class Session:
         self._executor = executor
 
     def spin_until(self, done: Callable[[], bool], timeout: float | None = None) -> bool:
-        """Serve callbacks until ``done()``; False if ``timeout`` [s] passed before (None waits for ever)."""
+        """Serve callbacks until ``done()``; return False after ``timeout`` [s] (None waits forever)."""
         deadline = None if timeout is None else time.monotonic() + timeout
         while not done():
             if deadline is not None and time.monotonic() >= deadline:
@@ -58,9 +58,9 @@ class Session:
         self.spin_until(lambda: False, duration)
 
     def discover(self, wanted: Callable[[], bool] | None = None) -> None:
-        """Wait until the graph is known: others were seen (``wanted()``, where given) and nothing new came for a while.
+        """Wait until the graph is known: ``wanted()`` holds if given, and the graph has not changed for some time.
 
-        Never longer than ``spin_time``.
+        The wait is never longer than ``spin_time``.
         """
         seen: object = None
         since = time.monotonic()
@@ -76,10 +76,10 @@ class Session:
         self.spin_until(settled, self.spin_time)
 
     def result(self, future: Future, timeout: float | None, what: str) -> object:
-        """The future's result.
+        """Return the future's result.
 
         Raises:
-            UserError: it did not come within ``timeout`` [s].
+            UserError: it did not arrive within ``timeout`` [s].
         """
         if not self.spin_until(future.done, timeout):
             raise UserError(f"No answer from {what} within {timeout:g} s")
@@ -88,7 +88,7 @@ class Session:
 
 @contextmanager
 def open_session(args: argparse.Namespace, name: str | None = None, use_sim_time: bool = False) -> Iterator[Session]:
-    """A session that ends with the block.
+    """Open a session that ends with the block.
 
     Args:
         args: parsed command line: ``ros_args`` and, where the verb has it, ``spin_time``.
@@ -100,7 +100,7 @@ def open_session(args: argparse.Namespace, name: str | None = None, use_sim_time
     """
     parameters = [rclpy.Parameter("use_sim_time", value=True)] if use_sim_time else []
     try:
-        # Python's own handlers stay: an interrupt is a KeyboardInterrupt, and cli.main knows its exit code.
+        # Python's handlers remain: an interrupt is a KeyboardInterrupt, and cli.main returns its exit code.
         rclpy.init(args=args.ros_args, signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node(
             name or f"_ros2cli_{os.getpid()}", start_parameter_services=False, parameter_overrides=parameters

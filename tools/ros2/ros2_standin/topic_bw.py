@@ -17,18 +17,18 @@ class Bandwidth:
     """Bytes over time of the newest messages.
 
     Args:
-        window: how many messages count.
+        window: number of messages that count.
     """
 
     def __init__(self, window: int) -> None:
         self._messages: deque[tuple[float, int]] = deque(maxlen=window)
 
     def arrive(self, instant: float, size: int) -> None:
-        """A message of ``size`` [bytes] came at ``instant`` [s]."""
+        """Record the arrival of a message of ``size`` [bytes] at ``instant`` [s]."""
         self._messages.append((instant, size))
 
     def text(self, now: float) -> str | None:
-        """Bandwidth from the oldest message that counts to ``now`` [s]; None before the second message."""
+        """Return the bandwidth from the oldest counted message to ``now`` [s]; None before the second message."""
         if len(self._messages) < 2:
             return None
         sizes = [size for _, size in self._messages]

@@ -1,4 +1,4 @@
-"""``ros2 topic list|info|type|find``: what the graph says about topics."""
+"""``ros2 topic list|info|type|find``: topics in the ROS graph."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def find_topic_types(session: Session, topic: str) -> list[str]:
 
 
 def wait_for_topic(session: Session, topic: str) -> None:
-    """Wait until the topic is there, however long that takes; warn where discovery does not find it."""
+    """Wait without limit until the topic exists; warn if discovery does not find it."""
     if not find_topic_types(session, topic):
         print(f"WARNING: topic [{topic}] does not appear to be published yet", flush=True)
         full = session.node.resolve_topic_name(topic)
@@ -108,7 +108,7 @@ def info_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def info_verb(args: argparse.Namespace) -> None:
-    """Print type and ends of one topic."""
+    """Print type and endpoints of one topic."""
     with open_session(args) as session:
         node = session.node
         full = node.resolve_topic_name(args.topic_name)

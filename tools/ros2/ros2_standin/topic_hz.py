@@ -19,7 +19,7 @@ class ArrivalRate:
     """Statistics of the times between messages.
 
     Args:
-        window: how many intervals count, the newest ones.
+        window: number of the newest intervals that count.
     """
 
     def __init__(self, window: int) -> None:
@@ -27,7 +27,7 @@ class ArrivalRate:
         self._last: float | None = None
 
     def arrive(self, instant: float) -> None:
-        """A message came at ``instant`` [s]."""
+        """Record the arrival of a message at ``instant`` [s]."""
         if self._last is not None:
             self._intervals.append(instant - self._last)
         self._last = instant
@@ -48,7 +48,7 @@ class ArrivalRate:
 
 @contextmanager
 def raw_messages(session: Session, args: argparse.Namespace, arrive: Callable[[bytes], None]) -> Iterator[None]:
-    """Hand serialized messages of the topic to ``arrive``; waits for a topic that is not there yet."""
+    """Pass serialised messages of the topic to ``arrive``; wait for a topic that does not exist yet."""
     wait_for_topic(session, args.topic_name)
     message_type = message_class(the_topic_type(session, args.topic_name))
     qos = qos_for_subscribing(args, session.node, session.node.resolve_topic_name(args.topic_name))

@@ -1,1 +1,1 @@
-"""A browser for the tests of the viewer, kept in out/browser: nothing is installed on the machine itself."""
+"""A browser for the tests of the viewer, in out/browser: nothing is installed on the machine."""

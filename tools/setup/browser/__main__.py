@@ -1,4 +1,4 @@
-"""``python3 -m tools.setup.browser``: fetch what is missing, say what is there or why it is not; always succeed."""
+"""``python3 -m tools.setup.browser``: fetch missing parts and report what is available; always succeed."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from tools.setup.browser.debian_chromium import NoChromiumError, fetch
 from tools.setup.browser.place import EXTRA, Chromium, chromium, environment
 
 PATIENCE = 60.0
-"""For a program to say its version [s]."""
+"""Longest wait for the version of a program [s]."""
 
 
 def main() -> int:
-    """Fetch Chromium unless there is one, and tell where it and Playwright are."""
+    """Fetch Chromium unless there is one, and print the places of Chromium and Playwright."""
     program = chromium()
     if program is None:
         try:
@@ -31,7 +31,7 @@ def main() -> int:
 
 
 def version(program: Chromium) -> str:
-    """As the program tells it."""
+    """Return the version that the program prints."""
     try:
         done = subprocess.run(
             [program.path, "--version"], capture_output=True, text=True, timeout=PATIENCE, env=environment(program)

@@ -1,4 +1,4 @@
-"""Debian's Chromium with the libraries that this machine lacks, unpacked into a folder, without root."""
+"""Debian's Chromium with the libraries that this machine lacks, unpacked to a folder without root permissions."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from tools.setup.browser.place import FOLDER, ROOT, chromium
 
 PACKAGE = "chromium"
 PATIENCE = 900.0
-"""For one step of apt-get [s]."""
+"""Longest duration of one step of apt-get [s]."""
 
 STATUS = Path("/var/lib/dpkg/status")
-"""What is installed on the machine."""
+"""Database of the packages installed on the machine."""
 
 
 class NoChromiumError(Exception):
-    """Chromium cannot be had here; the message says why."""
+    """Chromium is not available here; the message gives the reason."""
 
 
 def fetch() -> None:
-    """Download and unpack what the machine has not already.
+    """Download and unpack the packages that the machine lacks.
 
     Raises:
-        NoChromiumError: no Debian, no network, or no such package.
+        NoChromiumError: this is not Debian, there is no network, or the package does not exist.
     """
     if not (shutil.which("apt-get") and shutil.which("dpkg") and STATUS.is_file()):
         raise NoChromiumError("this is no Debian: no apt-get, no dpkg")
@@ -32,7 +32,7 @@ def fetch() -> None:
     for part in ("lists/partial", "archives/partial"):
         (state / part).mkdir(parents=True, exist_ok=True)
     settings = {
-        "APT::Sandbox::User": "root",  # only root may change who it is; for others this says nothing
+        "APT::Sandbox::User": "root",  # only root can change its user; for others this has no effect
         "Debug::NoLocking": "1",
         "Dir::State": str(state),
         "Dir::State::lists": str(state / "lists"),

@@ -1,4 +1,4 @@
-"""Where the browser and what drives it are."""
+"""Places of the browser and of its driver."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ ROOT = FOLDER / "root"
 
 @dataclass(frozen=True)
 class Chromium:
-    """A program.
+    """A Chromium program.
 
     Attributes:
-        path: of the program.
+        path: path of the program.
         libraries: folders of shared libraries that it needs and the machine may lack.
     """
 
@@ -29,7 +29,7 @@ class Chromium:
 
 
 def chromium() -> Chromium | None:
-    """The machine's own, or the one that was fetched; None where there is none."""
+    """Return the machine's Chromium, or the fetched one; None if there is neither."""
     for name in ("chromium", "chromium-browser", "google-chrome"):
         found = shutil.which(name)
         if found:
@@ -41,6 +41,6 @@ def chromium() -> Chromium | None:
 
 
 def environment(program: Chromium) -> dict[str, str]:
-    """In which the program finds its libraries."""
+    """Return the environment in which the program finds its libraries."""
     libraries = os.pathsep.join(map(str, program.libraries))
     return dict(os.environ) | ({"LD_LIBRARY_PATH": libraries} if libraries else {})

@@ -1,1 +1,1 @@
-"""The workspace with the versions of Ubuntu 24.04: set up a second time below out/, and tried."""
+"""Check of the workspace with the versions of Ubuntu 24.04, in a second checkout below out/."""

@@ -1,4 +1,4 @@
-"""``make check-old``: set the workspace up with old versions and try it; the exit code is 1 where something fails."""
+"""``make check-old``: set up the workspace with old versions and test it; the exit code is 1 if something fails."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from tools.setup.check_old.steps import STEPS, Step
 from tools.setup.environment import clean_environment
 
 _LOG = "out/check_old.log"
-_TAIL = 25  # lines of a step that failed
+_TAIL = 25  # printed lines of a failed step
 
 
 def main() -> int:

@@ -13,12 +13,12 @@ from tools.setup.layout import LOCK, OLD_LOCK, ROOT
 FOLDER = ROOT / "out" / "check_old"
 
 MADE = {".git", ".venv", "build", "install", "log", "out", ".mypy_cache", ".pytest_cache", ".ruff_cache", ".hypothesis"}
-"""Folders of a checkout that hold what was made there."""
+"""Folders of a checkout with generated files."""
 COMPILED = "__pycache__"
 
 
 def bring_up_to_date(source: Path = ROOT, target: Path = FOLDER) -> None:
-    """Copy what differs and remove what is gone, so that what was made there before stays of use."""
+    """Copy changed files and remove deleted ones, so that earlier build results remain usable."""
     wanted = {*_files(source)}
     for gone in {*_files(target)} - wanted:
         (target / gone).unlink()
@@ -31,7 +31,7 @@ def bring_up_to_date(source: Path = ROOT, target: Path = FOLDER) -> None:
 
 
 def _files(root: Path) -> Iterator[Path]:
-    """Files of a checkout, seen from its root, without those that were made there."""
+    """Yield the files of a checkout relative to its root, without generated ones."""
     for folder, names, files in os.walk(root):
         here = Path(folder).relative_to(root)
         names[:] = [name for name in names if name != COMPILED and not (here == Path() and name in MADE)]

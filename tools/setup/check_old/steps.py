@@ -1,4 +1,4 @@
-"""What is tried with the old versions, each by a command."""
+"""Steps that are tested with the old versions, one command each."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ class Step:
     """One line of the result.
 
     Attributes:
-        title: what is tried.
-        command: of bash, run in the second checkout.
-        codes: exit codes that are no failure.
+        title: subject of the step.
+        command: bash command that runs in the second checkout.
+        codes: exit codes that do not count as a failure.
     """
 
     title: str
