@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from continuum.inertial.calibration import load_calibration
+from continuum.inertial.calibration_values import load_calibration
 from continuum.recordings.recording_bag import read_recording_bag
 from tools.demo.bench.command import main
 from tools.demo.bench.runs import RUNS

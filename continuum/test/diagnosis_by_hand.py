@@ -10,7 +10,7 @@ from dynamics_laws import prototype_model
 
 from continuum.arrays import Array
 from continuum.discovery.decision import Kind, Verdict
-from continuum.discovery.fitted import OpenLoop
+from continuum.discovery.fit_result import OpenLoop
 from continuum.discovery.result import Cause, Detectable, Diagnosis, Share
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.identification.estimate import Estimate

@@ -16,8 +16,8 @@ from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.inertial.angle_estimator import AngleEstimate, AngleEstimator
-from continuum.inertial.calibration import Calibration
-from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.calibration import CalibrationSteps
+from continuum.inertial.calibration_values import Calibration
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 

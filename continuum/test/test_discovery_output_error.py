@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Linearised, linearise, point_of

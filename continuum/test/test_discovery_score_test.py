@@ -11,7 +11,7 @@ import pytest
 
 from continuum.discovery.baseline import fitted_baseline, problem_of
 from continuum.discovery.decision import is_worth
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.power import powers
 from continuum.discovery.problem import linearise

@@ -9,16 +9,9 @@ from dynamics_laws import moving, prototype_model, random_parameters
 
 from continuum.arm import Section
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.cable_tension import (
-    SIDES,
-    cable_torque,
-    chord_jacobian,
-    chord_lengths,
-    serial_jacobian,
-    serial_jacobian_transposed_times,
-    tension_propagation,
-    wrap_angles,
-)
+from continuum.dynamics.planar.cable_lengths import SIDES, chord_jacobian, chord_lengths
+from continuum.dynamics.planar.cable_torque import cable_torque, serial_jacobian, serial_jacobian_transposed_times
+from continuum.dynamics.planar.capstan_law import tension_propagation, wrap_angles
 from continuum.kinematics.cables import cable_lengths
 from continuum.kinematics.configuration import allen_from_jones
 

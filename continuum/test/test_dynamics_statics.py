@@ -20,7 +20,8 @@ from effects_laws import effect_of
 
 from continuum.dynamics.balance import balance
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cable_tension import cable_torque, chord_jacobian, chord_lengths
+from continuum.dynamics.planar.cable_lengths import chord_jacobian, chord_lengths
+from continuum.dynamics.planar.cable_torque import cable_torque
 from continuum.dynamics.planar.rigid_body import gravity_potential, gravity_torque
 from continuum.dynamics.planar.springs_and_friction import spring_potential, spring_torque
 from continuum.dynamics.simulator import Simulator

@@ -4,14 +4,9 @@ import numpy as np
 import pytest
 from dynamics_laws import prototype_model
 
-from continuum.dynamics.planar.cable_tension import (
-    SIDES,
-    chord_jacobian,
-    link_wrenches,
-    serial_jacobian,
-    tension_propagation,
-    turned,
-)
+from continuum.dynamics.planar.cable_lengths import SIDES, chord_jacobian
+from continuum.dynamics.planar.cable_torque import link_wrenches, serial_jacobian, turned
+from continuum.dynamics.planar.capstan_law import tension_propagation
 from continuum.dynamics.planar.springs_and_friction import joint_friction
 
 P = prototype_model().with_values({"capstan_friction": 0.2}).parameters

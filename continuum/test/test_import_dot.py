@@ -20,7 +20,7 @@ from inertial_arm import (
     write_exports,
 )
 
-from continuum.inertial.calibration import load_calibration, save_calibration
+from continuum.inertial.calibration_values import load_calibration, save_calibration
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.inclination import inclination
 from continuum.recordings.recording_csv import read_recording_csv

@@ -12,8 +12,8 @@ from inertial_arm import DEG, RELEASE, REST, N, SensorModel, any_rotation, pull_
 from continuum.arrays import Array
 from continuum.errors import FileError, InvalidValueError, MeasurementError
 from continuum.inertial.at_rest import bias_at_rest
-from continuum.inertial.calibration import Calibration, load_calibration, save_calibration
-from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.calibration import CalibrationSteps
+from continuum.inertial.calibration_values import Calibration, load_calibration, save_calibration
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.inclination import inclination, turned
 from continuum.inertial.rotation_axis import axes_of_motion

@@ -10,7 +10,7 @@ from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.live.live_arm import INTEGRATORS, LiveArm
 from continuum.dynamics.live.stepper import Interval
 from continuum.dynamics.model_file import load_model
-from continuum.dynamics.planar.cable_tension import SIDES, chord_lengths
+from continuum.dynamics.planar.cable_lengths import SIDES, chord_lengths
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus

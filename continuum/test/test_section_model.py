@@ -18,7 +18,7 @@ from continuum.dynamics.commented_arm import commented_arm
 from continuum.dynamics.model import InputKind
 from continuum.dynamics.model_file import load_model, model_from_mapping
 from continuum.dynamics.parameters import PARAMETERS
-from continuum.dynamics.planar.cable_tension import cable_lengths as planar_cable_lengths
+from continuum.dynamics.planar.cable_lengths import cable_lengths as planar_cable_lengths
 from continuum.errors import FileError, InvalidValueError
 from continuum.kinematics.cables import cable_lengths
 from continuum.kinematics.configuration import allen_from_jones

@@ -1,4 +1,4 @@
-"""Who is let in by the page's address, and what is heard of what browsers say: all else is counted, to no effect."""
+"""Which browsers and messages the page admits; everything else is counted and has no effect."""
 
 import contextlib
 import time

@@ -26,7 +26,7 @@ BENT = np.array([[0.2, 0.1], [0.3, -0.1]])
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """A run beside a simulated arm that stands still; tensions are told now and then; two messages changed places."""
+    """A run with a simulated arm at rest; tensions are published now and then; two messages are out of order."""
     topics = runs.run()
     topics[SIMULATED] = [runs.joint_state(stamp, BENT) for stamp in runs.STAMPS]
     names, tensions = list(runs.ARM.cable_names), np.arange(1.0, 1.0 + len(runs.ARM.cable_names))

@@ -14,7 +14,7 @@ from ament_index_python.packages import get_package_prefix
 
 from continuum.arm import SECTION_PARAMETERS, load_arm
 from continuum.dynamics.model_file import load_model
-from continuum.dynamics.planar.cable_tension import cable_lengths as planar_lengths
+from continuum.dynamics.planar.cable_lengths import cable_lengths as planar_lengths
 from continuum.kinematics.cables import cable_lengths
 from continuum.kinematics.configuration import allen_from_jones
 from continuum.urdf.robot import BASE_LINK

@@ -19,7 +19,7 @@ from std_srvs.srv import Trigger
 
 from continuum.dynamics.model_file import load_model
 from continuum.errors import ContinuumError, InvalidValueError
-from continuum.inertial.calibration import save_calibration
+from continuum.inertial.calibration_values import save_calibration
 from continuum_hw_imu.bench_commander import ANSWER_TIME, NO_HELLO, BenchCommander, BenchError
 from continuum_hw_imu.bench_diagnostics import BenchDiagnostics
 from continuum_hw_imu.bench_parameters import AUTOSTARTS, PARAMETERS, steps_from

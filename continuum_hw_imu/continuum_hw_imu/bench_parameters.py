@@ -6,8 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from continuum.errors import InvalidValueError
-from continuum.inertial.calibration import load_calibration
-from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.calibration import CalibrationSteps
+from continuum.inertial.calibration_values import load_calibration
 from continuum.parameter_spec import ParameterSpec
 from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_manipulator.nodekit import tension_parameters

@@ -11,7 +11,7 @@ from rclpy.clock import Clock
 from rclpy.time import Time
 
 from continuum.inertial.angle_estimator import AngleEstimate
-from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.calibration import CalibrationSteps
 from continuum.inertial.imu_sample import ImuSample
 from continuum_hw_imu.bench_fit import deviance
 from continuum_hw_imu.imu_messages import ImuMessages

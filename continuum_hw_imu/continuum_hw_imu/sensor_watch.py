@@ -10,7 +10,7 @@ import numpy as np
 
 from continuum.errors import MeasurementError
 from continuum.inertial.angle_estimator import AngleEstimate, AngleEstimator
-from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.calibration import CalibrationSteps
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.imu_sample import ImuSample

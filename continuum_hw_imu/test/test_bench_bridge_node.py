@@ -6,8 +6,8 @@ from emulated_bench import CABLES, N_SENSORS, LatencyProbe, bridge_at, emulated_
 from harness import NodeProcess, Probe, running
 
 from continuum.dynamics.model_file import load_model
-from continuum.dynamics.planar.cable_tension import cable_lengths
-from continuum.inertial.calibration import load_calibration
+from continuum.dynamics.planar.cable_lengths import cable_lengths
+from continuum.inertial.calibration_values import load_calibration
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 from continuum_msgs.msg import CableStates
 

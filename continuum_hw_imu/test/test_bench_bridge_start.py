@@ -10,7 +10,7 @@ from harness import NodeProcess, Probe, ended_in_any_case
 from lifecycle_msgs.srv import GetState
 
 import continuum_hw_imu
-from continuum.inertial.calibration import Calibration, save_calibration
+from continuum.inertial.calibration_values import Calibration, save_calibration
 
 pytestmark = pytest.mark.ros
 

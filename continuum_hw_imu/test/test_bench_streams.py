@@ -11,8 +11,8 @@ from rclpy.clock import Clock
 
 from continuum.dynamics.live.tension_limit import TensionLimits
 from continuum.dynamics.model_file import load_model
-from continuum.inertial.calibration import Calibration
-from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.calibration import CalibrationSteps
+from continuum.inertial.calibration_values import Calibration
 from continuum_hw_imu.bench_commander import BenchCommander
 from continuum_hw_imu.bench_diagnostics import BenchDiagnostics
 from continuum_hw_imu.bench_streams import BenchStreams

@@ -9,7 +9,7 @@ from looped_bench import HELLO
 
 from continuum.arrays import Array
 from continuum.errors import MeasurementError
-from continuum.inertial.calibration_steps import CalibrationSteps
+from continuum.inertial.calibration import CalibrationSteps
 from continuum_hw_imu.link.received import Received
 from continuum_hw_imu.protocol.messages import ImuFrame
 from continuum_hw_imu.protocol.messages.imu import PRESENT

@@ -15,7 +15,7 @@ from std_srvs.srv import Trigger
 from continuum.dynamics.live.live_arm import INTEGRATORS, LiveArm
 from continuum.dynamics.live.tension_limit import TensionLimiter
 from continuum.dynamics.model_file import load_model
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
 from continuum.parameter_spec import ParameterSpec

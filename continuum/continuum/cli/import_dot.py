@@ -14,7 +14,7 @@ from continuum.cli.tables import print_pairs
 from continuum.errors import FileError, InvalidValueError, MeasurementError
 
 if TYPE_CHECKING:
-    from continuum.inertial.calibration import Calibration
+    from continuum.inertial.calibration_values import Calibration
     from continuum.inertial.imu_recording import ImuRecording
     from continuum.inertial.recorded_angles import RecordedAngles
     from continuum.inertial.time_grid import Stream
@@ -52,7 +52,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Import the recordings, print a summary, and write the requested files."""
-    from continuum.inertial.calibration import save_calibration
+    from continuum.inertial.calibration_values import save_calibration
     from continuum.inertial.common_clock import check_common_clock, on_one_clock
     from continuum.inertial.dot_export import read_dot_export
     from continuum.inertial.estimator_settings import EstimatorSettings
@@ -104,8 +104,8 @@ def _percent(shares: Iterable[float]) -> str:
 
 
 def _calibration(options: argparse.Namespace, recording: ImuRecording, found: list[Span]) -> Calibration:
-    from continuum.inertial.calibration import load_calibration
-    from continuum.inertial.calibration_steps import CalibrationSteps
+    from continuum.inertial.calibration import CalibrationSteps
+    from continuum.inertial.calibration_values import load_calibration
 
     steps = CalibrationSteps()
     if options.calibration is not None:

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from continuum.arrays import Array
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.dynamics.statics.equilibrium import (
     Equilibrium,
     EquilibriumStatus,

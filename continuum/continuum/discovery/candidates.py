@@ -10,9 +10,9 @@ import numpy as np
 
 from continuum.discovery.decision import ALIKE, CHANCE, PRICE, is_farther, is_needless, is_probable, is_worth
 from continuum.discovery.examination import Examination, Examined
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.hand_measurement import HandMeasurement
-from continuum.discovery.mirrored import mirrored
+from continuum.discovery.mirrored_joints import mirrored
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.refit import problem_for, refit
 from continuum.discovery.score_test import Promise, promises

@@ -15,7 +15,7 @@ from continuum.discovery.detectable import detectable
 from continuum.discovery.estimates import baseline_estimates, correlation_of, estimates_of
 from continuum.discovery.examination import Examination, Examined
 from continuum.discovery.experiments import experiments, rivals
-from continuum.discovery.extended import model_of
+from continuum.discovery.extended_model import model_of
 from continuum.discovery.hand_measurement import HandMeasurement, check_measured, with_measured
 from continuum.discovery.hand_tests import hand_tests, removals
 from continuum.discovery.missing_torque import missing_torque

@@ -8,7 +8,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.discovery.coordinates import PARAMETER
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.problem import Problem, point_of
 from continuum.discovery.unknowns import Unknown

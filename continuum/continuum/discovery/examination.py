@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from continuum.discovery.candidate import Candidate
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.problem import Problem
 from continuum.discovery.search import Found

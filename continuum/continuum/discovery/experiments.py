@@ -19,7 +19,7 @@ from continuum.discovery.baseline import run_of
 from continuum.discovery.decision import ALIKE, CHANCE, is_farther_by
 from continuum.discovery.designs import Design, designs
 from continuum.discovery.examination import Examination, Examined
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.hypotheses import PRIOR
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values

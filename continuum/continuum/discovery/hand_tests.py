@@ -8,7 +8,7 @@ from scipy.special import ndtri
 
 from continuum.discovery.decision import CHANCE
 from continuum.discovery.examination import Examination, Examined
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.power import POWER
 from continuum.discovery.problem import ValueKey
 from continuum.discovery.result import HandTest, Removal

@@ -17,7 +17,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery.candidate import mean_error
 from continuum.discovery.decision import ALIKE, is_worth
-from continuum.discovery.fitted import Fitted, OpenLoop
+from continuum.discovery.fit_result import Fitted, OpenLoop
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values, prior_cost
 from continuum.discovery.open_loop import RunSimulation, Simulators
 from continuum.discovery.problem import Problem, State

@@ -18,8 +18,8 @@ from continuum.discovery.candidate import Key
 from continuum.discovery.candidates import silent
 from continuum.discovery.coordinates import PARAMETER
 from continuum.discovery.decision import noise_limit
-from continuum.discovery.extended import model_of
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.extended_model import model_of
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.problem import Problem
 from continuum.discovery.refit import check_recordings, refitted
 from continuum.discovery.search import Found, Progress

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from continuum.arrays import Array
-from continuum.discovery.fitted import OpenLoop
+from continuum.discovery.fit_result import OpenLoop
 from continuum.recordings.recording import Recording
 
 MEASURED, REFITTED, EXTENDED = "#222222", "#d1802b", "#1f6fb4"

@@ -21,13 +21,13 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.discovery.candidate import mean_error
 from continuum.discovery.decision import LEAST_SHARE, closed_share, noise_limit, price
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.hypotheses import PRIOR, Hypothesis
 from continuum.discovery.library import Library
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.segment import Segment
 from continuum.discovery.sensitivities import Sensitivities
-from continuum.discovery.typical import typical_states
+from continuum.discovery.typical_size import typical_states
 
 POWER = 0.8
 """Probability of being named at the stated size (Cohen, Statistical Power Analysis, 1988)."""

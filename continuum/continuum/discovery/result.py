@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from continuum.arrays import Array
 from continuum.discovery.decision import Kind, Verdict
-from continuum.discovery.fitted import OpenLoop
+from continuum.discovery.fit_result import OpenLoop
 from continuum.dynamics.model import Model
 from continuum.identification.estimate import Estimate
 from continuum.languages import Message

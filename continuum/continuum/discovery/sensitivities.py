@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import NormalEquations, Scale, Values

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from scipy.special import ndtr
 
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.problem import Problem, ValueKey
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import Parameter

@@ -17,7 +17,7 @@ from continuum.arrays import Array
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import ActiveEffect, InputKind, Model
 from continuum.dynamics.planar.balance import torque_balance
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.dynamics.planar.instant import Instant, Motion
 from continuum.dynamics.planar.rigid_body import inertia_matrix
 from continuum.dynamics.tensions import LET_GO

@@ -10,7 +10,7 @@ from functools import cached_property
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.errors import InvalidValueError
 
 DRY_SLOPE, CABLE_SLOPE = 1000.0, 2e4

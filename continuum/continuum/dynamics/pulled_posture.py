@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from continuum.arrays import Array
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.dynamics.statics.equilibrium import Equilibrium, EquilibriumStatus, equilibrium
 from continuum.dynamics.statics.resting_arm import Load, RestingArm
 from continuum.errors import InvalidValueError

@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.model import InputKind
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.errors import InvalidValueError
 
 LET_GO = -1e-3

@@ -12,7 +12,8 @@ from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, positive_part, suffix_sum, where_positive
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.planar.cable_tension import SIDES, chord_jacobian, chord_lengths, tension_propagation
+from continuum.dynamics.planar.cable_lengths import SIDES, chord_jacobian, chord_lengths
+from continuum.dynamics.planar.capstan_law import tension_propagation
 from continuum.dynamics.planar.instant import Instant, Motion
 
 LEAST_LAG = 1e-5

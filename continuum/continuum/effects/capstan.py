@@ -1,7 +1,7 @@
 """Cables rub on the discs more than the model has it: mu_c + friction in Eqs. 14 and 15.
 
 Cable in a drilled or bushed hole: 0.1 to 0.3. At 0.1 a cable that turns by 1 rad through the arm loses a tenth. The
-law itself is `continuum.dynamics.planar.cable_tension.tension_propagation`.
+law itself is `continuum.dynamics.planar.capstan_law.tension_propagation`.
 """
 
 from __future__ import annotations

@@ -21,7 +21,8 @@ import numpy as np
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter
-from continuum.dynamics.planar.cable_tension import link_wrenches, serial_jacobian_transposed_times, tension_propagation
+from continuum.dynamics.planar.cable_torque import link_wrenches, serial_jacobian_transposed_times
+from continuum.dynamics.planar.capstan_law import tension_propagation
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects._parts import driven, lengthening, lengthening_rate, rounded_part
 

@@ -17,7 +17,7 @@ import numpy as np
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import Parameter, Parameters
-from continuum.dynamics.planar.cable_tension import serial_jacobian_transposed_times
+from continuum.dynamics.planar.cable_torque import serial_jacobian_transposed_times
 from continuum.dynamics.planar.instant import Instant, Motion
 from continuum.effects._parts import across, rounded_size, sum_before
 

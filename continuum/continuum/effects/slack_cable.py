@@ -24,7 +24,7 @@ from continuum.arrays import Array
 from continuum.dynamics.effect import Effect, EffectParams
 from continuum.dynamics.expressions import Numbers, positive_part, where_positive
 from continuum.dynamics.parameters import Parameter, Parameters
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.dynamics.planar.instant import Instant
 from continuum.effects._parts import lengthening_rate
 

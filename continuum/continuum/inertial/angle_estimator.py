@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
-from continuum.inertial.calibration import Calibration
+from continuum.inertial.calibration_values import Calibration
 from continuum.inertial.complementary_filter import ComplementaryFilter, Correction
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_sample import ImuSample, Truths

@@ -1,116 +1,88 @@
-"""Calibration of the sensors of one arm: bias, axis and zero of each, and their sources; as a YAML file.
+"""A calibration step by step: bias from rest, axes from a motion, zero from rest in a known posture.
 
-::
-
-    sensors:
-    - bias: [0.0031, -0.0012, 0.0008]   # rad/s
-      axis: [0.02, 0.998, -0.06]        # unit vector; positive turns bend towards cable 1
-      zero: [0.11, 0.06, -9.79]         # m/s2, the specific force while the arm is straight
-      source: 8.2 s of rest, 12.1 s of motion
+A repeated step replaces its earlier result; a step that fails changes nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import dataclass, replace
 
 import numpy as np
-import yaml
 
 from continuum.arrays import Array
-from continuum.errors import FileError, InvalidValueError
-from continuum.inertial.inclination import across_axis
-from continuum.number_checks import finite_of_shape
-from continuum.parameter_file import read_parameter_file
-from continuum.whole_file import write_whole
+from continuum.errors import MeasurementError
+from continuum.inertial.at_rest import bias_at_rest, zero_at_rest
+from continuum.inertial.calibration_values import Calibration
+from continuum.inertial.imu_recording import ImuRecording
+from continuum.inertial.rotation_axis import axes_of_motion
 
-_LARGEST_BIAS = np.radians(10.0)  # rad/s
-_UNIT = 1e-3  # by which a written unit vector may be off
-_GRAVITY = (8.5, 11.0)  # m/s2; accelerometers read some per cent off
-_LEAST_ACROSS = 0.5  # of gravity, across the axis
-_KEYS = ("bias", "axis", "zero", "source")
+_BETWEEN = "; "
 
 
 @dataclass(frozen=True)
-class Calibration:
-    """Calibration of all sensors of an arm, from the base.
+class CalibrationSteps:
+    """Bias, axis and zero as in `Calibration`, each None until it is known, and their sources."""
 
-    Attributes:
-        bias: rates at rest, (n, 3) [rad/s].
-        axis: unit vectors along the axes; positive turns bend towards cable 1, (n, 3).
-        zero: specific forces at zero joint angles, (n, 3) [m/s2].
-        sources: sources of each sensor's values, (n,).
+    bias: Array | None = None
+    axis: Array | None = None
+    zero: Array | None = None
+    sources: tuple[str, ...] = ()
 
-    Raises:
-        InvalidValueError: values of another shape or beyond what a sensor can have, or an axis too close to gravity
-            for the accelerometer to show the link's turn.
-    """
-
-    bias: Array
-    axis: Array
-    zero: Array
-    sources: tuple[str, ...]
-
-    def __post_init__(self) -> None:
-        n = len(self.sources)
-        for name in ("bias", "axis", "zero"):
-            object.__setattr__(self, name, finite_of_shape(name, getattr(self, name), (n, 3)))
-        for sensor, (bias, axis, zero) in enumerate(zip(self.bias, self.axis, self.zero, strict=True), start=1):
-            _check_one(f"sensor {sensor}", bias, axis, zero)
-        object.__setattr__(self, "axis", self.axis / np.linalg.norm(self.axis, axis=1, keepdims=True))
+    @classmethod
+    def of(cls, calibration: Calibration) -> CalibrationSteps:
+        """Return the completed steps of a calibration."""
+        return cls(calibration.bias, calibration.axis, calibration.zero, calibration.sources)
 
     @property
-    def n_sensors(self) -> int:
-        """Number of sensors."""
-        return len(self.sources)
+    def missing(self) -> tuple[str, ...]:
+        """Steps that are still to be done."""
+        return tuple(name for name in ("bias", "axis", "zero") if getattr(self, name) is None)
 
-    @property
-    def gravity(self) -> Array:
-        """Reading of each accelerometer at rest, (n,) [m/s2]."""
-        return np.asarray(np.linalg.norm(self.zero, axis=1))
+    def complete(self) -> Calibration | None:
+        """Return the calibration once every step is done, else None.
 
+        Raises:
+            InvalidValueError: the steps contradict each other, as an axis along gravity does.
+        """
+        if self.bias is None or self.axis is None or self.zero is None:
+            return None
+        return Calibration(self.bias, self.axis, self.zero, self.sources)
 
-def _check_one(sensor: str, bias: Array, axis: Array, zero: Array) -> None:
-    if np.abs(bias).max() > _LARGEST_BIAS:
-        raise InvalidValueError(f"bias of {sensor}", bias.tolist(), f"at most {_LARGEST_BIAS:.3f} rad/s")
-    if abs(np.linalg.norm(axis) - 1) > _UNIT:
-        raise InvalidValueError(f"axis of {sensor}", axis.tolist(), "a unit vector")
-    size = np.linalg.norm(zero)
-    if not _GRAVITY[0] <= size <= _GRAVITY[1]:
-        raise InvalidValueError(f"zero of {sensor}", zero.tolist(), f"of size {_GRAVITY[0]} to {_GRAVITY[1]} m/s2")
-    if np.linalg.norm(across_axis(zero, axis)) < _LEAST_ACROSS * size:
-        raise InvalidValueError(f"axis of {sensor}", axis.tolist(), "30 degrees or more away from gravity in zero")
+    def with_bias(self, rest: ImuRecording) -> CalibrationSteps:
+        """Add the bias from an arm at rest.
 
+        Raises:
+            MeasurementError: it moved; the message names the sensors that did.
+        """
+        return replace(self, bias=bias_at_rest(rest), sources=self._with_source("bias", rest))
 
-def load_calibration(path: str | Path) -> Calibration:
-    """Read a calibration from a file.
+    def with_axis(self, motion: ImuRecording, first_turn: int = 1) -> CalibrationSteps:
+        """Add the axes from an arm that bends in its plane; ``first_turn`` is 1 towards cable 1, -1 away from it.
 
-    Raises:
-        FileError: it cannot be read, or has another form.
-        InvalidValueError: values that no sensor has.
-    """
-    block = read_parameter_file(path)
-    sensors = block.get("sensors")
-    if set(block) != {"sensors"} or not isinstance(sensors, Sequence) or isinstance(sensors, str) or not sensors:
-        raise FileError(path, "is not a calibration of sensors: it must hold `sensors`, a list from the base on")
-    for number, sensor in enumerate(sensors, start=1):
-        if not isinstance(sensor, Mapping) or set(sensor) != set(_KEYS):
-            raise FileError(path, f"sensor {number} must have {', '.join(_KEYS)}, and nothing else")
-    try:
-        n = len(sensors)
-        bias, axis, zero = (finite_of_shape(key, [sensor[key] for sensor in sensors], (n, 3)) for key in _KEYS[:3])
-        return Calibration(bias, axis, zero, tuple(str(sensor["source"]) for sensor in sensors))
-    except InvalidValueError as error:
-        raise InvalidValueError(f"{path}: {error.name}", error.value, error.allowed) from None
+        Raises:
+            MeasurementError: the bias is not known yet, or the motion does not show the axes.
+            InvalidValueError: ``first_turn`` is something else.
+        """
+        if self.bias is None:
+            raise MeasurementError("no axes without the bias; find it first, with the arm at rest")
+        axis = axes_of_motion(motion, self.bias, first_turn)
+        return replace(self, axis=axis, sources=self._with_source("axis", motion))
 
+    def with_zero(self, rest: ImuRecording, posture: object | None = None) -> CalibrationSteps:
+        """Add the zero from an arm at rest, straight or with known joint angles (n,) [rad].
 
-def save_calibration(calibration: Calibration, path: str | Path) -> None:
-    """Write a file that `load_calibration` reads.
+        Raises:
+            MeasurementError: it moved, or it is not straight and the axes are not known.
+            InvalidValueError: joint angles of another number, or too large.
+        """
+        if posture is not None and self.axis is None:
+            raise MeasurementError("no zero from a posture that is not straight without the axes; find them first")
+        axis = np.zeros((rest.n_sensors, 3)) if self.axis is None else self.axis
+        return replace(self, zero=zero_at_rest(rest, axis, posture), sources=self._with_source("zero", rest))
 
-    Raises:
-        FileError: it cannot be written.
-    """
-    rows = zip(calibration.bias, calibration.axis, calibration.zero, calibration.sources, strict=True)
-    sensors = [dict(zip(_KEYS, (*(block.tolist() for block in row[:3]), row[3]), strict=True)) for row in rows]
-    write_whole(path, yaml.safe_dump({"sensors": sensors}, sort_keys=False, default_flow_style=None, width=120))
+    def _with_source(self, step: str, recording: ImuRecording) -> tuple[str, ...]:
+        """Return the sources of each sensor's values, this step last."""
+        source = f"{step} of {np.ptp(recording.times):.1f} s"
+        before = self.sources or ("",) * recording.n_sensors
+        kept = ([part for part in text.split(_BETWEEN) if part and not part.startswith(step)] for text in before)
+        return tuple(_BETWEEN.join([*parts, source]) for parts in kept)

@@ -9,7 +9,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.errors import InvalidValueError
 from continuum.inertial.angle_estimator import AngleEstimator
-from continuum.inertial.calibration import Calibration
+from continuum.inertial.calibration_values import Calibration
 from continuum.inertial.estimator_settings import EstimatorSettings
 from continuum.inertial.imu_recording import ImuRecording
 from continuum.inertial.imu_sample import Truths

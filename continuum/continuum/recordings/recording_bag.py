@@ -16,7 +16,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.joint_torques import JointTorques
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
 from continuum.joint_names import cable_names, phi_joint, theta_joints

@@ -7,7 +7,7 @@ from dataclasses import replace
 from continuum.arm import Arm
 from continuum.arrays import Array
 from continuum.viewer.choice import Choice
-from continuum.viewer.held import Held
+from continuum.viewer.held_input import Held
 from continuum.viewer.layout import Layout
 from continuum.viewer.posture_controls import PostureControls
 from continuum.viewer.section_angles import configuration_of_joints

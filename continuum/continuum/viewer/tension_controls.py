@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 import viser
 
-from continuum.viewer.held import Held
+from continuum.viewer.held_input import Held
 from continuum.viewer.layout import Layout, spoken
 from continuum.viewer.slider_value import value_within
 

@@ -9,7 +9,7 @@ import numpy as np
 from continuum.dynamics.live.live_arm import LiveArm
 from continuum.dynamics.live.stepper import Interval
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
 from continuum_hw_imu.emulator.actuators import Actuators

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum_hw_imu.emulator.bench import Bench
 from continuum_hw_imu.emulator.device_clock import DeviceClock
 from continuum_hw_imu.emulator.line_faults import FaultyLine, pieces_of

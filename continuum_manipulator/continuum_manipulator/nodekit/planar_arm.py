@@ -8,7 +8,7 @@ from sensor_msgs.msg import JointState
 from continuum import joint_names
 from continuum.arrays import Array
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cable_tension import SIDES, cable_lengths, cable_rates
+from continuum.dynamics.planar.cable_lengths import SIDES, cable_lengths, cable_rates
 from continuum_msgs.msg import CableStates
 
 

@@ -22,8 +22,8 @@ from blind.moreau_plant.laws import Laws, move, no_laws, rub, rub_cables, rub_jo
 from blind.moreau_plant.linear import dot
 from blind.moreau_plant.loads import carried
 from blind.moreau_plant.mechanism import Mechanism
-from blind.moreau_plant.outside import STRAP_DAMPING, STRAP_FRICTION, add_drag, strap
 from blind.moreau_plant.state import STRAP, State
+from blind.moreau_plant.surroundings import STRAP_DAMPING, STRAP_FRICTION, add_drag, strap
 from blind.moreau_plant.winches import pulls
 from blind.mujoco_plant.parameters import JOINTS
 

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 from blind import moreau_plant, mujoco_plant
-from blind.mujoco_plant.further import Wanted, further_run
+from blind.mujoco_plant.further_run import Wanted, further_run
 
 from continuum.discovery import diagnose
 from continuum.discovery.decision import Kind

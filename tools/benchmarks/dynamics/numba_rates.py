@@ -10,7 +10,7 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.dynamics.integration.compiled_loops import call_at
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 
 
 def rates_and_jacobian(newton: int, n: int, p: Array) -> tuple[Callable[..., Any], Callable[..., Any]]:

@@ -16,7 +16,7 @@ from scipy.special import stdtrit
 
 from continuum.arrays import Array
 from continuum.discovery.candidate import Key, log_errors, mean_error
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.output_error import OutputError
 from continuum.discovery.refit import refitted
 from continuum.discovery.search import Found

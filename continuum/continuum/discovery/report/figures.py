@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.fitted import OpenLoop
+from continuum.discovery.fit_result import OpenLoop
 from continuum.discovery.report.chart import Axes, Chart, Line, chart, shared
 from continuum.discovery.result import Diagnosis
 from continuum.identification.estimate import Z_95

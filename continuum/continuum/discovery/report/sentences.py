@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from continuum.discovery.decision import Kind
-from continuum.discovery.report.matter import matter_with_value
+from continuum.discovery.report.cause_sentences import matter_with_value
 from continuum.discovery.report.names import capital, effect_in_words, label_in_words, listed, sets_in_words, small
 from continuum.discovery.report.power_tables import counts
 from continuum.discovery.report.quantities import percent, percent_interval

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.arrays import Array
-from continuum.discovery.fitted import OpenLoop
-from continuum.discovery.report.matter import matter_with_value
+from continuum.discovery.fit_result import OpenLoop
+from continuum.discovery.report.cause_sentences import matter_with_value
 from continuum.discovery.report.names import capital, label_in_words, sets_in_words, small
 from continuum.discovery.report.quantities import percent, percent_interval, with_decimals
 from continuum.discovery.result import Cause, Diagnosis, Share

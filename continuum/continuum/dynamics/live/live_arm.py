@@ -9,7 +9,7 @@ from continuum.dynamics.integration.tolerances import Tolerances
 from continuum.dynamics.live.integrators import BdfStepper, EsdirkStepper
 from continuum.dynamics.live.stepper import Interval, Stepper
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cable_tension import SIDES, cable_lengths, cable_rates
+from continuum.dynamics.planar.cable_lengths import SIDES, cable_lengths, cable_rates
 from continuum.dynamics.simulation_input import initial_state
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError

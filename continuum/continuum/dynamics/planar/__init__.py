@@ -3,9 +3,10 @@
 =======================  =====================================================================================
 rigid_body.py            Eq. 12: M inertia_matrix, C coriolis_matrix, G gravity_torque
 springs_and_friction.py  Eq. 12: K spring_torque; Eq. 13: F joint_friction
-cable_tension.py         Eqs. 14, 15: B tension_propagation, wrap_angles; Eq. 16: W link_wrenches;
-                         Eq. 17: J_s serial_jacobian, serial_jacobian_transposed_times;
-                         Eq. 12, right-hand side: cable_torque; Eq. 8 in the plane: chord_lengths
+cable_lengths.py         Eq. 8 in the plane: chord_lengths, cable_lengths
+capstan_law.py           Eqs. 14, 15: B tension_propagation, wrap_angles
+cable_torque.py          Eq. 16: W link_wrenches; Eq. 17: J_s serial_jacobian,
+                         serial_jacobian_transposed_times; Eq. 12, right-hand side: cable_torque
 balance.py               Eq. 12, the sum: torque_balance, rigid_body_torque
 instant.py               arguments of these terms: Motion, Instant
 =======================  =====================================================================================

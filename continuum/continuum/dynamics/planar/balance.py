@@ -7,7 +7,7 @@ Integrators, statics, inverse dynamics and fits all call this one sum.
 from __future__ import annotations
 
 from continuum.dynamics.expressions import Numbers, suffix_sum
-from continuum.dynamics.planar.cable_tension import cable_torque
+from continuum.dynamics.planar.cable_torque import cable_torque
 from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.planar.rigid_body import (
     link_coriolis_torque,

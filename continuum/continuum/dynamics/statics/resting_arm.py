@@ -9,7 +9,7 @@ import numpy as np
 from continuum.arrays import Array
 from continuum.dynamics.compiled.equations import CompiledEquations
 from continuum.dynamics.model import Model
-from continuum.dynamics.planar.cable_tension import SIDES
+from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.dynamics.simulation_input import finite_array
 from continuum.dynamics.values import parameter_slots, parameter_vector
 from continuum.errors import InvalidValueError

@@ -6,7 +6,7 @@ from blind.mujoco_plant.effects.base import BaseCompliance, BaseTilt, RemountedB
 from blind.mujoco_plant.effects.cables import ActuatorLag, Capstan, ElasticCable, SlackCable, TensionScale
 from blind.mujoco_plant.effects.friction import JointFriction, LoadFriction
 from blind.mujoco_plant.effects.masses import Inertia, TipPayload
-from blind.mujoco_plant.effects.outside import DroppingLoad, KinkedSpring, Magnet, RubbingDisc, ShakenBase
+from blind.mujoco_plant.effects.outside_library import DroppingLoad, KinkedSpring, Magnet, RubbingDisc, ShakenBase
 from blind.mujoco_plant.effects.presliding import Presliding
 from blind.mujoco_plant.effects.quadratic_drag import QuadraticDrag
 from blind.mujoco_plant.effects.sensor_cable import SensorCable

@@ -10,7 +10,7 @@ import pytest
 
 from continuum.discovery import Diagnosis
 from continuum.discovery.decision import Kind, Verdict
-from continuum.discovery.fitted import OpenLoop
+from continuum.discovery.fit_result import OpenLoop
 from continuum.discovery.result import Cause, Share
 from continuum.dynamics.model_file import load_model
 from continuum.identification.estimate import Estimate

@@ -1,42 +1,14 @@
-"""The two cables of a planar section: their course, and the torque J_s^T W B u that they exert (Eqs. 12, 14 to 17).
-
-Cable 1 runs at x = +a and bends the arm towards positive angles, cable 2 at x = -a. The chord of a cable in a module
-with joint angle theta is l = 2 (b cos(theta / 2) - side a sin(theta / 2)): Eq. 8 in the plane, with one joint.
-"""
+"""The torque J_s^T W B u of the cables at the joints of a planar section: Eqs. 12, 16 and 17."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from continuum.arrays import Array
-from continuum.dynamics.expressions import Numbers, positive_part, smooth_sign, suffix_sum
+from continuum.dynamics.expressions import Numbers, positive_part, suffix_sum
 from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.planar.cable_lengths import SIDES
+from continuum.dynamics.planar.capstan_law import tension_propagation
 from continuum.dynamics.planar.instant import Motion
-
-SIDES = np.array([1.0, -1.0])
-"""Side of each cable, (n_cables,)."""
-
-
-def chord_lengths(theta: Numbers, p: Parameters) -> Numbers:
-    """Length of each cable in each module, (n, n_cables) [m]: Eq. 8 with one joint."""
-    half = theta[:, None] / 2
-    return 2 * (p.half_spacing[:, None] * np.cos(half) - SIDES * p.hole_radius[:, None] * np.sin(half))
-
-
-def chord_jacobian(theta: Numbers, p: Parameters) -> Numbers:
-    """d l / d theta of `chord_lengths`, (n, n_cables) [m/rad]."""
-    half = theta[:, None] / 2
-    return -(p.half_spacing[:, None] * np.sin(half) + SIDES * p.hole_radius[:, None] * np.cos(half))
-
-
-def cable_lengths(theta: Array, p: Parameters) -> Array:
-    """Length of each cable from the base plate to the last disc, (n_cables,) [m]."""
-    return np.asarray(chord_lengths(theta, p).sum(axis=0))
-
-
-def cable_rates(theta: Array, rate: Array, p: Parameters) -> Array:
-    """Rate of each cable length, positive when the cable gets longer, (n_cables,) [m/s]."""
-    return np.asarray(rate @ chord_jacobian(theta, p))
 
 
 def cable_torque(move: Motion, u: Numbers, p: Parameters) -> Numbers:
@@ -51,32 +23,6 @@ def cable_torque(move: Motion, u: Numbers, p: Parameters) -> Numbers:
         return np.zeros(p.n_joints)
     local = tension_propagation(move.theta, move.slip_rate, p) * positive_part(u)
     return serial_jacobian_transposed_times(link_wrenches(local, move.theta, p), move.link_angle, p)
-
-
-def tension_propagation(theta: Numbers, slip_rate: Numbers, p: Parameters) -> Numbers:
-    """Eqs. 14 and 15, B(theta, theta'): tension in each module for a tension of 1 N at the base, (n, n_cables).
-
-    At every disc the tension changes by the capstan law T_(i+1) = T_i exp(-+ mu_c wrap). The sign depends on the
-    cable's motion over that disc: where the cable beyond the disc gets shorter, tension falls towards the tip, as
-    printed; where it gets longer, tension rises.
-
-    Args:
-        theta, slip_rate: angles and rates of the joints, (n,) [rad, rad/s].
-        p: parameters.
-    """
-    taken_in = -suffix_sum(chord_jacobian(theta, p) * slip_rate[:, None])  # cable speed over each disc [m/s]
-    losing = smooth_sign(taken_in, p.cable_slope)
-    return np.exp(-p.capstan_friction * np.cumsum(losing * wrap_angles(theta)[:, None], axis=0))
-
-
-def wrap_angles(theta: Numbers) -> Numbers:
-    """Wrap angle of Eq. 14: the deflection of a cable at the base plate and at each disc but the last, (n,) [rad].
-
-    It is an absolute value: half the first joint's angle at the base plate, and half the sum of the angles of its two
-    joints at a disc. These add up to the printed theta_1 + ... + theta_i / 2 for an arm bent to one side.
-    """
-    before = np.concatenate([np.zeros(1), theta[:-1]])
-    return np.abs(before + theta) / 2
 
 
 def link_wrenches(tensions: Numbers, theta: Numbers, p: Parameters) -> Numbers:

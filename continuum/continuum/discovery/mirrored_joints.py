@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from continuum.discovery.coordinates import PARAMETER, Coordinates
-from continuum.discovery.fitted import Fitted
+from continuum.discovery.fit_result import Fitted
 from continuum.discovery.hypotheses import Hypothesis
 from continuum.discovery.library import Library
 from continuum.discovery.normal_equations import Values
