@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from tools.benchmarks.seeded_faults.__main__ import main
+from tools.benchmarks.seeded_faults.__main__ import ROOT, TABLE, main
+from tools.benchmarks.seeded_faults.table import read_faults
 
 pytestmark = pytest.mark.slow
 
@@ -47,3 +48,7 @@ def test_a_fault_becomes_what_the_tests_make_of_it(
 def test_a_test_that_fails_anyway_finds_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert tried(tmp_path, '["x / 2", "x / 3"]', "test_red.py") == 1
     assert "test_red.py::test_red fails without a fault too" in capsys.readouterr().err
+
+
+def test_every_entry_of_the_list_fits_the_code() -> None:
+    assert [str(fault) for fault in read_faults(TABLE) if fault.problem(ROOT)] == []
