@@ -75,7 +75,7 @@ def test_what_closes_alike_is_ambiguous() -> None:
     found = verdict(candidate(SPRING, 0.005), candidate(DRAG, 0.0051))
     assert found.kind is Kind.AMBIGUOUS
     assert set(found.sets) == {SPRING, DRAG}
-    np.testing.assert_allclose(sum(found.probabilities), 1.0)
+    np.testing.assert_allclose(sum(found.relative_fits), 1.0)
 
 
 def test_what_is_off_by_much_more_is_excluded() -> None:

@@ -179,7 +179,7 @@ def test_no_part_is_claimed_for_certain(result: Diagnosis, tmp_path: Path) -> No
 
 def test_weights_of_explanations_do_not_read_as_certainty(tmp_path: Path) -> None:
     result = SETS["ambiguous"]
-    verdict = replace(result.verdict, probabilities=(0.9999, 0.0001))
+    verdict = replace(result.verdict, relative_fits=(0.9999, 0.0001))
     page = page_of(replace(result, verdict=verdict), tmp_path)
     cells = [text for around, text in page.texts if "table.shares" in around and around[-1] == "td"]
     assert "over 90" in cells

@@ -186,7 +186,7 @@ def show(result: Diagnosis, tr: Translator = ENGLISH) -> None:
         print_text(known_in_words(result, tr))
         print()
     if result.verdict.kind is Kind.AMBIGUOUS:
-        for causes, p in zip(result.sets, result.verdict.probabilities, strict=True):
+        for causes, p in zip(result.sets, result.verdict.relative_fits, strict=True):
             print(tr("may be: {effects}   relative fit {percent:.0f} %", effects=_labels(causes, tr), percent=100 * p))
         print()
     estimates = [*(one for cause in result.causes for one in cause.estimates), *result.estimates]

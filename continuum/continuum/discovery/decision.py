@@ -46,7 +46,7 @@ class Verdict:
         kind: kind of the verdict.
         sets: sets of effects that the data leave possible, the least error first, of ties the more usual values first;
             empty if unknown.
-        probabilities: relative probabilities of these.
+        relative_fits: weights of these by their simulation errors, 1 in total; not probabilities.
         complete: whether nothing that matters stays unexplained.
         steady: whether the segments agree about the sizes of the effects of at least one set.
         helps: if the cause is unknown, the set that helps most; empty if none does.
@@ -54,7 +54,7 @@ class Verdict:
 
     kind: Kind
     sets: tuple[Key, ...]
-    probabilities: tuple[float, ...]
+    relative_fits: tuple[float, ...]
     complete: bool
     steady: bool = True
     helps: Key = ()
@@ -100,12 +100,12 @@ def decide(
     farther = {id(one): max(log_error(one) - log_error(best), 0.0) / max(alike, 1e-9) for one in sets}
     sets.sort(key=lambda one: (round(farther[id(one)], 1), one.departure))  # ties: the more usual first
     weights = np.array([exp(-farther[id(one)]) for one in sets])
-    probabilities = tuple(float(w) for w in weights / weights.sum())
+    relative_fits = tuple(float(w) for w in weights / weights.sum())
     best = sets[0]
     steady = any(one.agreement > CHANCE for one in sets)
     complete = best.error < (1 + ALIKE) * floor and steady
     kind = Kind.AMBIGUOUS if len(sets) > 1 else Kind.CAUSE
-    return Verdict(kind, tuple(one.effects for one in sets), probabilities, complete, steady)
+    return Verdict(kind, tuple(one.effects for one in sets), relative_fits, complete, steady)
 
 
 def is_probable(one: Candidate, part: Candidate) -> bool:

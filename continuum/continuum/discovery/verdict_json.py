@@ -35,8 +35,8 @@ def as_mapping(result: Diagnosis) -> dict[str, Any]:
     """Return the answer as numbers, strings, lists and mappings; joints count from 1, units are SI."""
     verdict = result.verdict
     effects = [[_cause(cause) for cause in causes] for causes in result.sets]
-    probabilities = verdict.probabilities if is_named(verdict.kind) else (1.0,) * len(effects)
-    sets = [{"probability": p, "effects": one} for one, p in zip(effects, probabilities, strict=True)]
+    relative_fits = verdict.relative_fits if is_named(verdict.kind) else (1.0,) * len(effects)
+    sets = [{"relative_fit": p, "effects": one} for one, p in zip(effects, relative_fits, strict=True)]
     named = is_named(verdict.kind)
     return {
         "verdict": verdict.kind.value,

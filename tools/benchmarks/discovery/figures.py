@@ -127,7 +127,7 @@ def bins(results: Iterable[Result]) -> list[tuple[float, Rate]]:
     groups: list[list[tuple[float, bool]]] = [[] for _ in range(_BINS)]
     for result in results:
         for one in result.sets:
-            p = float(one["probability"])
+            p = float(one["relative_fit"])
             groups[min(int(_BINS * p), _BINS - 1)].append((p, is_exactly(result.hidden, one["effects"])))
     return [(sum(p for p, _ in g) / len(g), Rate.of(true for _, true in g)) for g in groups if g]
 

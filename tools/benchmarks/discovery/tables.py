@@ -70,11 +70,11 @@ def _wrong(results: Sequence[Result]) -> Table:
             f"{e['name']}{'' if e['joint'] is None else '@' + str(e['joint'])} {e['amount']:.2g} {e['unit']}"
             for e in result.hidden
         )
-        named = "; ".join(f"{label(one['effects'])} ({one['probability']:.2f})" for one in result.sets[:4])
+        named = "; ".join(f"{label(one['effects'])} ({one['relative_fit']:.2f})" for one in result.sets[:4])
         failure = "".join(result.failure.strip().splitlines()[-1:]).replace("|", "/")
         closed = "" if result.verdict is None else f"{100 * (result.verdict['closed']['value'] or 0.0):.0f} %"
         rows.append((result.answer.value, " + ".join(hidden) or "nothing", named or failure, closed, result.plan))
-    return Table.of(("", "hidden", "named (probability)", "closed", "case"), rows)
+    return Table.of(("", "hidden", "named (relative fit)", "closed", "case"), rows)
 
 
 def _by_effect(results: Sequence[Result]) -> Table:

@@ -66,7 +66,7 @@ def _cases(found: Answers) -> str:
         "The last three cases diagnose the recordings that the extended model was fitted to: they show whether an",
         "alteration is found, not whether that model is right.",
     )
-    head = ("model", "recordings", "verdict", "sets (probability)", "error [deg]", "more", "time [s]")
+    head = ("model", "recordings", "verdict", "sets (relative fit)", "error [deg]", "more", "time [s]")
     return f"{text}\n\n{table(head, rows)}"
 
 
@@ -74,7 +74,7 @@ def _sets(one: Diagnosis) -> str:
     names = [" + ".join(cause.label for cause in causes) or "nothing" for causes in one.sets]
     if not is_named(one.verdict.kind):
         return f"none; {names[0]} helps most" if names else "none"
-    return "; ".join(f"{name} ({p:.2f})" for name, p in zip(names, one.verdict.probabilities, strict=True))
+    return "; ".join(f"{name} ({p:.2f})" for name, p in zip(names, one.verdict.relative_fits, strict=True))
 
 
 def _torques(choices: Sequence[TorqueChoice]) -> str:

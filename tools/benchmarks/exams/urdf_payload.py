@@ -146,7 +146,7 @@ def section(seeds: Sequence[int] = SEEDS) -> Section:
             "once. Errors are those of open-loop simulations of half a second, of the refitted and the extended model.",
         ),
         table(
-            ("seed", "payload [g]", "verdict", "sets (probability)", "mass found", "error [deg]", "more", "time [s]"),
+            ("seed", "payload [g]", "verdict", "sets (relative fit)", "mass found", "error [deg]", "more", "time [s]"),
             map(_row, [*answers, bare]),
         ),
     ]
@@ -159,7 +159,7 @@ def section(seeds: Sequence[int] = SEEDS) -> Section:
 
 def _row(one: Answer) -> tuple[object, ...]:
     result = one.result
-    sets = zip(result.sets, result.verdict.probabilities, strict=False)
+    sets = zip(result.sets, result.verdict.relative_fits, strict=False)
     named = "; ".join(f"{' + '.join(c.label for c in causes) or 'nothing'} ({p:.2f})" for causes, p in sets)
     error = " -> ".join(f"{degrees(model.of_segments):.2f}" for model in (result.before, result.after))
     mass = "" if one.mass is None else estimate_in_words(one.mass)

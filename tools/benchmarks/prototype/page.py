@@ -41,7 +41,7 @@ tensions, read off the author's animation. `continuum diagnose data/rep7/rep7_me
 
 **`{result.verdict.kind.value}`.** {verdict_in_words(result)}
 
-{"".join(f"- {line}\n" for line in (*result.notes, *similar_causes(result), *_probabilities(result)))}
+{"".join(f"- {line}\n" for line in (*result.notes, *similar_causes(result), *_relative_fits(result)))}
 {table(("value", "estimate, 95 % interval"), _estimates(result))}
 
 Share of the open-loop error that each effect closes, and the unknown remainder:
@@ -122,10 +122,10 @@ A protractor at each joint before the release would give the zeros. So would a r
 show the arm hanging at rest. {f"Simulations of the fitted models propose: {shown}" if shown else ""}"""
 
 
-def _probabilities(result: Diagnosis) -> list[str]:
-    sets = zip(result.sets, result.verdict.probabilities, strict=False)
+def _relative_fits(result: Diagnosis) -> list[str]:
+    sets = zip(result.sets, result.verdict.relative_fits, strict=False)
     each = [f"{' + '.join(cause.label for cause in causes) or 'nothing'} {p:.2f}" for causes, p in sets]
-    return [f"probabilities among these: {', '.join(each)}"] if len(each) > 1 else []
+    return [f"relative fit of these: {', '.join(each)}"] if len(each) > 1 else []
 
 
 def _estimates(result: Diagnosis) -> list[tuple[str, str]]:

@@ -50,7 +50,7 @@ def _first(result: Diagnosis, tr: Translator) -> dict[str, Any]:
         "run": result.recordings[worst.run].name,
         "rms": tables.error_rows(result)[worst.run].rms,
         "sets": tables.set_rows(result, tr) if kind is Kind.AMBIGUOUS else [],
-        "weights": [tenths(p, tr) for p in result.verdict.probabilities],
+        "weights": [tenths(p, tr) for p in result.verdict.relative_fits],
         "shares": tables.share_rows(result, tr) if result.is_extended else [],
         "steps": steps.next_steps(result, tr),
         "power_sentence": sentences.power_sentence(result, tr),

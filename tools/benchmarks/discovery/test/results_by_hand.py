@@ -43,7 +43,7 @@ def verdict(
     return {
         "verdict": kind,
         "complete": complete,
-        "sets": [{"probability": one, "effects": effects} for one, effects in zip(stated, sets, strict=True)],
+        "sets": [{"relative_fit": one, "effects": effects} for one, effects in zip(stated, sets, strict=True)],
         "helps": [],
         "shares": {"unknown": {"value": 0.05, "low": 0.0, "high": 0.1}},
         "closed": {"value": closed, "low": 0.9, "high": 1.0},

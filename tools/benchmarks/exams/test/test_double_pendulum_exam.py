@@ -157,7 +157,7 @@ def estimate(text: str, value: float, joint: int | None = None, unit: str = "N m
 
 def diagnosis(kind: str, *sets: tuple[SimpleNamespace, ...]) -> SimpleNamespace:
     error = SimpleNamespace(of_segments=0.01)
-    verdict = SimpleNamespace(kind=Kind(kind), probabilities=[1 / len(sets)] * len(sets), complete=False)
+    verdict = SimpleNamespace(kind=Kind(kind), relative_fits=[1 / len(sets)] * len(sets), complete=False)
     return SimpleNamespace(
         verdict=verdict, sets=sets, before=error, after=error, seconds=1.0, sigma=(np.ones(2), np.array([2.0, 0.5])),
         extended_model=extended(), refitted_model=nominal(), recordings=(run_of(nominal()),),

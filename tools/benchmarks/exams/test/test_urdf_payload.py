@@ -58,7 +58,7 @@ def answer(payload: float, kind: str, *sets: tuple[str, ...]) -> Answer:
     """With payloads of 0.09 to 0.11 kg in its sets."""
     mass = SimpleNamespace(value=0.1, low=0.09, high=0.11, unit="kg", meaning="mass")
     causes = [[SimpleNamespace(effect=name, label=name, estimates=(mass,)) for name in names] for names in sets]
-    verdict = SimpleNamespace(kind=Kind(kind), probabilities=[1 / len(sets) for _ in sets], complete=True)
+    verdict = SimpleNamespace(kind=Kind(kind), relative_fits=[1 / len(sets) for _ in sets], complete=True)
     error = SimpleNamespace(of_segments=0.01)
     result = SimpleNamespace(sets=causes, verdict=verdict, before=error, after=error, seconds=1.0)
     return Answer(0, payload, result)  # type: ignore[arg-type]
