@@ -78,7 +78,7 @@ def _of_values(results: Sequence[Result]) -> Iterator[Figure | None]:
     covered = Rate.of(estimate.is_covered for estimate in figures.estimates(results))
     stated, shares = figures.bins(results), figures.closed_shares(results)
     yield _rate("values of hidden effects inside their 95 % intervals", covered, at_least=90, at_most=98)
-    what = "probabilities of sets: expected calibration error"
+    what = "relative fit of sets, taken as probability: expected calibration error"
     yield _below(what, 0.03, "", figures.expected_error(stated), sum(true.n for _, true in stated))
     if shares:
         what = "a cause is named: closed share of the open-loop distance, median"
