@@ -30,6 +30,7 @@ def ros_files() -> list[tuple[str, list[str]]]:
 setup(
     name=package_name,
     version=ElementTree.parse(HERE / "package.xml").findtext("version"),
+    python_requires=">=3.12",
     packages=find_packages(exclude=["test"]),
     package_data={
         "continuum": ["arms/*.yaml"],

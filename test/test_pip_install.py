@@ -9,6 +9,7 @@ from importlib.metadata import packages_distributions, requires
 from pathlib import Path
 
 import pytest
+from colcon_python_setup_py.package_identification.python_setup_py import get_setup_information
 from test_architecture import imports, sources
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -73,6 +74,17 @@ def test_the_library_is_the_installed_one_with_its_data(installed: Path) -> None
               for path in (PACKAGE / "continuum").rglob(pattern)}  # fmt: skip
     assert wanted
     assert all((installed / "site" / path).exists() for path in wanted)
+
+
+@pytest.mark.slow
+def test_pip_refuses_an_older_python(installed: Path) -> None:
+    (metadata,) = (installed / "site").glob("continuum-*.dist-info/METADATA")
+    assert "\nRequires-Python: >=3.12\n" in metadata.read_text(encoding="utf-8")
+
+
+def test_colcon_can_read_the_setup() -> None:
+    """It evaluates a dry run of setup.py as literals; the `SpecifierSet` that pyproject.toml would give is none."""
+    assert get_setup_information(PACKAGE / "setup.py")["python_requires"] == ">=3.12"
 
 
 @pytest.mark.slow
