@@ -12,7 +12,7 @@ import numpy as np
 from continuum.dynamics.expressions import Numbers
 from continuum.errors import InvalidValueError
 
-RATIO = ", less 1"
+RATIO = ", minus 1"
 """Ending of the description of a parameter that is a ratio minus one."""
 
 

@@ -1,6 +1,6 @@
-"""Effects that the thesis's Eq. 12 leaves out, one small file each; `docs/effects.md` lists them, and how to add one.
+"""Effects that Eq. 12 of the thesis leaves out, one file each; `docs/effects.md` lists them and tells how to add one.
 
-A file here holds one class, named as the file, and is found by its entry point: nothing imports it. What several of
-them need stands in `_parts.py`. At their defaults they are absent; parameters that are 0 then say how large an effect
-is, the others only what it looks like once it is there.
+Each file defines one class, named after the file and found through its entry point; no module imports it. Shared code
+is in `_parts.py`. An effect is absent when its parameters have their defaults. Parameters whose default is 0 are sizes,
+except those marked ``shape``; all others describe the shape of the effect.
 """

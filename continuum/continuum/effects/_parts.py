@@ -1,7 +1,7 @@
-"""Equations that several effects need: vectors along the links, rounded corners, cables, forces in the joints.
+"""Equations shared by several effects: vectors along links, rounded corners, cable lengths, forces in the joints.
 
-Corners are rounded within a stated width, for fits that differentiate the motion by an effect's parameters. Vectors in
-the plane that links carry are (n, 2) in (x, z).
+Corners are rounded within a stated width, so that fits can differentiate a motion with respect to the parameters of an
+effect. Vectors in the plane that rotates with the links are (n, 2) in (x, z).
 """
 
 from __future__ import annotations
@@ -17,59 +17,59 @@ from continuum.dynamics.planar.capstan_law import tension_propagation
 from continuum.dynamics.planar.instant import Instant, Motion
 
 LEAST_LAG = 1e-5
-"""Shortest time constant [s], of which nothing is seen: without any, the states would have no rates."""
+"""Shortest time constant [s], too small to be observed; at zero the states would have no rates."""
 
-_LET_GO = 0.1
-"""A motor that is told half of its work at this tension [N]: below, it lets the cable be."""
+_HALF_DRIVEN = 0.1
+"""Command [N] at which `driven` is one half; well below it, the motor does not act on the cable."""
 
 
 def along(angle: Numbers) -> Numbers:
-    """Unit vector along each angle from the straight arm, (n, 2) of (n,) [rad]."""
+    """Unit vector at each angle (n,) [rad] from the axis of the straight arm, (n, 2)."""
     return np.stack([np.sin(angle), np.cos(angle)], axis=1)
 
 
 def across(angle: Numbers) -> Numbers:
-    """Unit vector across it, towards growing angles: the slope of `along`, (n, 2)."""
+    """Unit vector perpendicular to `along`, towards increasing angles, (n, 2): the derivative of `along`."""
     return np.stack([np.cos(angle), -np.sin(angle)], axis=1)
 
 
 def sum_before(vectors: Numbers) -> Numbers:
-    """Of every link, the sum of the vectors of those before it, (n, 2)."""
+    """Sum of the vectors of all links before each link, (n, 2)."""
     return np.cumsum(vectors, axis=0) - vectors
 
 
 def rounded_size(x: Numbers, width: float) -> Numbers:
-    """|x|, never below ``width``: sqrt(x^2 + width^2), in the unit of both."""
+    """Smooth |x|, at least ``width``: sqrt(x^2 + width^2), in the unit of both."""
     return np.sqrt(x * x + width * width)
 
 
 def rounded_part(x: Numbers, width: float) -> Numbers:
-    """The positive part of x, half of ``width`` at 0: (x + sqrt(x^2 + width^2)) / 2."""
+    """Smooth positive part of x, half of ``width`` at 0: (x + sqrt(x^2 + width^2)) / 2."""
     return (x + rounded_size(x, width)) / 2
 
 
 def lengthening(move: Motion, p: Parameters) -> Numbers:
-    """By how much each cable's way through the arm is longer than in the straight one, (n_cables,) [m]."""
+    """Excess length of each cable's path through the arm over that through the straight arm, (n_cables,) [m]."""
     return chord_lengths(move.theta, p).sum(axis=0) - 2 * p.half_spacing.sum(keepdims=True)
 
 
 def lengthening_rate(move: Motion, p: Parameters) -> Numbers:
-    """Rate of the same, (n_cables,) [m/s]."""
+    """Rate of `lengthening`, (n_cables,) [m/s]."""
     return (chord_jacobian(move.theta, p) * move.theta_rate[:, None]).sum(axis=0)
 
 
-def led(u: Numbers) -> Numbers:
-    """1 where a motor leads the cable, be it to no tension, 0 where it was let go, (n_cables,)."""
+def controlled(u: Numbers) -> Numbers:
+    """1 if a motor controls the cable, even at zero tension; 0 if the cable was released, (n_cables,)."""
     return where_positive(-u, 0.0, 1.0)
 
 
 def driven(u: Numbers) -> Numbers:
-    """1 where a motor is told to pull, 0 where it is told nothing, (n_cables,): u^2 / (u^2 + (0.1 N)^2)."""
-    return u * u / (u * u + _LET_GO**2)
+    """Near 1 if the command is a tension, 0 at zero command, (n_cables,): u^2 / (u^2 + (0.1 N)^2)."""
+    return u * u / (u * u + _HALF_DRIVEN**2)
 
 
 class CableStates(Effect):
-    """Base of effects whose states are the tensions that pull: T of each cable [N], at first what is commanded."""
+    """Base of effects whose states are the acting tensions: T of each cable [N], initially the commanded tension."""
 
     def n_states(self, n_joints: int) -> int:
         return len(SIDES)
@@ -82,9 +82,10 @@ class CableStates(Effect):
 
 
 def joint_force(now: Instant) -> Numbers:
-    """Force of what lies before each joint on what lies beyond it, (n, 2) in (x, z) [N]; accelerations as 0.
+    """Force that each joint transmits to the links beyond it, (n, 2) in (x, z) [N].
 
-    Weight, what keeps the load on a curved way, and the pull of cables that press the joint together.
+    It carries the weight, provides the centripetal force, and balances the cable tensions, which compress the joint;
+    joint accelerations are neglected.
     """
     move, p = now.motion, now.p
     phi, turning = move.link_angle, (move.link_rate**2)[:, None] * along(move.link_angle)

@@ -1,7 +1,7 @@
-"""Motors that follow their command late: lag T' = u - T, of each cable, T what pulls.
+"""Motors that follow their commands with a lag: lag T' = u - T for each cable, T the acting tension.
 
-Motors under current control follow within 1 to 5 ms; geared servos and drives over a bus within 20 to 100 ms. The lag
-is never below 1e-5 s, of which nothing is seen. A cable that is let go has none.
+Current-controlled motors follow within 1 to 5 ms, geared servos and drives on a bus within 20 to 100 ms. The lag is at
+least 1e-5 s, too little to be observed. A released cable has no lag.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from continuum.dynamics.effect import EffectParams
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.parameters import ByHand, Parameter
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects._parts import LEAST_LAG, CableStates, led
+from continuum.effects._parts import LEAST_LAG, CableStates, controlled
 
 
 class ActuatorLag(CableStates):
@@ -42,8 +42,8 @@ class ActuatorLag(CableStates):
     shifts_time = True
     source = "Franklin, Powell and Emami-Naeini, Feedback Control of Dynamic Systems, ch. 3 (first-order lag)"
     in_words = "The motors follow their commands with a lag."
-    symptom = "The arm answers every change of tension late by the same time; free swings agree with the model."
+    symptom = "The arm responds to every change of tension with the same delay; free swings agree with the model."
     experiment = "Step the command with the arm held still and record the tension at the base of the cable."
 
     def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
-        return (params["lag"] * led(now.u) + LEAST_LAG) * state_rate - (now.u - state)
+        return (params["lag"] * controlled(now.u) + LEAST_LAG) * state_rate - (now.u - state)

@@ -1,6 +1,6 @@
-"""A sensor's angle is off by a constant, of its own in every recording: theta + offset.
+"""The angle of a sensor has a constant error, separate for each recording: theta + offset.
 
-How a sensor sits on its disc, and where it takes zero when switched on: some degrees.
+It depends on how the sensor is mounted on its disc and on its zero at power-on, and amounts to some degrees.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from continuum.dynamics.trajectory import Reading
 
 
 class AngleOffset(Effect):
-    """Zero of the angle sensors."""
+    """Error of the zeros of the angle sensors."""
 
     name = "angle_offset"
     parameters: ClassVar[Mapping[str, Parameter]] = {
@@ -29,12 +29,16 @@ class AngleOffset(Effect):
             0.0,
             0.03,
             True,
-            by_hand=ByHand(0.005, "Read the resting angle on a protractor: what the sensor shows, less that."),
+            by_hand=ByHand(
+                0.005, "Read the resting angle on a protractor: the reading of the sensor minus this angle."
+            ),
         )
     }
     source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3 and 4"
     in_words = "A sensor has a wrong zero: its angle is off by a constant amount from the start."
-    symptom = "Measured and simulated angles run parallel and their rates agree; the offset differs from run to run."
+    symptom = (
+        "Measured and simulated angles differ by a constant and their rates agree; the offset differs between runs."
+    )
     experiment = "Measure the resting angle with a protractor, or restart the sensors and release again."
     beware = (
         "A spring whose rest angle changes from run to run looks nearly the same: measure the resting "

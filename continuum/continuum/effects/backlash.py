@@ -1,16 +1,19 @@
-"""Play of a joint in series with its spring and friction: the ball that they hold moves the link only by its stops.
+"""Backlash of a joint in series with its spring and friction: these hold a ball that moves the link only by its stops.
 
-The joint's angle is that of the ball, theta - y, and of the link in it, y, which is free within +- gap. The stops are
-springs k_s = 3000 N m/rad + K with a damping of d = 10 N m s/rad, their corners rounded within 0.1 mrad; the ball with
-its ring has J_b = 1e-6 kg m2 of its own. T takes the place of Eq. 12's spring and friction F (Eq. 13):
+The joint angle theta is the sum of the angle of the ball, theta - y, and that of the link relative to it, y, which is
+free within +- gap. The stops are springs of k_s = 3000 N m/rad + K with a damping of d = 10 N m s/rad; their corners
+are rounded within 0.1 mrad. The ball with its ring has an inertia of J_b = 1e-6 kg m2. T replaces the spring torque of
+Eq. 12 and the friction F of Eq. 13:
 
   T = k_s z + d z' dy/dt,     z(y) = y - (r(y + gap) - r(y - gap)) / 2,     z' = dz/dy,
   J_b dw/dt = T - K_b (theta - y - theta_0) - F(w),     w = d(theta - y)/dt,     r(y) = sqrt(y^2 + width^2).
 
-K_b = K k_s / (k_s - K), so that without play spring and stops together are the model's K. Stops and ball then change a
-release by 0.01 degrees (RMS). A ball without inertia would have to find its speed from F, whose steps no solver likes.
+K_b = K k_s / (k_s - K), so that without backlash the spring and the stops in series have the stiffness K. Stops and
+ball then change a release by 0.01 degrees (RMS). Without inertia, the speed of the ball would have to be solved from F,
+which changes abruptly with speed; solvers converge poorly on it.
 
-Bolts of 5 mm in holes of 5.2 mm, 10 mm apart, have 0.02 rad each way; within them a link swings free of friction.
+5 mm bolts in 5.2 mm holes that are 10 mm apart have 0.02 rad to each side; within this range a link swings without
+friction.
 """
 
 from __future__ import annotations
@@ -47,7 +50,7 @@ class Backlash(Effect):
             0.0,
             0.5,
             True,
-            "play of a joint to each side",
+            "backlash of a joint to each side",
             0.0,
             0.02,
             by_hand=ByHand(
@@ -68,7 +71,7 @@ class Backlash(Effect):
         return 2 * n_joints
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
-        """T in the place of spring and friction of Eq. 12, (n,) [N m]."""
+        """Return T minus the spring and friction torque of Eq. 12, which it replaces, (n,) [N m]."""
         move, p = now.motion, now.p
         taken = spring_torque(move.theta, p) + joint_friction(move.theta_rate, p, move.slip_rate)
         return _stops(*_play(state, p), params, p) - taken
@@ -81,9 +84,10 @@ class Backlash(Effect):
         return np.concatenate([y_rate - moving, ball])
 
     def torque_along(self, motion: Array, slip: Array, length: Array, params: EffectParams, p: Parameters) -> Array:
-        """With hard stops and a ball without inertia, T is that of spring and friction while a stop moves the ball.
+        """Return `torque` for rigid stops and a ball without inertia.
 
-        Between the stops the ball rests by its dry friction, or yields to its spring against the viscous one.
+        While a stop moves the ball, T is the torque of spring and friction. Between the stops T is 0: dry friction
+        holds the ball, or the spring moves it against viscous friction.
         """
         theta, rate, gap = motion[:, 0], motion[:, 1], params["gap"]
         taken = spring_torque(theta, p) + joint_friction(rate, p, slip)
@@ -101,7 +105,7 @@ class Backlash(Effect):
         return np.asarray(T - taken)
 
     def initial_state(self, theta: Array, u: Array, params: EffectParams, p: Parameters) -> Array:
-        """The ball pulled against its stop by its spring, friction aside; by Newton's method from beyond that stop."""
+        """Return the states with the ball pulled against a stop by its spring, without friction; by Newton's method."""
         y = theta - p.rest_angle
         for _ in range(_NEWTON_STEPS):
             pushed = (_STOP + p.stiffness) * _passed(y, params) - _spring(theta - y, p)
@@ -110,7 +114,7 @@ class Backlash(Effect):
 
 
 def _play(state: Numbers, p: Parameters) -> tuple[Numbers, Numbers]:
-    """The two halves of all states, (n,) each."""
+    """Return y and dy/dt, or their rates, (n,) each."""
     return state[: p.n_joints], state[p.n_joints :]
 
 
@@ -130,11 +134,11 @@ def _stops(y: Numbers, y_rate: Numbers, params: EffectParams, p: Parameters) -> 
 
 
 def _passed(y: Numbers, params: EffectParams) -> Numbers:
-    """z, (n,) [rad]: what of y is beyond the play."""
+    """z, (n,) [rad]: the part of y beyond the gap."""
     return y - (rounded_size(y + params["gap"], _CORNER) - rounded_size(y - params["gap"], _CORNER)) / 2
 
 
 def _touching(y: Numbers, params: EffectParams) -> Numbers:
-    """z', (n,) [1]: 1 at the stops, 0 within the play."""
+    """z', (n,) [1]: 1 at the stops, 0 within the gap."""
     after, before = y + params["gap"], y - params["gap"]
     return 1 - (after / rounded_size(after, _CORNER) - before / rounded_size(before, _CORNER)) / 2

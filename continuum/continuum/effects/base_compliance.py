@@ -1,17 +1,19 @@
-"""The base plate turns on its mount: by psi about its centre, b_1 above joint 1 (in joint 1 without discs).
+"""The base plate rotates on its mount: by psi about its centre, b_1 above joint 1 (at joint 1 without discs).
 
-With e the mount's compliance, w_0 and zeta the frequency and damping of the plate alone on it,
+With the compliance e of the mount, and the frequency w_0 and damping ratio zeta of the plate alone on it,
 
   psi'' / w_0^2 + 2 zeta psi' / w_0 + psi + e Q_0 = 0,      psi' = its rate,
 
-Q_0 being the moment of the moving arm about the plate's centre: a link 0 without mass, of length d_0 = b_1, goes
-before the chain, its coupling A_0j = d_0 (m_j c_j + d_j sum of the masses beyond), A_00 = d_0^2 (sum of masses).
-The cables are anchored on the plate and the springs stand between links, so neither acts on psi. No sensor sits on the
-plate: the angle of joint 1 is counted from where the plate stands unloaded, so that it is the joint's own and psi. The
-air of `quadratic_drag` sees the plate's turn, not the sideways step of joint 1 that goes with it (psi' b_1).
+Q_0 being the moment of the moving arm about the centre of the plate. A massless link 0 of length d_0 = b_1 precedes the
+chain, with the coupling A_0j = d_0 (m_j c_j + d_j sum of the masses beyond) and A_00 = d_0^2 (sum of masses).
 
-A bench of 25 N m/rad (e = 0.04 rad/(N m)) gives way by 2.5 degrees to the 1.1 N m of the level arm. A plate of 1 kg
-and 100 mm, 0.003 kg m^2, swings on it at 90 rad/s.
+The cables are anchored on the plate and the springs are between links, so neither acts on psi. The plate has no sensor:
+the angle of joint 1 is measured from the unloaded position of the plate, so it is the sum of the joint's angle and psi.
+The air drag of `quadratic_drag` includes the rotation of the plate, but not the accompanying sideways motion of joint 1
+(psi' b_1).
+
+A bench of 25 N m/rad (e = 0.04 rad/(N m)) yields by 2.5 degrees to the 1.1 N m of the horizontal arm. A plate of 1 kg
+and 100 mm, 0.003 kg m^2, oscillates on it at 90 rad/s.
 """
 
 from __future__ import annotations
@@ -30,7 +32,7 @@ from continuum.dynamics.planar.balance import link_torque
 from continuum.dynamics.planar.instant import Instant, Motion
 from continuum.dynamics.planar.rigid_body import link_gravity_torque, mass_moments
 
-_SETTLED = 1e-13  # a step of Newton's method this small [rad] is rounding
+_SETTLED = 1e-13  # steps of Newton's method below this size [rad] are rounding errors
 
 
 class BaseCompliance(Effect):
@@ -38,11 +40,11 @@ class BaseCompliance(Effect):
 
     name = "base_compliance"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "compliance": Parameter("e", "rad/(N m)", 0.0, 2.0, False, "turn of the base plate per moment", 0.0, 0.04),
+        "compliance": Parameter("e", "rad/(N m)", 0.0, 2.0, False, "rotation of the base plate per moment", 0.0, 0.04),
         "frequency": Parameter(
-            "w_0", "rad/s", 20.0, 1e3, False, "at which the plate alone swings on its mount", 100.0, 30.0
+            "w_0", "rad/s", 20.0, 1e3, False, "natural frequency of the plate alone on its mount", 100.0, 30.0
         ),
-        "damping": Parameter("zeta", "1", 0.01, 2.0, False, "damping ratio of that swing", 0.1, 0.1),
+        "damping": Parameter("zeta", "1", 0.01, 2.0, False, "damping ratio of the plate alone on its mount", 0.1, 0.1),
     }
     source = "Lew and Moon, IEEE/ASME Trans. Mechatronics 6, 2001 (manipulators on compliant bases)"
     in_words = "The mount of the base plate yields when the arm swings."
@@ -62,16 +64,16 @@ class BaseCompliance(Effect):
     def move_base(self, motion: Motion, params: EffectParams, state: Numbers, state_rate: Numbers) -> Motion:
         return replace(
             motion,
-            theta=_first_less(motion.theta, state[:1]),
-            theta_rate=_first_less(motion.theta_rate, state[1:]),
-            theta_acceleration=_first_less(motion.theta_acceleration, state_rate[1:]),
+            theta=_with_first_reduced(motion.theta, state[:1]),
+            theta_rate=_with_first_reduced(motion.theta_rate, state[1:]),
+            theta_acceleration=_with_first_reduced(motion.theta_acceleration, state_rate[1:]),
             base_angle=motion.base_angle + state[:1],
             base_rate=motion.base_rate + state[1:],
             base_acceleration=motion.base_acceleration + state_rate[1:],
         )
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
-        """Of the links' mass that joint 1, moved by the plate, drags along."""
+        """Return the inertial torque of the links due to the motion of joint 1 with the plate, (n,) [N m]."""
         move, lean = now.motion, _lean(now.motion)
         pushed = np.cos(lean) * move.base_acceleration + np.sin(lean) * move.base_rate**2
         return suffix_sum(_lever(now.p) * mass_moments(now.p) * pushed)
@@ -83,7 +85,7 @@ class BaseCompliance(Effect):
         return np.concatenate([state_rate[:1] - rate, moved + params["compliance"] * moment])
 
     def initial_state(self, theta: Array, u: Array, params: EffectParams, p: Parameters) -> Array:
-        """The plate turned by the resting arm's weight."""
+        """Return the states of a plate at rest under the weight of the resting arm."""
         psi, of_links = 0.0, float(np.sum(link_gravity_torque(np.cumsum(theta), p)))
         compliance, weight = params["compliance"].item(), (p.gravity * _first_moment(p)).item()
         for _ in range(20):  # Newton's method; the moment changes by less than its size when the plate turns a radian
@@ -104,26 +106,26 @@ class BaseCompliance(Effect):
         return on_joints + _lever(p) * of_joint_1 + _hanging(move.base_angle, p)
 
 
-def _first_less(joints: Numbers, by: Numbers) -> Numbers:
-    """What belongs to the joints, the first one's less ``by``, (n,)."""
+def _with_first_reduced(joints: Numbers, by: Numbers) -> Numbers:
+    """Return joint values with ``by`` subtracted from the first, (n,)."""
     return joints - np.concatenate([by, np.zeros(joints.size - 1)])
 
 
 def _lean(move: Motion) -> Numbers:
-    """Angle of each link from the plate, (n,) [rad]."""
+    """Angle of each link relative to the plate, (n,) [rad]."""
     return move.link_angle - move.base_angle
 
 
 def _lever(p: Parameters) -> Numbers:
-    """d_0, from the plate's centre to joint 1, (1,) [m]."""
+    """d_0: distance from the centre of the plate to joint 1, (1,) [m]."""
     return p.mount
 
 
 def _first_moment(p: Parameters) -> Numbers:
-    """Of all mass, put at joint 1, (1,) [kg m]."""
+    """First moment about the centre of the plate of all mass, concentrated at joint 1, (1,) [kg m]."""
     return _lever(p) * p.mass.sum(keepdims=True)
 
 
 def _hanging(psi: Numbers, p: Parameters) -> Numbers:
-    """Moment of the arm's whole weight at joint 1 about the plate's centre, (1,) [N m]."""
+    """Moment about the centre of the plate of the weight of the arm, acting at joint 1, (1,) [N m]."""
     return p.gravity * _first_moment(p) * np.sin(p.hang_angle + psi)

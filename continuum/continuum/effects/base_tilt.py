@@ -1,7 +1,7 @@
-"""The arm does not hang as the model has it: beta + angle.
+"""The arm hangs at another angle than in the model: beta + angle.
 
-2 degrees of the base plate are 1 mm under one edge of 30 mm; they turn an arm of 1.1 kg, whose weight has a moment of
-1.1 N m about the first joint when level, by 0.04 N m: its dry friction.
+A 1 mm shim under one edge of a 30 mm plate tilts it by 2 degrees. On an arm of 1.1 kg, whose weight has a moment of 1.1
+N m about joint 1 when the arm is horizontal, this adds a torque of 0.04 N m at joint 1, as large as its dry friction.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class BaseTilt(Effect):
-    """beta of Eq. 12's gravity."""
+    """Error of beta in the gravity term of Eq. 12."""
 
     name = "base_tilt"
     parameters: ClassVar[Mapping[str, Parameter]] = {

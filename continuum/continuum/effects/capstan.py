@@ -1,7 +1,8 @@
-"""Cables rub on the discs more than the model has it: mu_c + friction in Eqs. 14 and 15.
+"""Cables have more friction on the discs than in the model: mu_c + friction in Eqs. 14 and 15.
 
-Cable in a drilled or bushed hole: 0.1 to 0.3. At 0.1 a cable that turns by 1 rad through the arm loses a tenth. The
-law itself is `continuum.dynamics.planar.capstan_law.tension_propagation`.
+The friction coefficient of a cable in a drilled or bushed hole is 0.1 to 0.3. At 0.1, a cable that is deflected by 1
+rad in total loses a tenth of its tension. The capstan law is in
+`continuum.dynamics.planar.capstan_law.tension_propagation`.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class Capstan(Effect):
-    """mu_c of Eqs. 14 and 15."""
+    """Additional mu_c in Eqs. 14 and 15."""
 
     name = "capstan"
     parameters: ClassVar[Mapping[str, Parameter]] = {
@@ -32,7 +33,7 @@ class Capstan(Effect):
             by_hand=ByHand(
                 0.03,
                 "Pull the cable over a disc at a known angle with a force gauge at either end: the logarithm of the "
-                "ratio of their forces over that angle, less the model file's friction.",
+                "ratio of their forces divided by that angle, minus the friction in the model file.",
             ),
         )
     }

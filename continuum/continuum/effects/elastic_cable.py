@@ -1,18 +1,17 @@
-"""A cable is a spring between the arm and a motor that gives way: T' = k (motor speed + lengthening speed).
+"""Each cable is a spring between the arm and a yielding motor: T' = k (motor speed + lengthening speed).
 
-The motor winds with v = alpha (u - T), an admittance, alpha = 1 / (k lag); the lengthening L is the cable's way
-through the arm, which the joints stretch:
+The motor winds in at v = alpha (u - T), an admittance with alpha = 1 / (k lag). L is the excess length of the cable's
+path through the arm, which the joints change:
 
-  lag T' = r,      r = u - T + lag k L',      times tanh(T / 0.05 N) where r < 0: T stays positive.
+  lag T' = r,      r = u - T + lag k L',      times tanh(T / 0.05 N) if r < 0, so that T stays positive.
 
-Without a lag the motor makes up for every stretch at once and the tension is what it is told. A motor that is told
-none still lets its drum turn only against that resistance, so that an arm that draws its cable out feels it. Cable
-that comes loose is wound up at once, as a drum does by its idle torque; what hangs loose for longer is `slack_cable`'s.
-Where a cable was let go (LET_GO) it has no lag and is not stretched. The lag is never below 1e-5 s, of which nothing
-is seen.
+Without a lag, the motor compensates any stretch immediately and the tension equals the command. Even at zero command
+the drum turns only against the resistance 1 / alpha, which acts on an arm that pulls cable out. A cable that becomes
+loose is wound up immediately, as by the idle torque of a drum; `slack_cable` describes longer slack. A released cable
+(LET_GO) has no lag and is not stretched. The lag is at least 1e-5 s, too little to be observed.
 
-0.5 m of polyamide line of 0.8 mm has some 2 kN/m, of steel rope 100 kN/m; motors that hold a tension by measuring it
-take 5 to 50 ms. The arm's cables move at 0.1 m/s, so 1 kN/m and 10 ms change the tension by 1 N.
+0.5 m of polyamide line of 0.8 mm has about 2 kN/m, steel rope 100 kN/m; motors that control a measured tension take 5
+to 50 ms. The cables of the arm move at 0.1 m/s, so 1 kN/m and 10 ms change the tension by 1 N.
 """
 
 from __future__ import annotations
@@ -26,9 +25,9 @@ from continuum.dynamics.effect import EffectParams
 from continuum.dynamics.expressions import Numbers, positive_part
 from continuum.dynamics.parameters import Parameter
 from continuum.dynamics.planar.instant import Instant
-from continuum.effects._parts import LEAST_LAG, CableStates, led, lengthening_rate
+from continuum.effects._parts import LEAST_LAG, CableStates, controlled, lengthening_rate
 
-_TAUT = 0.05  # N: with less a cable is nearly loose
+_TAUT = 0.05  # N; a cable with a lower tension is nearly loose
 
 
 class ElasticCable(CableStates):
@@ -36,7 +35,9 @@ class ElasticCable(CableStates):
 
     name = "elastic_cable"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "lag": Parameter("t_e", "s", 0.0, 1.0, False, "time in which the motor evens out a stretch", 0.0, 0.01),
+        "lag": Parameter(
+            "t_e", "s", 0.0, 1.0, False, "time constant in which the motor compensates a stretch", 0.0, 0.01
+        ),
         "stiffness": Parameter("k", "N/m", 10.0, 1e6, False, "stiffness of a cable", 1e3, 1e3),
     }
     uses_cables = True
@@ -49,15 +50,15 @@ class ElasticCable(CableStates):
     source = "Camarillo et al., IEEE Trans. Robotics 24, 2008, 1262-1273 (tendons); Hogan, ASME JDSMC 107, 1985"
     in_words = "The cables stretch, and the motors take up the stretch only after a while."
     symptom = (
-        "While the arm moves fast the tension is above the command where the cable is drawn out, below "
-        "it where it is let in."
+        "While the arm moves fast, the tension exceeds the command in a cable that is drawn out and is below it in a "
+        "cable that is taken in."
     )
     experiment = (
         "Hold the arm still and step the command, then hold the command and push the arm; compare the tensions."
     )
 
     def state_balance(self, now: Instant, params: EffectParams, state: Numbers, state_rate: Numbers) -> Numbers:
-        lag = params["lag"] * led(now.u) + LEAST_LAG
-        stretched = params["stiffness"] * led(now.u) * lengthening_rate(now.motion, now.p)
+        lag = params["lag"] * controlled(now.u) + LEAST_LAG
+        stretched = params["stiffness"] * controlled(now.u) * lengthening_rate(now.motion, now.p)
         rising = now.u - state + lag * stretched
         return lag * state_rate - positive_part(rising) + positive_part(-rising) * np.tanh(state / _TAUT)

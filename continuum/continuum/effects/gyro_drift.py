@@ -1,7 +1,7 @@
-"""A gyro reads a rate at rest, and the angle summed up from it runs away: w + bias, theta + bias (t - t_0).
+"""A gyro reads a rate at rest, and the integrated angle drifts: w + bias, theta + bias (t - t_0).
 
-Of its own for every joint and recording: a bias of MEMS gyros is some 0.1 to 1 degree/s after each start; a joint has
-that of two sensors. 0.02 rad/s are 1.8 degrees after 1.6 s.
+Each joint has a separate value in every recording. The bias of a MEMS gyroscope is about 0.1 to 1 degree/s after each
+start; the bias of a joint combines those of two sensors. 0.02 rad/s cause 1.8 degrees after 1.6 s.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class GyroDrift(Effect):
 
     name = "gyro_drift"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "bias": Parameter("b_w", "rad/s", -1.0, 1.0, True, "rate that a joint at rest shows", 0.0, 0.02, True)
+        "bias": Parameter("b_w", "rad/s", -1.0, 1.0, True, "measured rate of a joint at rest", 0.0, 0.02, True)
     }
     source = "Woodman, An introduction to inertial navigation, UCAM-CL-TR-696, 2007, sec. 3.2"
     in_words = "A gyro drifts: the angle of a joint at rest keeps changing."

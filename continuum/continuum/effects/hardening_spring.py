@@ -1,7 +1,7 @@
-"""Springs that harden as they bend: K_3 (theta - theta_0)^3 beside K (theta - theta_0).
+"""Springs that stiffen as they bend: K_3 (theta - theta_0)^3 in addition to K (theta - theta_0).
 
-The cubic term is the first that a symmetric spring has beyond its linear one (Duffing). At 0.4 rad, 2 N m/rad^3 add
-0.13 N m to the 0.5 N m of K = 1.24 N m/rad. Below 0 the spring softens.
+The cubic term is the lowest nonlinear term of a symmetric spring (Duffing). At 0.4 rad, 2 N m/rad^3 add 0.13 N m to the
+0.5 N m of K = 1.24 N m/rad. A negative K_3 describes a softening spring.
 """
 
 from __future__ import annotations

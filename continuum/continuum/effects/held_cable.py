@@ -1,14 +1,15 @@
-"""A cable held at the base with slack: it goes taut when the arm has taken the slack up.
+"""A cable held at the base with slack: it becomes taut when the arm has taken up the slack.
 
-  T = k y (1 + lambda L')(1 - g),      y = L - slack where positive,      g = u^2 / (u^2 + (0.1 N)^2),
+  T = k y (1 + lambda L')(1 - g),      y = L - slack if positive,      g = u^2 / (u^2 + (0.1 N)^2),
 
-L being how much longer the cable's way is than through the straight arm: some a theta per joint on the outer side. The
-loss, Hunt and Crossley's with lambda = 4 s/m (a restitution of 0.7 at 0.1 m/s), acts against lengthening only. y is
-rounded within 0.5 mm, the onset of the loss within 5 mm/s. g: a cable that a motor pulls is wound up and has no slack;
-held is what is told nothing. T runs through the discs as any other tension does.
+L being the excess length of the cable's path over that through the straight arm: about a theta per joint on the outer
+side. The loss is that of Hunt and Crossley with lambda = 4 s/m (a restitution of 0.7 at 0.1 m/s) and acts against
+lengthening only. y is rounded within 0.5 mm, the onset of the loss within 5 mm/s. A cable that a motor pulls (g near 1)
+is wound up and has no slack. A cable without a command (g near 0) is held. T propagates through the discs like any
+other tension.
 
-Bending by 1 rad in all draws 32 mm of cable at a = 32 mm. 300 N/m, a soft line, stretched by 10 mm pull with 3 N, which
-is 0.1 N m at every joint.
+A total bend of 1 rad draws out 32 mm of cable at a = 32 mm. A soft line of 300 N/m, stretched by 10 mm, pulls with 3 N,
+which is 0.1 N m at every joint.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ class HeldCable(Effect):
     removal = "Take the cables off the arm."
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
-        """-J_s^T W B T, (n,) [N m]: not by way of the commanded tensions, whose corner at 0 is where k begins."""
+        """Return -J_s^T W B T, (n,) [N m]. Not in `pull`: tensions have a corner at 0 N, which is T at k = 0."""
         move, p = now.motion, now.p
         local = tension_propagation(move.theta, move.slip_rate, p) * held_tension(now, params)
         return -serial_jacobian_transposed_times(link_wrenches(local, move.theta, p), move.link_angle, p)

@@ -1,7 +1,7 @@
-"""Links heavier or lighter than the model has them: m (1 + mass), and I_z (1 + inertia) about the centre of mass.
+"""Links that differ in mass from the model: m (1 + mass), and I_z (1 + inertia) about the centre of mass.
 
-The thesis's own guess at what its model lacks. Drawings give masses without glue, screws, cables and connectors,
-and moments of inertia for uniform bodies: 10 % of mass and half of the inertia are soon missed.
+The thesis itself suspects this deficit of its model. Drawings give masses without glue, screws, cables and connectors,
+and moments of inertia of uniform bodies: errors of 10 % in mass and of half of the inertia occur easily.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class Inertia(Effect):
-    """m and I_z of Eq. 12."""
+    """Errors of m and I_z in Eq. 12."""
 
     name = "inertia"
     parameters: ClassVar[Mapping[str, Parameter]] = {
@@ -25,17 +25,25 @@ class Inertia(Effect):
             -0.9,
             10.0,
             True,
-            "mass of a link by its model's, less 1",
+            "mass of a link relative to the model's, minus 1",
             0.0,
             0.1,
             ordinary=0.01,
-            by_hand=ByHand(0.01, "Weigh the link by itself: its mass over that in the model file, less 1."),
+            by_hand=ByHand(0.01, "Weigh the link alone: its mass divided by that in the model file, minus 1."),
         ),
         "inertia": Parameter(
-            "e_I", "1", -0.95, 50.0, True, "own inertia of a link by its model's, less 1", 0.0, 0.5, ordinary=0.03
+            "e_I",
+            "1",
+            -0.95,
+            50.0,
+            True,
+            "inertia of a link about its centre of mass, relative to the model's, minus 1",
+            0.0,
+            0.5,
+            ordinary=0.03,
         ),
     }
-    # mass that is added at the centre, at about one and a half radii of gyration, and mass that only lies further out
+    # mass added at the centre, mass added at about one and a half radii of gyration, and mass only moved outwards
     directions: ClassVar[Sequence[Mapping[str, float]]] = [
         {"mass": 1.0},
         {"mass": 1.0, "inertia": 2.0},

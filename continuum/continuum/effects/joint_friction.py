@@ -1,7 +1,7 @@
-"""Joints rougher or smoother than the others: tau_mu (1 + viscous) and tau_c (1 + coulomb).
+"""Joints with more or less friction than the others: tau_mu (1 + viscous) and tau_c (1 + coulomb).
 
-Two parameters, as grease and fit differ from joint to joint on their own. Friction of like joints of one machine
-commonly differs by tens of percent.
+There are two parameters because grease and fit differ between joints independently. The friction of equal joints of one
+machine commonly differs by tens of percent.
 """
 
 from __future__ import annotations
@@ -15,15 +15,15 @@ from continuum.dynamics.parameters import Parameter, Parameters
 
 
 class JointFriction(Effect):
-    """tau_mu and tau_c of Eq. 13, joint by joint."""
+    """Errors of tau_mu and tau_c in Eq. 13 at single joints."""
 
     name = "joint_friction"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "viscous": Parameter(
-            "e_mu", "1", -1.0, 20.0, True, "viscous friction by its model's, less 1", 0.0, 0.5, ordinary=0.05
+            "e_mu", "1", -1.0, 20.0, True, "viscous friction relative to the model's, minus 1", 0.0, 0.5, ordinary=0.05
         ),
         "coulomb": Parameter(
-            "e_c", "1", -1.0, 20.0, True, "Coulomb friction by its model's, less 1", 0.0, 0.5, ordinary=0.03
+            "e_c", "1", -1.0, 20.0, True, "Coulomb friction relative to the model's, minus 1", 0.0, 0.5, ordinary=0.03
         ),
     }
     source = "thesis Eq. 13; Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30, 1994, 1083-1138"

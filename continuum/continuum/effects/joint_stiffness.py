@@ -1,6 +1,7 @@
-"""Springs stiffer or softer from joint to joint: K (1 + excess).
+"""Springs whose stiffness differs between joints: K (1 + excess).
 
-A coil's rate goes with the fourth power of its wire, so that 5 % of wire are 20 % of stiffness.
+The rate of a coil spring is proportional to the fourth power of the wire diameter, so 5 % of diameter are 20 % of
+stiffness.
 """
 
 from __future__ import annotations
@@ -14,12 +15,20 @@ from continuum.dynamics.parameters import Parameter, Parameters
 
 
 class JointStiffness(Effect):
-    """K of Eq. 12, joint by joint."""
+    """Errors of K in Eq. 12 at single joints."""
 
     name = "joint_stiffness"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "excess": Parameter(
-            "e_K", "1", -0.95, 20.0, True, "stiffness of a joint by its model's, less 1", 0.0, 0.2, ordinary=0.02
+            "e_K",
+            "1",
+            -0.95,
+            20.0,
+            True,
+            "stiffness of a joint relative to the model's, minus 1",
+            0.0,
+            0.2,
+            ordinary=0.02,
         )
     }
     source = "thesis Eq. 12; Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 10 (rate of a spring)"

@@ -1,13 +1,14 @@
-"""Dry friction that grows with the force N in the joint: radius N (1 + S_N exp(-(w / v_d)^2)) tanh(k_v w).
+"""Dry friction proportional to the force N in the joint: radius N (1 + S_N exp(-(w / v_d)^2)) tanh(k_v w).
 
-The radius is the pin's times the coefficient of friction. N is the force that joint i passes on to what lies beyond
-it: its weight, what keeps its mass on its curved way (centripetal, of the joints' present rates; the part of their
-accelerations is left out, so that the equations stay linear in them), and the pull of the cables in module i, which
-presses the joint together. N is rounded to at least 0.1 N where these cancel. Where a load breaks away it need not rub
-more in the same ratio as grease and preload do, hence an S_N of its own (Bittencourt and Gunnarsson measured both).
+The radius is that of the pin times the coefficient of friction. N is the force that a joint transmits to the links
+beyond it: it carries their weight, provides their centripetal force at the present rates, and balances the cable
+tensions of the module, which compress the joint. The part due to accelerations is neglected, so that the equations stay
+linear in the accelerations. N is rounded to at least 0.1 N where these forces cancel. The Stribeck gain of
+load-dependent friction may differ from that of grease and preload, hence the separate parameter S_N (Bittencourt and
+Gunnarsson measured both).
 
-Five links of 0.22 kg hang on joint 1 with 11 N, on joint 5 with 2 N. A pin of 10 mm and mu = 0.3 (dry plastics,
-0.2 to 0.5) make 3 mm, 0.03 N m in joint 1 and 0.006 N m in joint 5.
+Five links of 0.22 kg load joint 1 with 11 N and joint 5 with 2 N. A pin radius of 10 mm and mu = 0.3 (dry plastics, 0.2
+to 0.5) give 3 mm, which is 0.03 N m at joint 1 and 0.006 N m at joint 5.
 """
 
 from __future__ import annotations
@@ -29,13 +30,15 @@ _LEAST_FORCE = 0.1  # N
 
 
 class LoadFriction(Effect):
-    """Friction of a loaded pin."""
+    """Friction of loaded pins."""
 
     name = "load_friction"
     parameters: ClassVar[Mapping[str, Parameter]] = {
-        "radius": Parameter("rho", "m", 0.0, 0.1, False, "radius of a joint's pin times its friction", 0.0, 1e-3),
+        "radius": Parameter(
+            "rho", "m", 0.0, 0.1, False, "radius of a joint's pin times its coefficient of friction", 0.0, 1e-3
+        ),
         "stribeck": Parameter(
-            "S_N", "1", 0.0, 20.0, False, "Stribeck gain of what the load adds", 0.0, 0.7, shape=True
+            "S_N", "1", 0.0, 20.0, False, "Stribeck gain of the load-dependent friction", 0.0, 0.7, shape=True
         ),
     }
     source = (

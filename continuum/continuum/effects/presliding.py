@@ -1,29 +1,29 @@
-"""Stuck joints give way elastically before they slide: generalized Maxwell slip in the place of Eq. 13's smoothed sign.
+"""Stuck joints yield elastically before they slide: generalized Maxwell slip instead of the smoothed sign of Eq. 13.
 
-Asperities bend and slip one after another. Three elements, each a spring in series with dry friction, stand for all.
-Element j slips when it has bent by sigma_j h,
+Asperities bend, then slip one after another. Three elements represent them, each a spring in series with dry friction.
+Element j slips when it is bent by sigma_j h,
 
-  sigma_j = sigma (1 + r (j - 2) 2 / 3),  j = 1, 2, 3,     h = 1 + S exp(-(w / v_d)^2),     w the joint's rate,
+  sigma_j = sigma (1 + r (j - 2) 2 / 3),  j = 1, 2, 3,     h = 1 + S exp(-(w / v_d)^2),     w the joint rate,
 
-and holds the part sigma_j / (3 sigma) of the friction: before any slips they are one spring of tau_c / sigma. With the
-states s_j, each the element's torque over that at which it slips at h = 1, and x_j = s_j / h,
+and transmits the part sigma_j / (3 sigma) of the friction: before any of them slips, together they are one spring of
+tau_c / sigma. The states s_j are the torque of each element relative to its slip torque at h = 1. With x_j = s_j / h,
 
   sigma_j s_j' = w - (|w| + w) / 2 P(x_j) + (|w| - w) / 2 P(-x_j),     P(x) = 101 x^32 / (100 + x^32), 0 below x = 0,
-
   dry friction tau_c sum_j (sigma_j s_j + t_b w b(x_j)) / (3 sigma) instead of tau_c h tanh(k_v w).
 
-P rounds the corner at which an element begins to slip. While bent, b(x) = (1 - x^2)^2 where |x| < 1, else 0, an element
-loses as its material does, t_b = 0.5 ms: without that, contacts much stiffer than those of plastics would ring as no
-joint does. |w| is rounded to w / tanh(k_v w), so that a stuck joint creeps less than Eq. 13 lets it, and friction takes
-energy only; sliding faster than 5 / k_v it is Eq. 13's. sigma is never below 1e-5 rad.
+P rounds the corner at which an element starts to slip. A bent element has the damping of its material, t_b = 0.5 ms,
+with b(x) = (1 - x^2)^2 for |x| < 1 and 0 otherwise: without it, contacts much stiffer than those of plastics would ring
+as no real joint does. |w| is rounded to w / tanh(k_v w), so that a stuck joint creeps less than with Eq. 13 and
+friction only dissipates energy; a joint faster than 5 / k_v has the friction of Eq. 13. sigma is at least 1e-5 rad.
 
-Unlike models of one state (Dahl, LuGre), elements remember where the joint turned: loops close, and a joint that turns
-round gives way as the same spring again, as measured friction does (Swevers et al., IEEE Trans. Automatic Control 45,
-2000). Asperities all alike (r = 0) are one spring before one friction; r = 1 are ones that slip evenly from the first
-motion on to 2 sigma (Iwan, J. Applied Mechanics 33, 1966). Contacts have always some that slip early.
+Unlike models with one state (Dahl, LuGre), the elements remember where the joint reversed: hysteresis loops close, and
+after each reversal the joint yields as the same spring again, as measured friction does (Swevers et al., IEEE Trans.
+Automatic Control 45, 2000). Identical asperities (r = 0) act as one spring in series with one friction element. With r
+= 1, they start to slip one after another, evenly from the first motion up to 2 sigma (Iwan, J. Applied Mechanics 33,
+1966). In real contacts, some asperities always slip early.
 
-Metals give way by some micrometres, 1e-4 rad at a small pin; plastics and rubber in the joint's spring by degrees.
-0.02 rad hold back 0.04 N m as a spring of 2 N m/rad would, more than K = 1.24 N m/rad.
+Metals yield by some micrometres, 1e-4 rad at a small pin; plastics and rubber in series with the spring of the joint,
+by degrees. 0.02 rad hold 0.04 N m like a spring of 2 N m/rad, more than K = 1.24 N m/rad.
 """
 
 from __future__ import annotations
@@ -41,12 +41,14 @@ from continuum.dynamics.planar.instant import Instant
 from continuum.dynamics.planar.springs_and_friction import dry_friction
 from continuum.effects._parts import rounded_size
 
-_PLACES = np.array([[-2.0], [0.0], [2.0]]) / 3  # of the elements between -1 and 1, each amid its third
-_SQUARED = 5  # times, of P
-_FASTEST = 100.0  # about the most that P may be
-_LEAST_ANGLE = 1e-5  # rad: without any, the states would have no rates
+_PLACES = (
+    np.array([[-2.0], [0.0], [2.0]]) / 3
+)  # positions of the elements between -1 and 1, each at the centre of a third
+_SQUARED = 5  # number of squarings in P: x^32
+_FASTEST = 100.0  # largest value of P, approximately
+_LEAST_ANGLE = 1e-5  # rad; at zero the states would have no rates
 _LOSS_TIME = 5e-4  # t_b [s]
-_NEAR_ZERO = 1e-3  # of k_v w: x / tanh(x) is 0 / 0 at 0
+_NEAR_ZERO = 1e-3  # rounding of k_v w: x / tanh(x) is 0 / 0 at 0
 
 
 class Presliding(Effect):
@@ -55,23 +57,25 @@ class Presliding(Effect):
     name = "presliding"
     parameters: ClassVar[Mapping[str, Parameter]] = {
         "angle": Parameter(
-            "sigma", "rad", 0.0, 0.5, False, "by which a stuck joint gives way at tau_c", 0.0, 0.02, ordinary=0.002
+            "sigma", "rad", 0.0, 0.5, False, "angle by which a stuck joint yields at tau_c", 0.0, 0.02, ordinary=0.002
         ),
-        "spread": Parameter("r", "1", 0.4, 1.0, False, "how unlike each other asperities slip", 0.7, 0.1),
+        "spread": Parameter(
+            "r", "1", 0.4, 1.0, False, "relative range of the angles at which asperities slip", 0.7, 0.1
+        ),
     }
     source = "Al-Bender, Lampaert and Swevers, IEEE Trans. Automatic Control 50, 2005, 1883-1887"
     in_words = "A joint that sticks yields a little, like rubber, before it slides."
-    symptom = "Where the model sticks, the real joint rocks and springs back a little; small swings show hysteresis."
+    symptom = "A joint that sticks in the model rocks and springs back a little; small swings show hysteresis."
     experiment = "Push a resting joint gently to and fro, below its break-away force: it springs back to where it was."
     state_sd = 0.7
     within_friction = True
 
     def n_states(self, n_joints: int) -> int:
-        """s of each joint's first element, then of the others [1]."""
+        """s of the first element of every joint, then of the second and third elements [1]."""
         return _PLACES.size * n_joints
 
     def torque(self, now: Instant, params: EffectParams, state: Numbers) -> Numbers:
-        """The dry friction with memory less the one without, (n,) [N m]."""
+        """Return the dry friction with memory minus that of Eq. 13, which it replaces, (n,) [N m]."""
         w, p = now.motion.slip_rate, now.p
         s = _by_element(state)
         bent = positive_part(1 - (s / _stribeck(w, p)) ** 2) ** 2
@@ -95,7 +99,7 @@ def _shares(params: EffectParams) -> Numbers:
 
 
 def _by_element(state: Numbers) -> Numbers:
-    """One element's states in each row, (3, n) [1]."""
+    """States with one element in each row, (3, n) [1]."""
     return state.reshape(_PLACES.size, -1)
 
 
@@ -108,5 +112,5 @@ def _slipping(x: Numbers) -> Numbers:
 
 
 def _stribeck(w: Numbers, p: Parameters) -> Numbers:
-    """h, (n,) [1]: the dry friction of 1 N m."""
+    """h, (n,) [1]: the dry friction at tau_c = 1 N m."""
     return dry_friction(w, replace(p, coulomb_friction=np.ones(1)))

@@ -1,6 +1,7 @@
-"""The base was remounted for every run, each time at another tilt: beta + angle.
+"""The base was remounted before every run, each time with another tilt: beta + angle.
 
-A clamp without a pin repeats to a degree or two; 2 degrees turn an arm of 1.1 kg by 0.04 N m, its dry friction.
+The repeatability of a clamp without a pin is one or two degrees; 2 degrees on an arm of 1.1 kg change the torque at
+joint 1 by 0.04 N m, as much as its dry friction.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from continuum.effects.base_tilt import BaseTilt
 
 
 class RemountedBase(BaseTilt):
-    """beta of Eq. 12's gravity, of its own in every recording."""
+    """Error of beta in the gravity term of Eq. 12, separate for every recording."""
 
     name = "remounted_base"
     parameters: ClassVar[Mapping[str, Parameter]] = {

@@ -1,7 +1,8 @@
-"""Springs relaxed at another angle than the model has: K (theta - theta_0 - angle).
+"""Springs that are relaxed at another angle than in the model: K (theta - theta_0 - angle).
 
-Eq. 12's theta_0 is 0 for a joint built straight. Discs glued askew or a spring bent once beyond its limit shift it by a
-few degrees; 0.05 rad move a joint of 1.24 N m/rad by 0.06 N m, more than its dry friction of 0.04 N m holds.
+theta_0 of Eq. 12 is 0 for a joint that is straight when relaxed. Discs glued at an angle, or a spring once bent beyond
+its limit, shift it by a few degrees; 0.05 rad change the torque of a spring of 1.24 N m/rad by 0.06 N m, more than the
+dry friction of 0.04 N m holds.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class RestAngle(Effect):
-    """theta_0 of Eq. 12."""
+    """Errors of theta_0 in Eq. 12."""
 
     name = "rest_angle"
     parameters: ClassVar[Mapping[str, Parameter]] = {

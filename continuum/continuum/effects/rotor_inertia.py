@@ -1,8 +1,8 @@
-"""A drive's rotor that the model lacks: J_r + ratio (I_z + m c^2), reflected to the joint.
+"""Rotor inertia of a drive that the model lacks: J_r + ratio (I_z + m c^2), reflected to the joint.
 
-A rotor turns faster than its joint by the gear ratio and counts with its square: a rotor of 0.6 kg cm2 behind a gear of
-6:1 is 0.002 kg m2 at the joint, as much as many a light link. Its size is given as a part of the link's inertia about
-its own joint, so that it means the same on a small and on a large arm.
+A rotor turns faster than its joint by the gear ratio, and its inertia at the joint is multiplied by the square of that
+ratio: a rotor of 0.6 kg cm2 behind a gear of 6:1 is 0.002 kg m2 at the joint, as much as many light links. Its size is
+relative to the inertia of the link about its joint, so that a value means the same on small and large arms.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class RotorInertia(Effect):
-    """J_r in M of Eq. 12."""
+    """Error of J_r in the mass matrix M of Eq. 12."""
 
     name = "rotor_inertia"
     parameters: ClassVar[Mapping[str, Parameter]] = {
@@ -26,19 +26,21 @@ class RotorInertia(Effect):
             0.0,
             100.0,
             True,
-            "missing inertia of a drive over its link's",
+            "missing inertia of a drive relative to that of its link",
             0.0,
             0.3,
             by_hand=ByHand(
                 0.05,
-                "Take the rotor's inertia from the drive's data sheet, times the gear ratio squared, over the link's"
-                " inertia about its joint, less what the model file has.",
+                "Take the rotor's inertia from the drive's data sheet, multiply it by the square of the gear ratio, "
+                "subtract the rotor inertia in the model file, and divide by the link's inertia about its joint.",
             ),
         )
     }
     source = "Armstrong, Khatib and Burdick, IEEE ICRA 1986, 510-518 (drives' inertia of the PUMA 560)"
     in_words = "The rotor of a joint's drive adds inertia that the model lacks."
-    symptom = "A joint speeds up and brakes more slowly, whatever the other joints do, but weighs no more."
+    symptom = (
+        "A joint accelerates and decelerates more slowly, whatever the other joints do, but its weight is unchanged."
+    )
     experiment = "Swing the outer link alone, its drive disengaged and engaged, and compare the periods."
     beware = (
         "At the first joint a rotor and a larger inertia of the link look the same: consult the drive's data sheet."

@@ -1,15 +1,16 @@
-"""The sensors' charging cable, from the base to link 1: it resists what the joint's turn draws out of it.
+"""The charging cable of the sensors, from the base to link 1, resists being drawn out by joint 1.
 
   r (tau_0 + k s + c s' + tau tanh(k_v s')) on joint 1,      s = theta_1 + e theta_1^2 / 2,      r = 1 + e theta_1.
 
-s is the cable's way in units of the straight arm's lever, r = ds / dtheta_1 the lever: by virtual work a force acts
-with the lever by which it is drawn out. A loop around the joint has e = 0. A cable drawn straight from a clamp pulls
-along its line, whose lever changes as the link turns: fixed to link 1 at h beside the arm's axis and d beyond the
-joint, and drawn out across the arm, by e = h / d. Where the lever vanishes the cable does nothing.
+s is the length drawn out, in units of the lever in the straight arm, and r = ds / dtheta_1 is the lever: by virtual
+work, a force acts with the lever by which it is drawn out. A loop around the joint has e = 0. A cable drawn straight
+from a clamp pulls along its line, and its lever changes as the link turns: e = h / d for a cable that is fixed to link
+1 at h from the axis of the arm and d beyond the joint, and drawn out across the arm. At a zero lever the cable exerts
+no torque.
 
-A bent cable is a spring, and its strands and sheath rub. A USB cable of EI = 2e-3 N m^2 in a loop of 50 mm has
-0.04 N m/rad; bundles and stiff sheaths a few times that. Bent by 0.5 rad in the straight arm, that preloads the joint
-by 0.02 N m.
+A bent cable is a spring, and its strands and sheath have friction. A USB cable of EI = 2e-3 N m^2 in a loop of 50 mm
+has 0.04 N m/rad; bundles and stiff sheaths have several times that. If it is bent by 0.5 rad in the straight arm, the
+preload of the joint is 0.02 N m.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from continuum.dynamics.planar.instant import Instant
 
 
 class SensorCable(Effect):
-    """Stiffness and drag of a cable across joint 1."""
+    """Stiffness and friction of a cable across joint 1."""
 
     name = "sensor_cable"
     parameters: ClassVar[Mapping[str, Parameter]] = {
@@ -35,7 +36,7 @@ class SensorCable(Effect):
         "viscous": Parameter("c", "N m s/rad", 0.0, 10.0, False, "viscous drag of the cable", 0.0, 0.01),
         "dry": Parameter("tau", "N m", 0.0, 10.0, False, "dry friction in the cable", 0.0, 0.02),
         "lever": Parameter(
-            "e", "1/rad", -20.0, 20.0, False, "by how much its lever grows with the angle", 0.0, 2.0, shape=True
+            "e", "1/rad", -20.0, 20.0, False, "relative increase of the lever with the angle", 0.0, 2.0, shape=True
         ),
     }
     source = "Papailiou, IEEE Trans. Power Delivery 12, 1997 (bending stiffness and friction of cables)"

@@ -1,12 +1,13 @@
-"""Sensors show what was a little while ago: theta(t - delay), and its rate; all of them, or that of one joint more.
+"""Delayed sensors: theta(t - delay) and its rate at all joints, or a further lag at one joint.
 
-Nothing in Eq. 12 tells one time from another but the cables' tension. So late sensors and a tension that comes later by
-as much, u(t - delay), are the same to the data, and without cables a delay does not show. Filters and radio links take
-5 to 30 ms; at 3 rad/s 10 ms are 1.7 degrees.
+In Eq. 12 only the cable tensions depend explicitly on time. Late sensors are therefore equivalent to tensions that come
+later by the same time, u(t - delay), and without tensions a delay cannot be detected. Filters and radio links take 5 to
+30 ms; at 3 rad/s, 10 ms are 1.7 degrees.
 
-One joint whose angle comes later than the others' shows against these, without any input. To first order it reads
-theta - lag theta'; what that leaves, lag^2 theta'' / 2, is 0.3 degrees for 10 ms at 100 rad/s2. No joint is early: that
-would be all others being late, which nobody sees where nothing drives the arm.
+If the angle of one joint lags behind those of the others, they show it without any input. To first order its reading is
+theta - lag theta'; the remainder, lag^2 theta'' / 2, is 0.3 degrees for 10 ms at 100 rad/s2. Negative lags are
+excluded: one early joint is equivalent to a delay of all others, which cannot be detected in an arm that nothing
+drives.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from continuum.dynamics.trajectory import Reading
 
 
 class SensorDelay(Effect):
-    """Late sensors."""
+    """Delay of the sensors."""
 
     name = "sensor_delay"
     parameters: ClassVar[Mapping[str, Parameter]] = {
@@ -32,14 +33,14 @@ class SensorDelay(Effect):
             0.0,
             0.2,
             False,
-            "by which all sensors are late",
+            "delay of all sensors",
             0.0,
             0.01,
             by_hand=ByHand(
                 0.003, "Tap the arm and compare the sensors' answer with that of a contact on the same clock."
             ),
         ),
-        "lag": Parameter("t_j", "s", 0.0, 0.1, True, "by which a joint's angle comes later than others", 0.0, 0.01),
+        "lag": Parameter("t_j", "s", 0.0, 0.1, True, "lag of a joint's angle behind those of the others", 0.0, 0.01),
     }
     needs_tension = True
     shifts_time = True

@@ -1,13 +1,15 @@
-"""A link's sensor shows a motion too large or too small: (1 + gain) times the link's angle and rate.
+"""The sensor of a link reads a scaled motion: (1 + gain) times the angle and rate of the link.
 
-Joints are differences of neighbouring sensors, the first one against the base plate: with Theta_i the links' angles,
-joint i is read as (1 + e_i) Theta_i - (1 + e_i-1) Theta_i-1, and one wrong sensor spoils the joints on both sides.
+Joint angles are differences of neighbouring sensors, the first one relative to the base plate: with link angles
+Theta_i, the reading of joint i is (1 + e_i) Theta_i - (1 + e_i-1) Theta_i-1, and one wrong sensor affects the joints on
+both sides.
 
-Gain and misalignment are one parameter: a gyro whose axis leans by m from the joints' shows cos(m) of the rate, and the
-angle summed up from it, cos(m) of the angle, which nothing in a plane tells from a gain of cos(m) - 1. So gain < 0 may
-mean either (18 degrees for -0.05). What a sensor turned within the plane does is `angle_offset`.
+Gain and misalignment are one parameter: a gyro whose axis is inclined by m to those of the joints reads cos(m) of the
+rate, and the integrated angle is cos(m) of the angle, which in a plane is equivalent to a gain of cos(m) - 1. A
+negative gain may therefore mean either (18 degrees for -0.05). `angle_offset` describes a sensor rotated within the
+plane.
 
-Gyros are within 1 to 3 % from the factory.
+Factory calibration of gyros is accurate to 1 to 3 %.
 """
 
 from __future__ import annotations
@@ -35,11 +37,11 @@ class SensorScale(Effect):
             -0.5,
             0.5,
             True,
-            "measured motion of a link by the true one, less 1",
+            "measured motion of a link relative to the true one, minus 1",
             0.0,
             0.05,
             by_hand=ByHand(
-                0.01, "Turn the link by 90 degrees against a stop: what the sensor shows over that, less 1."
+                0.01, "Turn the link by 90 degrees against a stop: the reading divided by 90 degrees, minus 1."
             ),
         )
     }

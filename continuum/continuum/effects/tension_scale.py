@@ -1,10 +1,10 @@
-"""What is recorded as a cable's pull is not what pulls: T = u / (1 + gain), for each cable by itself.
+"""The recorded tension of a cable differs from the true one by a factor: T = u / (1 + gain), separately for each cable.
 
-With one gain for both cables, all torques of Eq. 12 but the cables' are as much too small: nothing in the motion tells
-that from links that are all as much heavier, with stiffness and friction in proportion.
+With one gain for both cables, all torques of Eq. 12 except those of the cables are wrong by the same factor: the motion
+does not distinguish this from links that are all heavier in the same ratio, with proportional stiffness and friction.
 
-Load cells hold their calibration to 1 % or better; one mounted where the cable pulls it askew, or scaled by the wrong
-amplifier's factor, is soon 10 % off.
+Load cells keep their calibration to 1 % or better. A cell mounted at an angle to its cable, or scaled by the factor of
+another amplifier, easily has an error of 10 %.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from continuum.dynamics.parameters import ByHand, Parameter
 
 
 class TensionScale(Effect):
-    """Gain of the load cells, or of the motors that are told how much to pull."""
+    """Gain of the load cells, or of motors that are commanded in tension."""
 
     name = "tension_scale"
     parameters: ClassVar[Mapping[str, Parameter]] = {
@@ -30,10 +30,12 @@ class TensionScale(Effect):
             -0.5,
             2.0,
             False,
-            "pull of cable 1 as recorded by the true one, less 1",
+            "recorded tension of cable 1 relative to the true one, minus 1",
             0.0,
             0.1,
-            by_hand=ByHand(0.02, "Hang a known weight on cable 1: what is recorded over its weight, less 1."),
+            by_hand=ByHand(
+                0.02, "Hang a known weight on cable 1: the recorded tension divided by the weight, minus 1."
+            ),
         ),
         "gain_2": Parameter(
             "e_2",
@@ -41,10 +43,12 @@ class TensionScale(Effect):
             -0.5,
             2.0,
             False,
-            "pull of cable 2 as recorded by the true one, less 1",
+            "recorded tension of cable 2 relative to the true one, minus 1",
             0.0,
             0.1,
-            by_hand=ByHand(0.02, "Hang a known weight on cable 2: what is recorded over its weight, less 1."),
+            by_hand=ByHand(
+                0.02, "Hang a known weight on cable 2: the recorded tension divided by the weight, minus 1."
+            ),
         ),
     }
     uses_cables = True

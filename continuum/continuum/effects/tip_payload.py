@@ -1,7 +1,8 @@
-"""A point mass M at the centre of the tip disc, b beyond the last joint; at the last link's end where are no discs.
+"""A point mass M at the centre of the tip disc, b beyond the last joint; or at the end of the last link without discs.
 
-The last link's centre of mass c moves to c + (b - c) M / (m + M), its inertia about it grows by the parallel axes'
-m M / (m + M) (b - c)^2. 50 g beyond five links of 220 g add 5 % to the weight, 9 % to its moment about joint 1.
+The centre of mass c of the last link moves to c + (b - c) M / (m + M), and its inertia about the centre of mass
+increases by m M / (m + M) (b - c)^2 (parallel axes). 50 g beyond five links of 220 g add 5 % to the weight and 9 % to
+its moment about joint 1.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from continuum.dynamics.parameters import ByHand, Parameter, Parameters
 
 
 class TipPayload(Effect):
-    """Mass on the last link."""
+    """Additional mass on the last link."""
 
     name = "tip_payload"
     parameters: ClassVar[Mapping[str, Parameter]] = {
@@ -28,7 +29,7 @@ class TipPayload(Effect):
             0.0,
             10.0,
             False,
-            "mass at the centre of the tip disc, or at the end of a last link without",
+            "mass at the centre of the tip disc, or at the end of the last link if the arm has no discs",
             0.0,
             0.05,
             by_hand=ByHand(0.002, "Take off what hangs on the tip and weigh it."),

@@ -47,10 +47,10 @@ def scale_of(unit: str, meaning: str, name: str = "") -> Scale:
 
 
 def meaning_in_words(meaning: str, tr: Translator = ENGLISH) -> str:
-    """Return the meaning of a parameter; that of a ratio minus one, shown in percent, is worded as a comparison."""
+    """Return the meaning of a parameter; that of a ratio minus one is shortened to the comparison."""
     if not meaning.endswith(RATIO):
         return tr(meaning)
-    return tr(meaning.removesuffix(RATIO).replace(" by ", " compared with ", 1))
+    return tr(meaning.removesuffix(RATIO))
 
 
 def decimals_of(step: float, digits: int = 2) -> int:
