@@ -17,7 +17,6 @@ from rclpy.lifecycle.node import LifecycleNodeMixin
 from sensor_msgs.msg import Imu, JointState
 from std_srvs.srv import Trigger
 
-from continuum.dynamics.model_file import load_model
 from continuum.errors import ContinuumError, InvalidValueError
 from continuum.inertial.calibration_values import save_calibration
 from continuum_hw_imu.bench_commander import ANSWER_TIME, NO_HELLO, BenchCommander, BenchError
@@ -69,9 +68,8 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         CheckedNode.__init__(self)
         if self.get_parameter("use_sim_time").value:
             raise InvalidValueError("use_sim_time", True, "false; a bench runs in real time")
-        section = str(self.values["section"])
-        model = load_model(self.values["model"], section)
-        self._planar = PlanarArm(section, model)
+        self._planar = PlanarArm.of_parameters(self.values)
+        model = self._planar.model
         self._n_joints = model.n_joints
         self._steps = steps_from(self.values["calibration"], model.n_joints, self.values["keep_bias"])
         LifecycleNodeMixin.__init__(self)
@@ -81,7 +79,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         if self._limits.max_tension > most:
             raise InvalidValueError("max_tension", self._limits.max_tension, f"up to {most:g} N, the protocol's limit")
         self._commander = BenchCommander(self._limits, len(self._planar.cables))
-        self._streams = self._offered_streams(section)
+        self._streams = self._offered_streams()
         self._to_come = self.values["autostart"] != AUTOSTARTS[0]
         self._autostart_at = 0.0
         self.listen(CableStates, COMMANDS, self._on_command)
@@ -107,12 +105,12 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     def in_words(self) -> str:
         return f"{Path(self.values['model']).name}, {self._n_joints} joints, bench at {self.values['port']}"
 
-    def _offered_streams(self, section: str) -> BenchStreams:
+    def _offered_streams(self) -> BenchStreams:
         quality = SensorQuality(rate_noise=self.values["rate_noise"], force_noise=self.values["force_noise"])
         links = range(1, self._n_joints + 1)
         return BenchStreams(
             self._planar,
-            [ImuMessages(f"{section}_imu_{k}", quality) for k in links],
+            [ImuMessages(f"{self._planar.section}_imu_{k}", quality) for k in links],
             self.get_clock(),
             self._steps,
             self.offer(JointState, "joint_states"),

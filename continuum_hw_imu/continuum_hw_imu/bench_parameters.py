@@ -11,6 +11,7 @@ from continuum.inertial.calibration_values import load_calibration
 from continuum.parameter_spec import ParameterSpec
 from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_manipulator.nodekit import tension_parameters
+from continuum_manipulator.nodekit.planar_arm import SECTION
 
 AUTOSTARTS = ("none", "configure", "activate")
 """States that a node may enter by itself. By default it opens the port; only the user enables tension."""
@@ -22,8 +23,7 @@ PARAMETERS = (
                   choices=AUTOSTARTS, default="configure"),
     ParameterSpec("model", str, "model file of the arm, or name of a model in the library",
                   default="lamecc_prototype.yaml"),
-    ParameterSpec("section", str, "name of the section, the prefix of the names of joints and cables",
-                  default="section_1"),
+    SECTION,
     ParameterSpec("calibration", str, "file of the sensors' calibration, read at the start if it exists, and "
                   "written when a calibration is complete; empty for no file", default=""),
     ParameterSpec("keep_bias", bool, "use the bias in the file: for a node that restarts within minutes",

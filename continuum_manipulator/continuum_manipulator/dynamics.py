@@ -14,7 +14,6 @@ from std_srvs.srv import Trigger
 
 from continuum.dynamics.live.live_arm import INTEGRATORS, LiveArm
 from continuum.dynamics.live.tension_limit import TensionLimiter
-from continuum.dynamics.model_file import load_model
 from continuum.dynamics.planar.cable_lengths import SIDES
 from continuum.dynamics.trajectory import SimulationStatus
 from continuum.errors import InvalidValueError
@@ -22,7 +21,7 @@ from continuum.parameter_spec import ParameterSpec
 from continuum_manipulator.load_meter import LoadMeter, Mark
 from continuum_manipulator.nodekit import tension_parameters
 from continuum_manipulator.nodekit.checked_node import CheckedNode
-from continuum_manipulator.nodekit.planar_arm import PlanarArm
+from continuum_manipulator.nodekit.planar_arm import SECTION, PlanarArm
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 from continuum_manipulator.nodekit.tension_commands import read_tensions
 from continuum_manipulator.pace import Pace
@@ -53,8 +52,7 @@ class DynamicsNode(CheckedNode):
     PARAMETERS = (
         ParameterSpec("model", str, "model file, arm file with a block dynamics, or name of a file in the library",
                       default="lamecc_prototype.yaml"),
-        ParameterSpec("section", str, "name of the section, the prefix of the names of joints and cables",
-                      default="section_1"),
+        SECTION,
         ParameterSpec("rate", float, "states per second", "Hz", 1.0, 2000.0, default=120.0),
         ParameterSpec("integrator", str, "bdf: SciPy's integrator with the thesis's settings; esdirk: the fast one",
                       choices=tuple(INTEGRATORS), default="bdf"),
@@ -67,8 +65,8 @@ class DynamicsNode(CheckedNode):
 
     def __init__(self) -> None:
         super().__init__()
-        model = load_model(self.values["model"], str(self.values["section"]))
-        self._planar = PlanarArm(str(self.values["section"]), model)
+        self._planar = PlanarArm.of_parameters(self.values)
+        model = self._planar.model
         self._n_joints = model.n_joints
         self._posture = initial_posture(model.n_joints, self.values)
         self._arm = LiveArm(model, self._posture, self.values["integrator"])

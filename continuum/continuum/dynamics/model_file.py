@@ -52,9 +52,16 @@ def load_model(path: str | Path, section: str | None = None) -> Model:
         InvalidValueError: a name, value or unit that is not allowed, or a required parameter that is missing; the
             message begins with the file's name.
     """
+    return load_named_model(path, section)[0]
+
+
+def load_named_model(path: str | Path, section: str | None = None) -> tuple[Model, str | None]:
+    """As :func:`load_model`, with the name of the section: of a model file, the one that was given."""
     content = read_parameter_file(find_file(path, MODELS))
     try:
-        return model_of_section(path, content, section) if is_arm_file(content) else model_from_mapping(content)
+        if not is_arm_file(content):
+            return model_from_mapping(content), section
+        return model_of_section(path, content, section), section_model(path, content, section).section
     except InvalidValueError as error:
         raise InvalidValueError(f"{path}: {error.name}", error.value, error.allowed) from None
 

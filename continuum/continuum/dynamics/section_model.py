@@ -129,7 +129,7 @@ def _chosen(arm: Arm, name: str | None) -> Section:
         if section.name == name:
             return section
     names = " or ".join(section.name for section in arm.sections)
-    raise InvalidValueError("section", name, f"{names}; a simulation is of one section: --section names it")
+    raise InvalidValueError("section", name, f"{names}; a simulation is of one section, which `section` names")
 
 
 def given_section(arm: Mapping[str, object], name: str) -> GivenValues:

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from builtin_interfaces.msg import Time
 from sensor_msgs.msg import JointState
 
 from continuum import joint_names
 from continuum.arrays import Array
 from continuum.dynamics.model import Model
+from continuum.dynamics.model_file import load_named_model
 from continuum.dynamics.planar.cable_lengths import SIDES, cable_lengths, cable_rates
+from continuum.parameter_spec import ParameterSpec, Value
 from continuum_msgs.msg import CableStates
+
+DEFAULT_SECTION = "section_1"
+"""Name of the section of a model file, which names none."""
+
+SECTION = ParameterSpec(
+    "section", str, "name of the section, the prefix of the names of joints and cables; empty for the only section of "
+    f"an arm file, and for {DEFAULT_SECTION} with a model file", default="",
+)  # fmt: skip
 
 
 class PlanarArm:
@@ -20,6 +32,7 @@ class PlanarArm:
         model: model of the arm.
 
     Attributes:
+        section, model: as given.
         joints, cables: names of joints and cables, in the order of the messages.
 
     Raises:
@@ -29,13 +42,24 @@ class PlanarArm:
     def __init__(self, section: str, model: Model) -> None:
         joint_names.check_section(section)
         model.require_cables("this node")
-        self._model = model
+        self.section = section
+        self.model = model
         self.joints = [
             joint_names.phi_joint(section),
             *joint_names.theta_joints(section, model.n_joints),
             joint_names.phi_back_joint(section),
         ]
         self.cables = list(joint_names.cable_names(section, len(SIDES)))
+
+    @classmethod
+    def of_parameters(cls, values: Mapping[str, Value]) -> PlanarArm:
+        """Return the arm of a node's parameters ``model`` and ``section``.
+
+        Raises:
+            ContinuumError: there is no such model or section, or it is not allowed.
+        """
+        model, section = load_named_model(str(values["model"]), str(values["section"]) or None)
+        return cls(section or DEFAULT_SECTION, model)
 
     def joint_state(self, stamp: Time, angles: Array, rates: Array) -> JointState:
         """Return the message of joint angles (n,) [rad] and rates [rad/s]; joints have no motors, hence no efforts."""
@@ -50,6 +74,6 @@ class PlanarArm:
         message = CableStates(section=CableStates.WHOLE_ARM, name=self.cables, effort=tensions)
         message.header.stamp = stamp
         if angles is not None and rates is not None:
-            message.position = cable_lengths(angles, self._model.parameters)
-            message.velocity = cable_rates(angles, rates, self._model.parameters)
+            message.position = cable_lengths(angles, self.model.parameters)
+            message.velocity = cable_rates(angles, rates, self.model.parameters)
         return message
