@@ -20,8 +20,8 @@ from continuum.recordings.motion_figure import write_motion_figure
 # Ruler: half the distance from joint to joint, radius of the cables' holes, radius of a disc and its thickness [m].
 B, A, R, H = 0.020, 0.028, 0.035, 0.008
 MASS = 0.110  # scale: a link with its disc [kg]
-G, WEIGHT, LEVER = 9.81, 0.100, 0.060  # a weight on a lever at a joint [m/s2], [kg], [m]
-BENT, MOVES = np.radians(4.5), 0.012  # angle by which that bends the joint [rad]; least weight that moves it [kg]
+LEVER, BENT = 0.060, np.radians(4.5)  # of a joint of the arm on its side: lever [m], angle [rad]
+OUT, BACK = 1.10, 0.86  # spring balance at that angle on the way out and on the way back [N]
 
 
 def measured(value: float, unit: str, how: str) -> dict[str, object]:
@@ -38,8 +38,8 @@ def main(out: Path) -> None:
         "inertia": measured(MASS * (3 * R**2 + H**2) / 12, "kg m2", "a disc about its diameter"),
         "half_spacing": measured(B, "m", "ruler"),
         "hole_radius": measured(A, "m", "ruler"),
-        "stiffness": measured(WEIGHT * G * LEVER / BENT, "N m/rad", "K = m g l / theta"),
-        "coulomb_friction": measured(MOVES * G * LEVER, "N m", "tau_c = m g l"),
+        "stiffness": measured((OUT + BACK) / 2 * LEVER / BENT, "N m/rad", "spring balance: mean of out and back"),
+        "coulomb_friction": measured((OUT - BACK) / 2 * LEVER, "N m", "spring balance: half the difference"),
         "viscous_friction": measured(0.01, "N m s/rad", "guessed; continuum identify finds it from releases"),
     }
     described = model_from_mapping({"n_joints": 4, "inputs": "cables", "parameters": parameters})

@@ -35,7 +35,7 @@ def main(out: Path) -> None:
         bend = np.degrees(motion.theta.sum(axis=1))  # (n_times,) [degrees]
         speed = np.degrees(abs(motion.theta_rate)).max()
         print(f"{name}: {motion.status.value}; fastest joint {speed:.0f} degrees/s")
-        print(f"  swings to {bend.min():.1f} degrees, stands at {bend[-1]:.1f} degrees after {TIMES[-1]:.1f} s")
+        print(f"  swings to {bend.min():.1f} degrees, is at {bend[-1]:.1f} degrees after {TIMES[-1]:.1f} s")
         write_motion_table(motion, slack(), out / f"{name}.csv")
         write_motion_figure(motion, slack(), model.parameters, out / f"{name}.png")
     print(f"written to {out}: {', '.join(sorted(path.name for path in out.iterdir()))}")

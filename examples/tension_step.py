@@ -13,9 +13,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from continuum.dynamics.model_file import load_model
+from continuum.dynamics.planar.backbone import backbone
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
-from continuum.recordings.motion_figure import backbone
 
 RUBBING = load_model("lamecc_prototype.yaml")
 MODELS = {
@@ -45,7 +45,7 @@ def main(out: Path) -> None:
     course.set(xlabel="time [s]", ylabel="aside [mm]")
     course.legend()
     figure.savefig(out / "tip.png", dpi=80)
-    header = ",".join(["t_s", *(f"{name.replace(' ', '_')}_{axis}_m" for name in MODELS for axis in "xy")])
+    header = ",".join(["t_s", *(f"{name.replace(' ', '_')}_{axis}_m" for name in MODELS for axis in ("aside", "up"))])
     np.savetxt(out / "tip.csv", np.column_stack(columns), "%.6f", ",", header=header, comments="")
     print(f"written: {out}/tip.csv, {out}/tip.png")
 

@@ -13,9 +13,9 @@ from continuum.curvature.holds import hold_at
 from continuum.curvature.median_error import MedianErrors
 from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
+from continuum.dynamics.planar.backbone import backbone
 from continuum.dynamics.statics.resting_arm import RestingArm
 from continuum.errors import InvalidValueError
-from continuum.recordings.motion_figure import backbone
 from continuum.recordings.recording import Recording
 
 pytestmark = pytest.mark.slow

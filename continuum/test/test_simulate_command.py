@@ -18,13 +18,14 @@ from continuum.cli.simulate import release_posture
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model import ActiveEffect
 from continuum.dynamics.model_file import load_model, save_model
+from continuum.dynamics.planar.backbone import backbone
 from continuum.dynamics.pulled_posture import pulled_posture
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError, InvalidValueError
 from continuum.estimation.structure import absent_values
 from continuum.recordings.input_table import read_tension_table, read_torque_table
-from continuum.recordings.motion_figure import backbone, write_motion_figure
+from continuum.recordings.motion_figure import write_motion_figure
 
 pytestmark = pytest.mark.slow
 

@@ -60,6 +60,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Identify, predict, print, and write what was asked for."""
+    from continuum.dynamics.model import with_dry_friction
     from continuum.dynamics.model_file import save_model
     from continuum.identification.scores import scores
 
@@ -78,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
     identified = _identified(options, [recordings[k] for k in fitted], model, tr)
     seconds = time.process_time() - began
     predicted = scores(identified.model, recordings)
-    write(options.out, lambda path: save_model(identified.model, path))
+    write(options.out, lambda path: save_model(with_dry_friction(identified.model), path))  # the model that is scored
     if options.report is not None:
         from continuum.discovery.report.identification_page import write_identification
 

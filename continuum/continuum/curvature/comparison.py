@@ -26,9 +26,9 @@ from continuum.arrays import Array
 from continuum.curvature.held_posture import HeldPosture, held_posture
 from continuum.curvature.median_error import MedianErrors
 from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.planar.backbone import backbone
 from continuum.dynamics.statics.resting_arm import RestingArm
 from continuum.errors import InvalidValueError
-from continuum.recordings.motion_figure import backbone
 
 LEVEL = 1.959964
 """Standard deviations from the mean of a normal distribution to its 2.5 and 97.5 % quantiles."""

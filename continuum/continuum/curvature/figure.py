@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from continuum.arrays import Array
 from continuum.curvature.comparison import Comparison
-from continuum.recordings.motion_figure import backbone
+from continuum.dynamics.planar.backbone import backbone
 from continuum.whole_file import write_figure
 
 _MEASURED, _CONSTANT, _DYNAMIC = "black", "#1b7837", "#2166ac"

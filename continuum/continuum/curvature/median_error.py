@@ -2,7 +2,8 @@
 
     median - true angle = e + b + w(t) + d t
 
-e is white noise: the median of n rows of covariance C has covariance pi C / (2 n). b is the slow error of each joint's
+e is white noise: medians of n rows of standard deviations s_i and correlation rho have the covariance
+s_i s_j arcsin(rho) / n, of one joint pi s^2 / (2 n). b is the slow error of each joint's
 sensor, the same in all holds of a recording, with standard deviation SLOW. From the start of the recording, w wanders
 and d t drifts, as integrated rates do: w is a random walk of variance q t, d the remaining bias of a gyroscope. Holds
 show both, as the true angle does not change in them. From one window of T = 0.5 s with n rows to the next, the mean
@@ -62,7 +63,7 @@ def median_errors(holds: Sequence[Hold], slow: float | None = None) -> MedianErr
         holds: one or more holds.
         slow: standard deviation of all errors that are not white, if known [rad]; if None, SLOW, wander and drift.
     """
-    white = np.stack([np.pi / 2 * hold.noise / len(hold.times) for hold in holds])
+    white = np.stack([_median_covariance(hold.noise) / len(hold.times) for hold in holds])
     recordings = [id(hold.recording) for hold in holds]
     same = np.equal.outer(recordings, recordings)[:, :, None]
     n = len(holds[0].theta)
@@ -73,6 +74,18 @@ def median_errors(holds: Sequence[Hold], slow: float | None = None) -> MedianErr
     wandered = np.minimum.outer(since, since) * np.array([found[one][0] for one in recordings])
     drifted = np.multiply.outer(since, since)[:, :, None] * np.array([found[one][1] for one in recordings])
     return MedianErrors(white, same * (SLOW**2 + wandered[:, :, None] + drifted))
+
+
+def _median_covariance(noise: Array) -> Array:
+    """Return n times the covariance of medians of n rows of normal noise of covariance ``noise``, (n, n) [rad^2].
+
+    Medians err together as often as the rows lie on the same side: with the orthant probability of two normal values,
+    1/4 + arcsin(rho) / (2 pi).
+    """
+    deviations = np.sqrt(np.diag(noise))
+    both = np.outer(deviations, deviations)
+    correlation = np.divide(noise, both, out=np.zeros_like(noise), where=both > 0)
+    return np.asarray(both * np.arcsin(np.clip(correlation, -1.0, 1.0)))
 
 
 def _wander_and_drift(holds: Sequence[Hold]) -> tuple[float, Array]:

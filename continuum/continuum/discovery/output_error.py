@@ -1,8 +1,9 @@
 """Fit of a set of effects by output error: open-loop simulations of the exact equations against the readings.
 
-Multiple shooting (Bock 1983): recordings are cut into segments, each with unknown initial angles, rates and zeros of
-its sensors. Where a joint comes to rest depends on friction as a coin toss does on the throw, which leaves kinks in the
-cost: segments are short, so that most end before that, and Levenberg-Marquardt steps may raise the cost slightly.
+Segmented output error: recordings are cut into segments, as in multiple shooting (Bock 1983) but without conditions
+between them, each with unknown initial angles, rates and zeros of its sensors. The posture in which a joint comes to
+rest is very sensitive to friction, which leaves kinks in the cost: segments are short, so that most end before that,
+and Levenberg-Marquardt steps may raise the cost slightly.
 """
 
 from __future__ import annotations

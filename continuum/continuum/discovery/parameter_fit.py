@@ -1,6 +1,6 @@
 """Identification of springs and friction by output error: thesis 3.3 with a likelihood in place of its objective.
 
-Segments of the recordings are simulated open loop by Eq. 12 from unknown initial states (multiple shooting, Bock 1983).
+Segments of the recordings are simulated open loop by Eq. 12 from unknown initial states (segmented output error).
 Parts of one batch differ by a few percent, so joints differ slightly about common values; with ``per_joint``, little is
 assumed about their differences.
 """

@@ -12,5 +12,5 @@ compiled/             from symbols to exact derivatives to machine code
 Public: `model.Model`, `model.ActiveEffect`, `model_file.load_model`, `model_file.save_model`,
 `model_file.model_from_mapping`, `commented_model.commented_model`, `parameters.Parameter`, `effect.Effect`,
 `effect_lookup.effect_named`, `effect_lookup.effect_names`, `simulator.Simulator`, `tensions.Tensions`,
-`tensions.slack`, `pulled_posture.pulled_posture`, `measuring.as_read`.
+`tensions.slack`, `pulled_posture.pulled_posture`, `planar.backbone.backbone`, `measuring.as_read`.
 """

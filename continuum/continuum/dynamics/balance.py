@@ -41,11 +41,11 @@ def balance(model: Model, x: Numbers, v: Numbers, u: Numbers, motion: Motion | N
     torque = torque_balance(now)
     for active, state, _ in parts:
         torque = torque + active.effect.torque(now, active.values, state)
-    params = [
+    of_states = [
         active.effect.state_balance(replace(now, u=command), active.values, state, rate)
         for (active, state, rate), command in zip(parts, commanded, strict=True)
     ]
-    return np.concatenate([torque, *params])
+    return np.concatenate([torque, *of_states])
 
 
 def joint_motion(model: Model, x: Numbers, v: Numbers) -> Motion:

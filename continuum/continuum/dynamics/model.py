@@ -150,6 +150,6 @@ class Model:
 def with_dry_friction(model: Model) -> Model:
     """Return the model with k_v and k_l steep enough for dry friction; a smoother sign lets a resting arm creep."""
     steep = {"friction_slope": DRY_SLOPE, "cable_slope": CABLE_SLOPE}
-    raised = {name: sensitivity for name, sensitivity in steep.items() if sensitivity > float(model.values()[name][0])}
+    raised = {name: slope for name, slope in steep.items() if slope > float(model.values()[name][0])}
     sources = dict(model.sources) | dict.fromkeys(raised, "steep enough to be indistinguishable from dry friction")
     return replace(model.with_values(raised), sources=sources)

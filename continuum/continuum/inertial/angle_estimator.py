@@ -127,7 +127,7 @@ class AngleEstimator:
         whole = self._run >= self._window
         quiet = (
             (np.abs(rates).max(axis=0) <= s.rest_rate)
-            & (rates.max(axis=0) - rates.min(axis=0) <= s.rest_sd)
+            & (rates.max(axis=0) - rates.min(axis=0) <= s.rest_rate_range)
             & (np.max(self._forces, axis=0) <= s.rest_force)
         )
         return np.asarray(whole & quiet)

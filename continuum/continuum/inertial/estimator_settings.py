@@ -22,7 +22,7 @@ class EstimatorSettings:
         bias_time: time constant with which the remaining bias is learned at rest [s].
         rest_window: time for which a sensor has to be quiet to count as at rest [s].
         rest_rate: largest rate at rest [rad/s]; slow pulling still counts as quiet.
-        rest_sd: range of rates in the window at rest, largest minus smallest [rad/s].
+        rest_rate_range: range of rates in the window at rest, largest minus smallest [rad/s].
         rest_force: largest difference in size between the specific force at rest and that at the zero [m/s2].
         longest_gap: gap in a sensor's readings after which its angle is lost until it rests again [s]; shorter than
             half a swing, so that the motion of a released arm is not missed.
@@ -37,7 +37,7 @@ class EstimatorSettings:
     bias_time: float = 100.0
     rest_window: float = 0.5
     rest_rate: float = 20 * _DEGREE
-    rest_sd: float = 4 * _DEGREE
+    rest_rate_range: float = 4 * _DEGREE
     rest_force: float = 0.3
     longest_gap: float = 0.1
     bias_left: float = 0.01 * _DEGREE

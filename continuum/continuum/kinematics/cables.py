@@ -69,7 +69,8 @@ def cable_holes(section: Section, a: Array | None, azimuths: Array | None) -> tu
 def configuration_from_cables(lengths: Array, section: Section) -> Array:
     """Configuration ``w`` (..., 2) [rad] from the lengths (..., n_cables) [m] of the section's actuating cables: Eq. 9.
 
-    Inconsistent lengths are projected onto the nearest consistent ones by least squares over all cables.
+    A linear least-squares fit over all cables gives one module's chord (X, Y, C / b); only its direction counts.
+    Exact for consistent lengths, near the nearest consistent ones otherwise.
     """
     return section.n_joints * configuration_from_point(lengths @ _point_of_lengths(section).T)
 

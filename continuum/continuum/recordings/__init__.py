@@ -11,5 +11,5 @@ arm_recording.py       messages of the arm's kinematics; `kinematic_report.py` s
 
 Public: `recording.Recording`, `read_recording.read_recording`, `recording_csv.read_recording_csv`,
 `recording_bag.read_recording_bag`, `bag.Bag`, `arm_recording.read_arm_recording`, `kinematic_report.report_on`,
-`motion_table.write_motion_table`, `motion_figure.write_motion_figure`, `motion_figure.backbone`.
+`motion_table.write_motion_table`, `motion_figure.write_motion_figure`.
 """

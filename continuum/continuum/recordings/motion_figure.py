@@ -13,6 +13,7 @@ from continuum.arrays import Array
 from continuum.dynamics.input_signal import InputSignal
 from continuum.dynamics.model import InputKind
 from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.planar.backbone import backbone
 from continuum.dynamics.trajectory import Trajectory
 from continuum.whole_file import write_figure
 
@@ -78,15 +79,6 @@ def _draw_arm(axes: Axes, motion: Trajectory, p: Parameters) -> None:
     axes.grid(alpha=0.3)
     axes.margins(0.08)
     axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3)
-
-
-def backbone(theta: Array, p: Parameters) -> Array:
-    """Return base plate, joints and tip of an arm in its plane, (n_joints + 2, 2) [m], the second axis upwards."""
-    link_angle = np.cumsum(theta) + p.hang_angle
-    lengths = np.concatenate([p.mount, p.joint_spacing[:-1], p.tip])
-    directions = np.concatenate([p.hang_angle, link_angle])
-    steps = lengths[:, None] * np.stack([np.sin(directions), -np.cos(directions)], axis=1)
-    return np.asarray(np.concatenate([np.zeros((1, 2)), np.cumsum(steps, axis=0)]))
 
 
 def _shades(n: int) -> Array:

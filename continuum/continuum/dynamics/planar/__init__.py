@@ -7,6 +7,7 @@ cable_lengths.py         Eq. 8 in the plane: chord_lengths, cable_lengths
 capstan_law.py           Eqs. 14, 15: B tension_propagation, wrap_angles
 cable_torque.py          Eq. 16: W link_wrenches; Eq. 17: J_s serial_jacobian,
                          serial_jacobian_transposed_times; Eq. 12, right-hand side: cable_torque
+backbone.py              points of the arm in its plane: backbone
 balance.py               Eq. 12, the sum: torque_balance, rigid_body_torque
 instant.py               arguments of these terms: Motion, Instant
 =======================  =====================================================================================

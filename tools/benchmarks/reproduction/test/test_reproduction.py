@@ -10,11 +10,11 @@ import pytest
 
 from continuum.arrays import Array
 from continuum.curvature.comparison import Nearer
+from continuum.dynamics.planar.backbone import backbone
 from continuum.dynamics.planar.springs_and_friction import break_away_torque
 from continuum.dynamics.simulator import Simulator
 from continuum.dynamics.tensions import Tensions
 from continuum.dynamics.trajectory import SimulationStatus
-from continuum.recordings.motion_figure import backbone
 from tools.benchmarks.reproduction.curvature import TOTAL_BEND, Curvature, compare_curvature
 from tools.benchmarks.reproduction.release import Release, over_all, prototype, reproduce_release
 
