@@ -159,7 +159,7 @@ def test_a_cable_does_not_push():
     hangs = pulled_posture(tilted, 1e-9).tension
     assert hangs[0] > 1.0
     assert hangs[1] == 0.0
-    with pytest.raises(InvalidValueError, match="further to that side than the arm hangs by itself"):
+    with pytest.raises(InvalidValueError, match="total bend is -0.1; allowed: a bend"):
         pulled_posture(tilted, -0.1)
 
 
@@ -231,7 +231,7 @@ BAD_OPTIONS = {
 
 HINTS = {
     "radians": (["--release", "1.57"], None, "--release is in degrees, and 1.57 in total is little: were these rad"),
-    "too far": (["--release", "400"], None, "at the start joint 1 is bent by 80 degrees; from 62 on its discs are in"),
+    "too far": (["--release", "400"], None, "at the start joint 1 is bent by 80 degrees; "),
     "millinewtons": ([], "t_s,u1_N,u2_N\n0,0,0\n1,20000,0\n", "tensions are in newtons, and 20000 N is more than "),
     "milliseconds": ([], "t_s,u1_N,u2_N\n0,1,0\n100,2,0\n200,0,0\n", "t_s is in seconds, and 200 s are simulated: we"),
 }
