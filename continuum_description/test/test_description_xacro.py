@@ -11,6 +11,7 @@ import pytest
 from description_model import SHIPPED_ARMS, shipped_name
 
 from continuum.arm import load_arm
+from continuum.cli import main
 from continuum.urdf.robot import robot_urdf, to_text
 from continuum_description import create_continuum_robot
 
@@ -62,13 +63,37 @@ def test_main_file_has_the_librarys_defaults_and_reads_a_bare_block(moved_share:
     assert_same_robot(xacro(moved_share / "urdf" / "continuum.urdf.xacro", f"arm:={arm_file}"), arm_file)
 
 
+def test_main_file_takes_other_names_and_leaves_the_block_for_simulations(moved_share: Path, tmp_path: Path) -> None:
+    arm_file = tmp_path / "arm.yaml"
+    section = "half_spacing: 0.1, hole_radius: 0.05, mass: 0.3, inertia: 1.0e-4, dynamics: {center_of_mass_mm: 1.0}"
+    arm_file.write_text(f"sections: [one]\none: {{n_joints: 2, {section}}}\n")
+    assert_same_robot(xacro(moved_share / "urdf" / "continuum.urdf.xacro", f"arm:={arm_file}"), arm_file)
+
+
+def test_main_file_refuses_units_and_names_the_command_that_takes_them(
+    moved_share: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arm_file = tmp_path / "arm.yaml"
+    assert main(["new-arm", str(arm_file), "--sections", "2"]) == 0
+    result = xacro(moved_share / "urdf" / "continuum.urdf.xacro", f"arm:={arm_file}")
+    assert result.returncode != 0
+    command = "ros2 run continuum_description create_continuum_robot --arm"
+    assert command in result.stderr
+    assert command in arm_file.read_text()
+    capsys.readouterr()
+    assert create_continuum_robot.main(["--arm", str(arm_file)]) == 0
+    assert canonical(capsys.readouterr().out) == canonical(to_text(robot_urdf(load_arm(arm_file))))
+
+
 def test_main_file_without_argument_is_the_arm_of_three_sections(moved_share: Path) -> None:
     assert_same_robot(
         xacro(moved_share / "urdf" / "continuum.urdf.xacro"), moved_share / "config" / "three_sections.yaml"
     )
 
 
-@pytest.mark.parametrize(("written", "wrong"), [("twist: -1", "twits: -1"), ("b: 1,", "")])
+@pytest.mark.parametrize(
+    ("written", "wrong"), [("twist: -1", "twits: -1"), ("b: 1,", ""), ("b: 1,", "b: 1, half_spacing: 1,")]
+)
 def test_main_file_refuses_wrong_names(moved_share: Path, tmp_path: Path, written: str, wrong: str) -> None:
     arm_file = tmp_path / "arm.yaml"
     arm_file.write_text(MINIMAL.replace(written, wrong))

@@ -17,6 +17,7 @@ _HEAD = """\
 # An arm of {sections}, from the base to the tip. Kinematics, URDF, nodes and simulations read this file.
 # Units: m, rad, kg, s and what follows from them. A key may end in _deg, _mm or _g: its value is then in that unit.
 # Check: continuum info FILE lists all that is left out here, with the values that are taken for it.
+# URDF: ros2 run continuum_description create_continuum_robot --arm FILE; continuum.urdf.xacro knows no units in keys.
 """
 
 _OF_DYNAMICS = """\
