@@ -1,4 +1,4 @@
-"""Node that shows the arm in a browser, and lets whoever looks move it."""
+"""Node that shows the arm in a browser and publishes the commands of its users."""
 
 from __future__ import annotations
 
@@ -37,37 +37,38 @@ from continuum_manipulator.viewer_messages import read_angles, read_cables, read
 from continuum_msgs.msg import CableStates
 
 STALE_AFTER = 3.0
-"""A status that was not repeated for so long is stale [s]."""
+"""Time without repetition after which a status is stale [s]."""
 
 MOST_STATUSES = 60
 
 SLACK_TIME = 0.5
-"""For so long slack cables are commanded once control is given back [s]."""
+"""Duration for which slack cables are commanded after control is returned [s]."""
 
 JOINTS, TARGETS, TENSIONS = "joint_states", "traj_pose", "cable_tension_cmd"
-"""Topics on which the page's user may speak."""
+"""Topics on which users of the page may publish."""
 
 
 class NotDrawnError(ContinuumError):
-    """The page is drawn no more."""
+    """The page is no longer drawn."""
 
 
 class ViewerNode(CheckedNode):
     """``joint_states``, ``cable_states``, ``traj_pose`` and ``/diagnostics`` on a page for browsers.
 
-    Of a simulated arm beside a measured one, ``simulated/joint_states`` are shown too, and the measured one as a
-    ghost. Whoever looks may take control: a target that is dragged is published on ``traj_pose``, sliders of joints
-    on ``joint_states``, sliders of tensions on ``cable_tension_cmd``; not while another node speaks there, and not
-    once that browser has left. Each is advertised while somebody speaks by it, and not else: a bench refuses all
-    commands while two nodes advertise them. Without an arm in the parameters, it is the one of three sections.
+    If ``simulated/joint_states`` are published beside measured ones, the simulated arm is shown as well, and the
+    measured one as a ghost. A user may take control: a dragged target is published on ``traj_pose``, sliders of joints
+    on ``joint_states``, sliders of tensions on ``cable_tension_cmd``, but not while another node publishes there, nor
+    after the user's browser has disconnected. Each topic is advertised only while a user commands through it: a bench
+    refuses all commands while two nodes advertise them. Without an arm in the parameters, the arm of three sections is
+    used.
     """
 
     NAME = "viewer"
     PARAMETERS = (
-        ParameterSpec("host", str, "address that the page is served on; the default is this host alone", default=HOST),
-        ParameterSpec("port", int, "port of the page, 0 for any that is free", lower=0, upper=65535, default=PORT),
+        ParameterSpec("host", str, "address to serve on; the default is reachable from this host only", default=HOST),
+        ParameterSpec("port", int, "port of the page; 0 for any free port", lower=0, upper=65535, default=PORT),
         ParameterSpec("simulated", str, "namespace of a simulated arm beside the measured one", default="simulated"),
-        ParameterSpec("max_tension", float, "largest tension that a slider asks for", "N", 0.0, 1e4, default=30.0),
+        ParameterSpec("max_tension", float, "largest tension that a slider commands", "N", 0.0, 1e4, default=30.0),
     )  # fmt: skip
     HAS_ARM = True
 
@@ -86,7 +87,7 @@ class ViewerNode(CheckedNode):
         self._page = Page(self.arm, self._remote, host, port, self.diagnostics.faults, title=f"live - {NAME}")
         self.diagnostics.values |= {
             "address": lambda: self._page.address,
-            "browsers": lambda: self._page.lookers,
+            "browsers": lambda: self._page.browsers,
             "frames": lambda: self._page.frames,
         }
         self._arbiters = {topic: TopicArbiter() for topic in (JOINTS, TARGETS, TENSIONS)}
@@ -115,7 +116,7 @@ class ViewerNode(CheckedNode):
         super().close()
 
     def _refresh(self, message_type: type, topic: str, handle: Callable[[Any], None]) -> None:
-        """Subscribe; of all messages about the same names between two frames the last one is looked at."""
+        """Subscribe; only the latest message about the same names is processed in each frame."""
         checked = self.checked(topic, handle)
 
         def keep(message: Any) -> None:
@@ -152,13 +153,13 @@ class ViewerNode(CheckedNode):
         self._remote.tell(statuses=tuple(shown))
 
     def _act(self) -> None:
-        """Look at what came, and publish what whoever looks wants of the arm.
+        """Process received messages and publish the user's commands.
 
         Raises:
-            NotDrawnError: the page's thread has ended: what it shows, and asks for, is of the past.
+            NotDrawnError: the drawing thread has ended, so the page and its commands are out of date.
         """
         if not self._drawing.is_alive():
-            raise NotDrawnError("the page is drawn no more, for the reason above")
+            raise NotDrawnError("the page is no longer drawn, for the reason above")
         for handle, message in self._newest.take():
             handle(message)
         remote = self._remote
@@ -175,7 +176,7 @@ class ViewerNode(CheckedNode):
             self._move_cables(remote.tensions)
 
     def _move_cables(self, tensions: TensionControls) -> None:
-        """Pull while control is taken, and let go for a moment after."""
+        """Publish tensions while control is taken, and slack cables for `SLACK_TIME` afterwards."""
         wanted, now = tensions.wanted(), time.monotonic()
         if tensions.taken:
             self._pulled_until = now + SLACK_TIME
@@ -203,7 +204,7 @@ class ViewerNode(CheckedNode):
         self._arbiters[topic].received(nanoseconds(message.header.stamp), time.monotonic())
 
     def _say(self, topic: str, publish: OccasionalPublisher, message: Any) -> None:
-        """Publish with a stamp, unless another node speaks there, which is told."""
+        """Publish with a stamp, unless another node publishes on the topic, which is reported."""
         arbiter, now = self._arbiters[topic], time.monotonic()
         if arbiter.is_taken(now):
             self.diagnostics.warnings.note(f"{topic} not from the page", "another node publishes them")

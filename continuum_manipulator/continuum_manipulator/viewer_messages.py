@@ -1,4 +1,4 @@
-"""What the viewer reads out of messages, checked."""
+"""Checked contents of the messages that the viewer shows."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from continuum_manipulator.section_joints import read_names
 from continuum_msgs.msg import CableStates
 
 LONGEST_TEXT = 200
-"""Of what others say of themselves, more is not shown."""
+"""Largest number of characters of a name or message of a status that are shown."""
 
 
 def read_angles(message: JointState, known: Collection[str]) -> dict[str, float]:
-    """Angles [rad] by name of those joints of the message that are ``known``.
+    """Return the angles [rad] of the ``known`` joints of a message, by name.
 
     Raises:
-        MessageFault: none of them is, or an array has another length, a name is twice, a number is not finite.
+        MessageFault: no joint is known, an array has another length, a name is repeated, or a number is not finite.
     """
     index = read_names(message)
     found = {name: message.position[i] for name, i in index.items() if name in known}
@@ -33,10 +33,10 @@ def read_angles(message: JointState, known: Collection[str]) -> dict[str, float]
 
 
 def read_cables(message: CableStates, known: Collection[str]) -> tuple[dict[str, float], dict[str, float]]:
-    """Lengths [m] and tensions [N] by name, each empty where the message has none.
+    """Return lengths [m] and tensions [N] by name, empty if the message has none.
 
     Raises:
-        MessageFault: a name is not ``known`` or twice, an array has another length, or a number is not finite.
+        MessageFault: a name is not ``known`` or repeated, an array has another length, or a number is not finite.
     """
     messages.positions_by_name(message.name)
     messages.no_others(list(known), message.name)
@@ -44,7 +44,7 @@ def read_cables(message: CableStates, known: Collection[str]) -> tuple[dict[str,
 
 
 def read_statuses(message: DiagnosticArray) -> dict[str, Status]:
-    """Statuses by name."""
+    """Return the statuses by name."""
     return {
         status.name[:LONGEST_TEXT]: Status(
             status.name[:LONGEST_TEXT], int.from_bytes(status.level, "little"), status.message[:LONGEST_TEXT]

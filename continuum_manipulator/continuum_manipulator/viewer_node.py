@@ -5,7 +5,7 @@ import os
 from continuum_manipulator.nodekit.run import run
 
 GIVES_WAY = 10
-"""By so much the process is nicer than others: who only looks keeps nobody from working."""
+"""Increase of the nice value, so that the viewer does not delay other processes."""
 
 
 def main() -> int:

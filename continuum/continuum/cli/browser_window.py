@@ -1,4 +1,4 @@
-"""A page that is served here, opened in the user's browser."""
+"""Opening a page in the user's browser."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import webbrowser
 
 
 def has_window() -> bool:
-    """Whether a user at a terminal has a screen on which a browser can open; no pipe, test or remote shell has."""
+    """Return whether a user at a terminal has a screen for a browser; not so in a pipe, a test or a remote shell."""
     screen = sys.platform in ("darwin", "win32") or "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ
     return sys.stdout.isatty() and screen
 
 
 def open_window(address: str) -> None:
-    """Open ``address`` in the default browser, where there is one; otherwise the user opens what was printed."""
+    """Open ``address`` in the default browser if there is a screen; otherwise the user opens the printed address."""
     if has_window():
         webbrowser.open(address)

@@ -1,4 +1,4 @@
-"""What the files are that `continuum view` is given, and what they are called on the page."""
+"""Kinds of the files passed to `continuum view`, and their labels on the page."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def is_arm(what: str) -> bool:
-    """Whether an arm is meant: by a YAML file, or by a bare name that nothing here has; not by a recording."""
+    """Return whether an argument names an arm: a YAML file, or a bare name that no file here has; not a recording."""
     from continuum.recordings.bag import is_bag
 
     path = Path(what)
@@ -17,7 +17,7 @@ def is_arm(what: str) -> bool:
 
 
 def labels(paths: Sequence[str]) -> list[str]:
-    """Return a label for each path, all different: its name, or the whole path where two have the same name."""
+    """Return a distinct label for each path: its name, or the whole path if several have the same name."""
     names = [Path(path).name for path in paths]
     counts = Counter(names)
     distinct = [path if counts[name] > 1 else name for path, name in zip(paths, names, strict=True)]

@@ -1,1 +1,1 @@
-"""The arm in a browser: a page that shows what nodes, a recording or its own sliders say (viser, URDF by yourdfpy)."""
+"""The arm in a browser: a page that shows states from nodes, a recording or its sliders (viser; yourdfpy for URDF)."""

@@ -1,4 +1,4 @@
-"""Where the page is served: the usual address, whether one can listen there, and how a browser is told of it."""
+"""Address of the page: its default, a check that it can be served, and its URL."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ import socket
 from continuum.errors import InvalidValueError
 
 HOST = "127.0.0.1"
-"""This host alone."""
+"""Reachable from this host only."""
 
 PORT = 8080
 
 _EVERY = ("0.0.0.0", "::")  # noqa: S104
-"""Of all addresses of the machine; no browser goes there."""
+"""Stands for all addresses of the machine; browsers cannot open it."""
 
 
 def url(host: str, port: int) -> str:
-    """What to open in a browser of this machine."""
+    """Return the URL to open in a browser on this machine."""
     name = "localhost" if host in _EVERY else host
     return f"http://{_bracketed(name)}:{port}"
 
 
 def check_address(host: str, port: int) -> None:
-    """Refuse an address that nobody can listen on: the server itself would look for another port.
+    """Check that the page can be served on an address; the server itself would choose another port.
 
     Raises:
-        InvalidValueError: it is none of this machine's, or its port is taken.
+        InvalidValueError: the address is not of this machine, or the port is in use.
     """
     if not 0 <= port <= 65535:
         raise InvalidValueError("port", port, "a whole number from 0 to 65535, 0 for any that is free")
@@ -47,5 +47,5 @@ def check_address(host: str, port: int) -> None:
 
 
 def _bracketed(host: str) -> str:
-    """A numeric address of IPv6 stands in brackets before a port."""
+    """Return the host as in a URL, where a numeric IPv6 address is in brackets."""
     return f"[{host}]" if ":" in host else host

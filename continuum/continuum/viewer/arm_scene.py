@@ -1,4 +1,4 @@
-"""One arm in the scene: links, cables and the sections' rotation vectors, sent anew only where they moved."""
+"""One arm in the scene: links, cables and rotation vectors of the sections, sent only when they have moved."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ _PALE = 0.3
 """Opacity."""
 
 _CABLE = 0.09
-"""Thickness of a cable's line, of the radius of the first section's holes; half of it where it only passes."""
+"""Thickness of a cable's line relative to the hole radius of the first section; half of it where it only passes."""
 
 _ARROW_LENGTH = 0.25
-"""Length of a rotation vector for a bend of 1 rad, of the arm's length."""
+"""Length of a rotation vector for a bend of 1 rad, relative to the length of the arm."""
 
 _STRAIGHT = 10.0
 """Radius of curvature, in lengths of the arm, beyond which a section counts as straight."""
@@ -38,14 +38,14 @@ class ArmLinks:
     """The links of an arm in the scene.
 
     Args:
-        server: of the page.
-        name: of its nodes in the scene.
-        description: of the arm.
-        ghost: colour of translucent links; None for links in their own colours.
+        server: server of the page.
+        name: name of the links in the scene.
+        description: description of the arm.
+        ghost: colour of translucent links; None for opaque links in the colours of the description.
 
     Attributes:
-        chain: poses its links.
-        poses: of the links as they were shown last, (n_links, 4, 4) [m].
+        chain: forward kinematics of the links.
+        poses: poses of the links as last shown, (n_links, 4, 4) [m].
     """
 
     def __init__(self, server: viser.ViserServer, name: str, description: URDF, ghost: Colour | None = None) -> None:
@@ -97,7 +97,7 @@ class ArmLinks:
                 mesh.opacity = _PALE if pale else None
 
     def show(self, joints: Mapping[str, float]) -> bool:
-        """Put the links where the angles [rad] of the named joints say; False where that is where they are."""
+        """Move the links to the angles [rad] of the named joints; return False if they are there already."""
         angles = self.chain.angles(joints)
         if np.array_equal(angles, self._angles):
             return False
@@ -119,12 +119,12 @@ class ArmScene:
     """An arm with its cables and rotation vectors.
 
     Args:
-        server: of the page.
-        arm: the arm.
-        description: of the arm.
+        server: server of the page.
+        arm: arm.
+        description: description of the arm.
 
     Attributes:
-        links: its links.
+        links: links of the arm.
     """
 
     def __init__(self, server: viser.ViserServer, arm: Arm, description: URDF) -> None:
@@ -151,7 +151,7 @@ class ArmScene:
         )  # fmt: skip
 
     def cable_lengths(self) -> dict[str, float]:
-        """Lengths [m] of the cables as they are shown, by name."""
+        """Return the lengths [m] of the cables as shown, by name."""
         lengths = dict.fromkeys(self._arm.cable_names, 0.0)
         for holes, lines in self._cables:
             ends = lines.points.astype(float)
@@ -162,12 +162,12 @@ class ArmScene:
 
     @property
     def tip(self) -> Array:
-        """Where the tip is shown, (3,) [m]."""
+        """Position of the tip as shown, (3,) [m]."""
         tip: Array = self.links.poses[self._tip, :3, 3]
         return tip
 
     def show(self, joints: Mapping[str, float]) -> bool:
-        """Move everything to the angles [rad] of the named joints; False where nothing moved."""
+        """Move links, cables and vectors to the angles [rad] of the named joints; return False if nothing moved."""
         if not self.links.show(joints):
             return False
         for holes, lines in self._cables:
@@ -177,13 +177,13 @@ class ArmScene:
         return True
 
     def set_vectors(self, shown: bool) -> None:
-        """Show the rotation vectors of the sections that are bent, or none."""
+        """Show or hide the rotation vectors of the bent sections."""
         if shown is not self._vectors:
             self._vectors = shown
             self._draw_vectors()
 
     def set_dark(self, dark: bool) -> None:
-        """Draw cables so that they are seen on a dark or a light page."""
+        """Draw the cables in colours that are visible on a dark or a light page."""
         if dark is not self._dark:
             self._dark = dark
             for holes, lines in self._cables:

@@ -1,4 +1,4 @@
-"""What a browser may say to the page: the forms of its messages, and nothing else of what the server would take."""
+"""Messages that a browser may send to the page; the server itself would accept others as well."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import msgspec
 from continuum.errors import ContinuumError
 
 LONGEST = 2**14
-"""Of a message [bytes]; the longest that a page sends, of a camera, has some three hundred."""
+"""Largest size of a message [bytes]; the largest that a page sends, that of a camera, has about three hundred."""
 
 _Text = Annotated[str, msgspec.Meta(max_length=200)]
 _Vector = tuple[float, float, float]
@@ -19,15 +19,15 @@ _Quaternion = tuple[float, float, float, float]
 
 
 class BrowserMessageError(ContinuumError):
-    """A message of a browser is none that a page sends."""
+    """A browser sent a message that no page sends."""
 
 
 class _Form(msgspec.Struct, forbid_unknown_fields=True, tag_field="type"):
-    """All fields of a message, and no others."""
+    """Message that has all of its fields and no others."""
 
 
 class _Value(msgspec.Struct, forbid_unknown_fields=True):
-    """What alone of an input may be changed; the server would let a browser remove it, too."""
+    """Only the value of an input may be changed; the server would also let a browser remove the input."""
 
     value: bool | float | _Text
 
@@ -67,7 +67,7 @@ class _DragEnd(_Form, tag="TransformControlsDragEndMessage"):
 
 
 class _Command(_Form, tag="CommandTriggerMessage"):
-    """Of a key; the server knows its commands by their identity."""
+    """A pressed key; the server identifies its commands by ``uuid``."""
 
     uuid: _Text
 
@@ -76,14 +76,14 @@ _DECODER = msgspec.msgpack.Decoder(_Input | _Camera | _Target | _DragStart | _Dr
 
 
 def check_browser_message(data: bytes | str, words: Collection[str]) -> None:
-    """See that a message has the form of one that a page sends, finite numbers, and words that there are to choose.
+    """Check that a message has a permitted form, finite numbers, and words that the page offers.
 
     Args:
         data: the message.
-        words: that may be chosen anywhere on the page.
+        words: words that the page offers in its inputs.
 
     Raises:
-        BrowserMessageError: it has not.
+        BrowserMessageError: the message is not permitted.
     """
     if isinstance(data, str):
         raise BrowserMessageError("text; allowed: MessagePack")

@@ -1,4 +1,4 @@
-"""Cables between the holes of the discs that they run through, wherever the links are."""
+"""Cables as straight pieces between the holes of the discs, for any poses of the links."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from continuum.kinematics.routing import cables_through
 class CableHoles:
     """Straight pieces of cables from disc to disc.
 
-    They are the lines of `continuum.kinematics.cable_lines`, but of the links' poses, which the page has anyway, and in
-    arrays as it draws them.
+    They are the lines of `continuum.kinematics.cable_lines`, but computed from the poses of the links, which the page
+    has anyway, and returned in the arrays that it draws.
 
     Args:
-        arm: the arm.
-        links: names of its description's links.
-        passing: the cables where they pass a section on their way to another further out; else where they are
-            the section's own.
+        arm: arm.
+        links: names of the links of its description.
+        passing: whether to return the cables where they pass through a section to one further out; otherwise, where
+            they end in the section.
 
     Attributes:
-        cables: name of the cable that each piece belongs to, (n_pieces,).
-        colours: of both ends of each piece, (n_pieces, 2, 3), from 0 to 1.
+        cables: name of the cable of each piece, (n_pieces,).
+        colours: colours of both ends of each piece, (n_pieces, 2, 3), from 0 to 1.
     """
 
     def __init__(self, arm: Arm, links: Sequence[str], passing: bool) -> None:
@@ -52,7 +52,7 @@ class CableHoles:
         self.colours = np.repeat(np.array(colours).reshape(-1, 1, 3), 2, axis=1)
 
     def pieces(self, poses: Array) -> Array:
-        """Both ends of each piece, (..., n_pieces, 2, 3) [m], at the links' ``poses`` (..., n_links, 4, 4)."""
+        """Return both ends of each piece, (..., n_pieces, 2, 3) [m], at link ``poses``, (..., n_links, 4, 4) [m]."""
         frames = poses[..., self._links, :, :]
         held = np.einsum("...pekl,pl->...pek", frames[..., :3, :3], self._places)
         ends: Array = held + frames[..., :3, 3]

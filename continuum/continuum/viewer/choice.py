@@ -1,4 +1,4 @@
-"""A choice between words on the page: what a browser says that is none of them changes nothing."""
+"""A choice between words on the page; any other word from a browser has no effect."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from continuum.viewer.layout import Layout
 
 
 class Choice:
-    """A dropdown, made where the page's parts are put now.
+    """A dropdown in the container of the page that is open at its creation.
 
     Args:
-        layout: of the page.
-        label: what it is called on the page.
-        options: what may be chosen.
-        first: what is chosen at first; the first option by default.
-        properties: as viser's dropdown has them.
+        layout: page.
+        label: label on the page.
+        options: words to choose from.
+        first: initial choice; the first option by default.
+        properties: further properties of the dropdown of viser.
     """
 
     def __init__(
@@ -32,7 +32,7 @@ class Choice:
 
     @property
     def value(self) -> str:
-        """What is chosen, one of the options."""
+        """The choice, one of the options."""
         said = self._handle.value
         if said in self._options:
             self._chosen = said

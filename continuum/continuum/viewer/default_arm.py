@@ -1,4 +1,4 @@
-"""The arm that is meant where no file names one: modules of the thesis's Table 1."""
+"""The arm that is assumed without an arm file: modules of Table 1 of the thesis."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from continuum.joint_names import theta_joints
 
 _B, _A = 0.01925, 0.032
 _MODULES = 5
-_WITHIN = 0.99  # of the bend at which discs touch
+_WITHIN = 0.99  # bend limit relative to the bend at which discs touch
 
 
 def default_arm(n_sections: int = 3) -> Arm:
-    """Sections of five modules, each a twelfth of a turn on from the one before."""
+    """Return an arm of sections of five modules, each rotated by a twelfth of a turn from the preceding section."""
     twists = [0.0] + [math.pi / 6] * (n_sections - 1)
     return Arm(tuple(Section(f"section_{i}", _MODULES, _B, _A, twist=twist) for i, twist in enumerate(twists, start=1)))
 
 
 def arm_of_joints(joints: Iterable[str]) -> Arm:
-    """Sections of such modules, without twist, that have the joints of these names; few bend less far than usual.
+    """Return an arm of untwisted sections of such modules that has the named joints; few modules lower the bend limit.
 
     Raises:
-        InvalidValueError: no joint is a section's first.
+        InvalidValueError: no joint is the first of a section.
     """
     names, ending = list(joints), theta_joints("", 1)[0]
     sections = [name.removesuffix(ending) for name in names if name.endswith(ending)]

@@ -1,4 +1,4 @@
-"""The arm's own URDF, read for its shapes."""
+"""The URDF of an arm, read for its shapes."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from continuum.urdf.robot import urdf_text
 
 
 def arm_description(arm: Arm) -> yourdfpy.URDF:
-    """The description of ``arm``, without scene graphs: poses and shapes are this package's own.
+    """Return the description of ``arm``, without scene graphs: this package computes poses and shapes itself.
 
     Raises:
-        InvalidValueError: a section has a name that links cannot have.
+        InvalidValueError: the name of a section is not a valid link name.
     """
     return yourdfpy.URDF.load(
         io.BytesIO(urdf_text(arm).encode()), build_scene_graph=False, load_meshes=False,

@@ -1,4 +1,4 @@
-"""Lengths of the cables of a whole recording, as they are drawn: of recordings that have none."""
+"""Lengths of the drawn cables over a recording, for recordings that contain no cable lengths."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from continuum.viewer.link_poses import LinkPoses
 from continuum.viewer.tracks import Track
 
 _MOST = 5000
-"""Most instants that are computed: of ten joints, half a second of work."""
+"""Largest number of instants that are computed; with ten joints, this takes half a second."""
 
 _AT_ONCE = 500
-"""Instants that are computed together; all poses of a long recording would fill the memory."""
+"""Number of instants that are computed together; all poses of a long recording would fill the memory."""
 
 
 def drawn_cables(joints: Track, arm: Arm) -> Track:
-    """Return lengths [m] of all cables of an arm that moves as ``joints`` say [rad]."""
+    """Return the lengths [m] of all cables of an arm with the joint angles ``joints`` [rad]."""
     chain = LinkPoses(arm_description(arm))
     rows = np.unique(np.linspace(0, joints.times.size - 1, _MOST).astype(int))
     angles = np.array([chain.angles(dict(zip(joints.names, row, strict=True))) for row in joints.values[rows]])

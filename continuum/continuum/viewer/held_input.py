@@ -1,4 +1,4 @@
-"""An input of the page that is in somebody's hand: it goes back to rest once that browser has left."""
+"""An input of the page that is reset when the browser that changed it disconnects."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import viser
 
 
 class Held:
-    """One input, the same in all browsers, that moves the arm while it is not at rest.
+    """An input, shared by all browsers, that commands the arm while it is not at rest.
 
     Args:
-        server: of the page.
-        handle: of the input.
-        rest: its value when nothing is asked of the arm.
+        server: server of the page.
+        handle: handle of the input.
+        rest: value of the input at rest, at which it commands nothing.
     """
 
     def __init__(self, server: viser.ViserServer, handle: Any, rest: object) -> None:
@@ -29,9 +29,10 @@ class Held:
         return self._handle.value
 
     def let_go(self) -> None:
-        """Put it to rest, unless the browser that changed it last is still there; to be called again and again.
+        """Reset the input unless the browser that changed it last is still connected; to be called periodically.
 
-        It must have been gone at the call before, too: who changes an input is known a moment later than the change.
+        The input is reset only if the browser was also absent at the previous call, because the sender of a change
+        becomes known slightly after the change.
         """
         left = self.value != self._rest and self._by not in self._server.get_clients()
         if left and self._left:
@@ -39,5 +40,5 @@ class Held:
         self._left = left
 
     async def _take(self, event: viser.GuiEvent[Any]) -> None:
-        """Asynchronous so that takes are seen in the order in which they came."""
+        """Store the sender of a change; asynchronous, so that changes are processed in the order of arrival."""
         self._by = event.client_id

@@ -1,4 +1,4 @@
-"""Where things stand on the page: the scene, what moves the arm on its right, what is measured on its left."""
+"""Layout of the page: the scene, controls of the arm to its right, measurements to its left."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import viser
 from continuum.burst_log import BurstLog
 
 _WIDTH = 320
-"""Of the panel on the left [pixels]."""
+"""Width of the left panel [pixels]."""
 
 NAME = "continuum"
 
@@ -19,12 +19,12 @@ class Layout:
     """A served page.
 
     Attributes:
-        server: of the page.
-        move: what moves the arm.
-        plots: plots over time.
-        status: statuses.
-        faults: where it is noted what a browser must not say.
-        words: that a browser may say: options of what there is to choose.
+        server: server of the page.
+        move: folder of the controls that move the arm.
+        plots: tab of the plots over time.
+        status: tab of the statuses.
+        faults: log of refused messages from browsers.
+        words: words that a browser may send, the options of all choices.
     """
 
     server: viser.ViserServer
@@ -36,12 +36,12 @@ class Layout:
 
 
 def spoken(name: str) -> str:
-    """A name of the arm's, as people read it."""
+    """Return a name of the arm in readable form."""
     return name.replace("_", " ")
 
 
 def layout_of(server: viser.ViserServer, faults: BurstLog, words: set[str]) -> Layout:
-    """Make the panels."""
+    """Create the panels of the page."""
     set_theme(server, dark=False)
     server.gui.set_panel_label(NAME)
     panel = server.gui.add_panel()
@@ -52,7 +52,7 @@ def layout_of(server: viser.ViserServer, faults: BurstLog, words: set[str]) -> L
 
 
 def set_theme(server: viser.ViserServer, dark: bool) -> None:
-    """Make the page dark or light."""
+    """Set the page to dark or light."""
     server.gui.configure_theme(
         show_logo=False, show_share_button=False, control_width="medium", dark_mode=dark,
     )  # fmt: skip

@@ -12,33 +12,33 @@ from continuum.viewer.plot_data import PlotData
 from continuum.viewer.screen_colours import css
 
 _PADDING = (8, 16, 0, 0)
-"""Above, right, below, left, so that the uppermost number is whole [pixels]."""
+"""Above, right, below, left, so that the uppermost number is not cut off [pixels]."""
 
 _LABEL, _TIME, _TICK = 16, 24, 4
-"""Heights of the time axis' label and of its numbers, and length of a tick [pixels]."""
+"""Heights of the label and of the numbers of the time axis, and length of a tick [pixels]."""
 
 _NUMBERS = 54
-"""Width of the numbers beside the other axis: as `-1000` needs [pixels]."""
+"""Width of the numbers of the other axis [pixels]: that of `-1000`."""
 
 _BETWEEN = 20
-"""Least height from one number of that axis to the next, so that a low plot has several [pixels]."""
+"""Smallest distance between numbers of that axis [pixels], such that a low plot has several."""
 
 _NUDGE = 1e-9
-"""Part of the time axis by which it is longer in every second drawing: the browser numbers an axis only if it changes,
-and may have received the plot before its panel had a width. Plots without a cursor change as time goes on."""
+"""Relative extension of the time axis in every second drawing: the browser numbers an axis only when it changes, and
+may have received the plot before its panel had a width. Plots without a cursor change over time anyway."""
 
 _CURSOR = "rgb(128, 128, 128)"
 _BELOW, _ABOVE = -1.0, 2.0
-"""The cursor is a line from below its axis, which reaches from 0 to 1, to above it."""
+"""Ends of the cursor line, below and above its axis, which spans 0 to 1."""
 
 
 class LinePlot:
-    """One plot; it is absent while it has no line. The page's plots draw nothing where a single number is missing.
+    """One plot, absent while it has no line. The plots of viser draw nothing if a single number is missing.
 
     Args:
         layout: page.
         title: title of the plot.
-        order: place among the plots, whenever it is made.
+        order: position among the plots, independent of the order of creation.
         height: height of its area with the time axis [pixels].
         time_label: label of the time axis.
     """
@@ -52,7 +52,7 @@ class LinePlot:
 
     def show(self, data: PlotData | None, now: float | None = None, dark: bool = False) -> None:
         """Draw the lines, with a cursor at ``now`` [s] if given."""
-        if data is None or len(data.times) < 2:  # one point is no line, and its axes would mean nothing
+        if data is None or len(data.times) < 2:  # one point is not a line, and its axes would be meaningless
             self.remove()
             return
         made_of = (data.lines, dark, now is None)
@@ -68,7 +68,7 @@ class LinePlot:
             self.plot.data = arrays
 
     def remove(self) -> None:
-        """Take the plot off the page; it comes back with the next data."""
+        """Remove the plot from the page; the next data restore it."""
         if self.plot is not None:
             self.plot.remove()
         self.plot, self._made_of = None, ()
@@ -108,7 +108,7 @@ class LinePlot:
 
 
 def with_cursor(data: PlotData, now: float) -> tuple[Array, ...]:
-    """Return times, lines and a cursor that is upright at ``now`` [s], each (n_times + 3,); the lines do not change."""
+    """Return times, lines and a vertical cursor at ``now`` [s], (n_times + 3,) each; the lines do not change."""
     times, values = data.times, data.values
     row = int(np.searchsorted(times, now))
     between = np.array([[np.interp(now, times, line)] * 3 for line in values]).reshape(len(values), 3)

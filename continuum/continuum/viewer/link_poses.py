@@ -1,4 +1,4 @@
-"""Where an arm's links are: the chain of its description, posed by the angles of joints that are named."""
+"""Poses of the links of an arm: forward kinematics of its description from angles of named joints."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from continuum.errors import InvalidValueError
 
 
 class LinkPoses:
-    """Forward kinematics of a description whose joints turn or are fixed.
+    """Forward kinematics of a description whose joints are revolute or fixed.
 
-    A joint that mimics another follows it unless it has an angle of its own: five bending joints, say, may differ.
+    A joint that mimics another follows it unless its angle is given: the bending joints of a section may differ.
 
     Args:
-        description: of the arm.
+        description: description of the arm.
 
     Attributes:
         links: names of the links, each after its parent.
-        joints: names of the joints that turn.
+        joints: names of the revolute joints.
 
     Raises:
-        InvalidValueError: a joint of another type.
+        InvalidValueError: a joint has another type.
     """
 
     def __init__(self, description: URDF) -> None:
@@ -48,7 +48,7 @@ class LinkPoses:
         ]
 
     def angles(self, named: Mapping[str, float]) -> Array:
-        """Angles (n_joints,) [rad] of all joints; of those that nobody names and that follow none, 0."""
+        """Return the angles of all joints, (n_joints,) [rad]; 0 for a joint that is not named and mimics none."""
         angles = np.array([named.get(name, np.nan) for name in self.joints])
         for joint, mimicked, multiplier, offset in self._followers:
             if np.isnan(angles[joint]):
@@ -57,7 +57,7 @@ class LinkPoses:
         return known
 
     def poses(self, angles: Array) -> Array:
-        """Poses (..., n_links, 4, 4) [m] in the base link at ``angles`` (..., n_joints) [rad]."""
+        """Return the link poses in the base link, (..., n_links, 4, 4) [m], at ``angles``, (..., n_joints) [rad]."""
         instants = angles.shape[:-1]
         steps = np.broadcast_to(self._origins, (*instants, *self._origins.shape)).copy()
         turns = Rotation.from_rotvec((angles[..., None] * self._axes).reshape(-1, 3)).as_matrix()
@@ -71,10 +71,10 @@ class LinkPoses:
 
 
 def root_link(description: URDF) -> str:
-    """Name of the link that no joint carries.
+    """Return the name of the link that is the child of no joint.
 
     Raises:
-        InvalidValueError: there is none, or more than one.
+        InvalidValueError: there is no such link, or more than one.
     """
     carried = {joint.child for joint in description.robot.joints}
     roots = [link.name for link in description.robot.links if link.name not in carried]
@@ -84,7 +84,7 @@ def root_link(description: URDF) -> str:
 
 
 def _parents_first(description: URDF) -> list[Joint]:
-    """The joints, each after the one that carries its parent link."""
+    """Return the joints, each after the joint of its parent link."""
     waiting, known, order = list(description.robot.joints), {root_link(description)}, []
     while waiting:
         ready = [joint for joint in waiting if joint.parent in known]

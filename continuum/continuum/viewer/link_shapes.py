@@ -1,4 +1,4 @@
-"""What an arm's links look like: equal shapes together, each with the places where it stands."""
+"""Shapes of the links of an arm; equal shapes are combined into one with all links that have it."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from continuum.cable_colours import Colour
 from continuum.errors import InvalidValueError
 
 _ROUND = 20
-"""Corners of a cylinder."""
+"""Number of corners of a cylinder."""
 
 
 @dataclass(frozen=True)
 class Shape:
-    """One mesh that stands on several links.
+    """One mesh shared by several links.
 
     Attributes:
         vertices: (n_vertices, 3) [m] in the link's frame.
         faces: (n_faces, 3).
-        links: numbers of the links that it stands on, (n,).
-        colours: one for each of them, (n, 3), red, green and blue from 0 to 1.
+        links: numbers of the links that have it, (n,).
+        colours: colour on each of these links, (n, 3), red, green and blue from 0 to 1.
     """
 
     vertices: NDArray[np.float32]
@@ -36,7 +36,7 @@ class Shape:
 
 
 def link_shapes(description: URDF, links: Sequence[str]) -> list[Shape]:
-    """The shapes of a description of cylinders and spheres; of each link what has one colour is one mesh."""
+    """Return the shapes of a description of cylinders and spheres; the parts of a link in one colour are one mesh."""
     materials = {material.name: material for material in description.robot.materials}
     found: dict[bytes, tuple[trimesh.Trimesh, list[int], list[Colour]]] = {}
     for number, link in enumerate(links):

@@ -1,4 +1,4 @@
-"""The page by itself: whoever looks at it moves the arm, without nodes and without a recording."""
+"""The page without nodes and recording: its users move the arm."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from continuum.viewer.seen import Seen
 
 
 class ManualSource:
-    """Sliders and a target move the arm.
+    """Source of an arm that sliders and a target move.
 
     Args:
-        arm: the arm.
+        arm: arm.
     """
 
     def __init__(self, arm: Arm) -> None:

@@ -1,4 +1,4 @@
-"""A motion as a table: what the page shows of a recording, to be read by other programs and by `continuum`."""
+"""A motion as a CSV table: the data of a recording that the page shows, readable by other programs and `continuum`."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _DIGITS = 9
 def motion_csv(joints: Track, lengths: Track, tensions: Track, arm: Arm) -> str:
     """Return a table of time, joint angles [deg], tip [m], lengths [m] and tensions [N] at each joint state.
 
-    Joints of an arm of one section are named as in recordings (`q1_deg`), so that the table is one.
+    The joints of an arm of one section are named as in recordings (`q1_deg`), so that the table is a recording.
 
     Args:
         joints: joint angles [rad].
         lengths: lengths of cables [m].
-        tensions: tensions of cables [N]; cables of neither have no column.
+        tensions: tensions of cables [N]; a cable without lengths or tensions has no such column.
         arm: arm.
     """
     chain = LinkPoses(arm_description(arm))

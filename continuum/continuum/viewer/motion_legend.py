@@ -1,4 +1,4 @@
-"""Which of the drawn arms is which motion."""
+"""Legend of the drawn arms: the motion that each of them shows."""
 
 from __future__ import annotations
 

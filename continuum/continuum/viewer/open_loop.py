@@ -1,4 +1,4 @@
-"""The open-loop simulation of a recording by a model, to be drawn over what was measured."""
+"""Open-loop simulation of a recording by a model, drawn over the measured motion."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from continuum.viewer.tracks import Track
 
 
 def open_loop_track(recording: Recording, measured: Track, model: Model, name: str) -> Track:
-    """Return the joint angles [rad] that a model's sensors would have read, simulated from start to end of a run.
+    """Return the joint angles [rad] that the sensors of a model would read, simulated from start to end of a run.
 
-    Only the initial angles and rates are fitted to the run. The plane in which the section bends is that of the run's
-    first sample.
+    Only the initial angles and rates are fitted to the run. The bending plane of the section is that of the first
+    sample.
 
     Args:
         recording: the run, with its inputs.
-        measured: its joint angles by name, of one section [rad].
+        measured: measured joint angles of one section by name [rad].
         model: model of the section.
         name: name of the model in messages.
 
@@ -44,6 +44,6 @@ def open_loop_track(recording: Recording, measured: Track, model: Model, name: s
 
 
 def hangs(model: Model) -> bool:
-    """Whether gravity pulls the straight arm away from its base rather than towards it."""
+    """Return whether gravity pulls the straight arm away from its base."""
     pull = model.parameters.gravity * np.cos(model.parameters.hang_angle)
     return bool(np.all(pull > 0.0))

@@ -1,4 +1,4 @@
-"""Who comes in by the page's address, and with what: browsers that show this very page, as long as they answer."""
+"""Access to the page: only browsers that show this page are connected, and only while they respond."""
 
 from __future__ import annotations
 
@@ -25,49 +25,53 @@ from continuum.viewer.layout import NAME
 from continuum.viewer.page_title import titled
 
 PATIENCE = 10.0
-"""A browser that gives no sign of life for so long is sent away [s]; one that lives comes again by itself."""
+"""Time without a response [s] after which a browser is disconnected; a working browser reconnects automatically."""
 
 REFUSED_SITE = "page of another site"
 REFUSED_MESSAGE = "message of a browser"
 SERVER_ERROR = "error of the page's server"
 
 _ASKING = 2.0
-"""Between two questions whether a browser lives [s]."""
+"""Time between two pings of a browser [s]."""
 
 _LONGEST_DETAIL = 200
-"""Characters of what a browser says that are repeated."""
+"""Largest number of characters of a browser's message that are logged."""
 
 _NO_NUMBER = "could not convert string to float"
-"""What Python says of an input's value that is a word; for a number input, the server converts whatever it is sent."""
+"""Error of Python for a word as the value of a number input; the server converts any value it receives."""
 
 _Handler = Callable[[ServerConnection], Awaitable[None]]
 _Answer = Callable[[ServerConnection, Request], Response | None]
 
-_hung = threading.Lock()
-"""One door is hung at a time."""
+_replaced = threading.Lock()
+"""Held while the function that serves is replaced."""
 
 
 class NoOriginGuardError(ContinuumError):
-    """The server of pages cannot be kept from letting everybody in."""
+    """The page server cannot be restricted."""
 
 
 @contextmanager
 def kept_guard(host: str, words: Collection[str], faults: BurstLog, title: str = NAME) -> Iterator[None]:
-    """Let a server of pages that is started meanwhile let in only who shall, and only what a page sends.
+    """Restrict a page server that is started inside this context.
 
-    The server by itself would take orders from a page of any site that is open in a browser of this host, would let a
-    browser change anything about an input or open a tunnel to a public address, and would wait for a browser that
-    hangs until its end. It hands none of the hooks of `websockets` on (``process_request``, ``create_connection``), so
-    the function that it calls to serve is another one while it starts.
+    Only browsers that show this page are admitted, and only messages that the page sends. The server itself would
+    accept commands from a page of any site that is open in a browser on this host, would let a browser change all
+    properties of an input or open a tunnel to a public address, and would wait indefinitely for a browser that hangs.
+
+    The public interface of viser gives no access to the hooks of `websockets` (``process_request``,
+    ``create_connection``) for the handshake. The function that it calls to serve is therefore replaced while the server
+    starts. A proxy in front of the server would not help: the server's own port would stay open to pages of other
+    sites on this host.
 
     Args:
         host: address that the page is served on.
-        words: that a browser may say; asked for whenever it speaks.
-        faults: where it is noted who and what was refused.
+        words: words that a browser may send; read at every message.
+        faults: log of refused browsers and messages.
         title: title of the page in the browser.
 
     Raises:
-        NoDoorError: the server that was started serves in another way.
+        NoOriginGuardError: the server cannot be restricted.
     """
     known_hosts = {host, "localhost", socket.gethostname(), f"{socket.gethostname()}.local"}
     serve = websocket_server.serve
@@ -75,7 +79,7 @@ def kept_guard(host: str, words: Collection[str], faults: BurstLog, title: str =
     put_title = titled(title)
 
     class Connection(ServerConnection):
-        """Gives messages that a page sends; others are noted."""
+        """Connection that passes on messages that the page sends and logs others."""
 
         async def recv(self, decode: bool | None = None) -> Any:
             while True:
@@ -104,32 +108,30 @@ def kept_guard(host: str, words: Collection[str], faults: BurstLog, title: str =
                 await handler(connection)
             finally:
                 watch.cancel()
-                await asyncio.gather(watch, return_exceptions=True)  # it may have met the end of the connection
+                await asyncio.gather(watch, return_exceptions=True)  # the connection may have ended meanwhile
 
         served.set()
         hooks = {"process_request": answer, "create_connection": Connection, "max_size": LONGEST}
         return serve(handle, host, port, **(options | hooks))
 
-    with _hung:
+    with _replaced:
         websocket_server.serve = serve_guarded  # type: ignore[assignment, misc]
         try:
             yield
         finally:
             websocket_server.serve = serve  # type: ignore[misc]
     if not served.is_set():
-        raise NoOriginGuardError(
-            "this version of viser lets everybody in; docs/dependencies.md names one that does not"
-        )
+        raise NoOriginGuardError("this version of viser cannot be restricted; docs/dependencies.md names one that can")
 
 
 def is_stranger(origin: str | None, served_as: str | None, known_hosts: set[str]) -> bool:
-    """Whether a browser shows a page of another site.
+    """Return whether a browser shows a page of another site.
 
     Args:
-        origin: site of the page that connects, as the browser says; None of what is no browser.
-        served_as: name and port by which it connects. A name that is not the server's own is of a site that points it
-            at this host (DNS rebinding).
-        own_names: names of the server. Numeric addresses are never strange: nobody can point them elsewhere.
+        origin: site of the page that connects, as stated by the browser; None for a client that is not a browser.
+        served_as: host name and port of the request. A host name that is not one of the server is that of a site which
+            resolves to this host (DNS rebinding).
+        known_hosts: host names of the server. Numeric addresses are always accepted: they cannot resolve elsewhere.
     """
     if origin is None:
         return False
@@ -151,12 +153,12 @@ def _is_numeric(name: str) -> bool:
 
 
 def _note(faults: BurstLog, cause: str, detail: str) -> bool:
-    """What a browser says is repeated in one line without control characters. Whether a burst begins."""
+    """Log text from a browser in one line without control characters; return whether a burst begins."""
     return faults.note(cause, "".join(mark if mark.isprintable() else "?" for mark in detail[:_LONGEST_DETAIL]))
 
 
 def _note_error(faults: BurstLog, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-    """What ended a task or a callback of the server; what no browser did is logged with its traceback, once a burst."""
+    """Log the error of a task or callback of the server; with a traceback, once per burst, if no browser caused it."""
     error = context.get("exception")
     a_word_for_a_number = isinstance(error, ValueError) and str(error).startswith(_NO_NUMBER)
     if a_word_for_a_number or isinstance(error, (ConnectionError, WebSocketException)):
@@ -166,7 +168,7 @@ def _note_error(faults: BurstLog, loop: asyncio.AbstractEventLoop, context: dict
 
 
 async def _watch(connection: ServerConnection) -> None:
-    """Ask whether it lives; the server's own question waits behind all that a browser that hangs does not take."""
+    """Ping the browser and disconnect it without a response; the server's own pings queue behind unsent data."""
     try:
         while True:
             await asyncio.sleep(_ASKING)

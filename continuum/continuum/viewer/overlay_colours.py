@@ -1,11 +1,11 @@
-"""Colours of motions that are compared, the same in the scene and in plots."""
+"""Colours of compared motions, the same in the scene and in plots."""
 
 from __future__ import annotations
 
 from continuum.cable_colours import Colour
 
 SOLID: Colour = (0.95, 0.45, 0.10)
-"""Of the motion that is drawn solid: that of its tip's path."""
+"""Colour of the motion that is drawn solid; its tip path has the same colour."""
 
 GHOST: Colour = (0.27, 0.51, 0.78)
 

@@ -1,4 +1,4 @@
-"""The page: a scene of the arm and what stands beside it, served on an address and fed by one source."""
+"""The page: a scene of the arm with its controls and plots, served on an address, with one source of states."""
 
 from __future__ import annotations
 
@@ -31,28 +31,28 @@ from continuum.viewer.trail import Trail
 from continuum.viewer.view_controls import ViewControls
 
 FRAME_RATE = 30.0
-"""Most frames a second."""
+"""Largest number of frames per second."""
 
 _TARGET_COLOUR = (0.55, 0.55, 0.60)
 
 
 class Page:
-    """An arm in the browser. Drawing asks the source for the newest state; what came between is never drawn.
+    """An arm in the browser. Each frame shows the newest state of the source; states between frames are not drawn.
 
     Args:
-        arm: the arm.
-        source: says what is to be seen.
-        host: address that the page is served on; the default is reached from this host alone.
-        port: 0 for any that is free.
-        faults: where it is noted what browsers must not say; on stderr by default.
+        arm: arm.
+        source: source of the state to draw.
+        host: address that the page is served on; the default is reachable from this host only.
+        port: port; 0 for any free port.
+        faults: log of refused messages from browsers; on stderr by default.
         title: title of the page in the browser.
-        hanging: whether the base is shown at the top at first.
+        hanging: whether the base is initially shown at the top.
 
     Attributes:
-        frames: drawn so far.
+        frames: number of frames drawn so far.
 
     Raises:
-        InvalidValueError: nobody can listen on that address.
+        InvalidValueError: the page cannot be served on that address.
     """
 
     def __init__(
@@ -66,7 +66,7 @@ class Page:
         self._description = arm_description(arm)
         self._faults = faults or BurstLog(lambda line: print(line, file=sys.stderr), time.monotonic, "dropped, ")
         words: set[str] = set()
-        with redirect_stdout(io.StringIO()), kept_guard(host, words, self._faults, title):  # it has a banner of its own
+        with redirect_stdout(io.StringIO()), kept_guard(host, words, self._faults, title):  # viser prints a banner
             self._server = viser.ViserServer(host=host, port=port, label=NAME, verbose=False)
         self._host = host
         layout = layout_of(self._server, self._faults, words)
@@ -88,21 +88,21 @@ class Page:
 
     @property
     def address(self) -> str:
-        """What to open in a browser."""
+        """URL to open in a browser."""
         return url(self._host, self._server.get_port())
 
     @property
-    def lookers(self) -> int:
-        """Browsers that are connected."""
+    def browsers(self) -> int:
+        """Number of connected browsers."""
         return len(self._server.get_clients())
 
     def run(self, stop: threading.Event) -> None:
-        """Draw until ``stop``; nothing is asked or drawn while nobody looks."""
+        """Draw until ``stop`` is set; the source is queried and frames are drawn only while a browser is connected."""
         due = time.monotonic()
         while not stop.wait(max(0.0, due - time.monotonic())):
             due = max(due + 1.0 / FRAME_RATE, time.monotonic())
             self._faults.tick()
-            if self.lookers:
+            if self.browsers:
                 self.draw()
 
     def draw(self) -> None:
@@ -119,7 +119,7 @@ class Page:
             self._statuses.show(seen.statuses)
 
     def close(self) -> None:
-        """End the server."""
+        """Stop the server."""
         with redirect_stdout(io.StringIO()):
             self._server.stop()
 
@@ -133,7 +133,7 @@ class Page:
             self._draw_ghost(f"/overlay_{i + 1}", overlay_colour(i), joints)
 
     def _draw_ghost(self, name: str, colour: Colour, joints: Mapping[str, float]) -> None:
-        """Draw a translucent arm, which is made when there is something to show."""
+        """Draw a translucent arm, which is created when it is first needed."""
         if joints and name not in self._ghosts:
             self._ghosts[name] = ArmLinks(self._server, name, self._description, colour)
         if name in self._ghosts:

@@ -1,4 +1,4 @@
-"""The browser's title of the page: viser's page has its own in the text that it serves."""
+"""Title of the page in the browser; the page of viser has a fixed title in the HTML that it serves."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _TITLE = re.compile(rb"<title>[^<]*</title>")
 
 
 def titled(title: str) -> Callable[[Response | None], Response | None]:
-    """Return a function that puts ``title`` into responses that are pages and leaves others as they are.
+    """Return a function that sets ``title`` in responses that are pages and leaves others unchanged.
 
-    The last page is remembered: it is the same for all browsers that take the same compression.
+    Modified pages are cached: they are the same for all browsers that accept the same compression.
     """
     element = f"<title>{html.escape(title)}</title>".encode()
     done: dict[bytes, bytes] = {}

@@ -1,4 +1,4 @@
-"""A recording played on the page, with other motions of the same arm to compare it with."""
+"""Playback of a recording on the page, compared with other motions of the same arm."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from continuum.viewer.tracks import Track, Tracks
 
 
 class Playback:
-    """Plays from the beginning as soon as somebody looks, again and again unless "Repeat" is off.
+    """Source that plays from the start when the first browser connects, repeatedly unless "Repeat" is off.
 
     Args:
         arm: arm.
         tracks: tracks of the recording.
         name: name of the recording.
-        overlays: joint angles of other motions of the same arm by name [rad]; they are drawn as ghosts.
+        overlays: joint angles of other motions of the same arm by name [rad], drawn as ghosts.
     """
 
     def __init__(self, arm: Arm, tracks: Tracks, name: str, overlays: Mapping[str, Track] | None = None) -> None:
@@ -39,7 +39,7 @@ class Playback:
         self._lengths = drawn_cables(self._motions[0].joints, arm) if drawn else tracks.lengths
 
     def add_controls(self, layout: Layout) -> None:
-        """Begin to play when somebody looks."""
+        """Put the controls on the page; playback starts at the first call of `newest`."""
         gui = layout.server.gui
         with layout.move:
             if len(self._motions) > 1:
@@ -48,7 +48,7 @@ class Playback:
                 gui.add_markdown(f"`{self._name}`")
             end = max(float(motion.joints.times[-1]) for motion in self._motions)
             self.player = Player(layout, self._tracks.joints.times, end)
-            save = gui.add_button("Save CSV", hint="Joint angles, tip and cables of the motion that is drawn solid.")
+            save = gui.add_button("Save CSV", hint="Joint angles, tip and cables of the motion that is drawn solid")
         save.on_click(self._save)
         self._plots = RecordedPlots(layout, self._arm, self._motions, self._lengths, self._tracks.tensions)
 
@@ -67,7 +67,7 @@ class Playback:
         )
 
     def _all_motions(self) -> Sequence[Motion]:
-        """All motions, the one that is drawn solid first."""
+        """Return all motions, first the one that is drawn solid."""
         tracks = self._tracks
         overlays = [Motion(name, t, overlay_colour(i)) for i, (name, t) in enumerate(self._overlays.items())]
         if not tracks.simulated.times.size:

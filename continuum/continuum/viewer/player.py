@@ -1,4 +1,4 @@
-"""The time of a recording: play and pause, single steps, again and again or once, speed, and a slider."""
+"""Time of a recording: play and pause, single steps, repetition, speed, and a slider."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ from continuum.viewer.slider_value import value_within
 _SPEEDS = {"1/8": 0.125, "1/4": 0.25, "1/2": 0.5, "1": 1.0, "2": 2.0, "4": 4.0}
 _STEPS = {"back": -1, "forward": 1}
 _STEP = 0.01
-"""Of the time slider [s]."""
+"""Step of the time slider [s]."""
 
 _DIGITS = 3
-"""Of its number, so that it can be read in full."""
+"""Decimal places of its number, few enough to be shown in full."""
 
 
 class Player:
-    """Controls on the page, the same in all browsers. It plays from the beginning as soon as it is asked for the time.
+    """Controls on the page, shared by all browsers. Playback starts at the first call of `go_on`.
 
-    The keys are space, J and L; the page has WASD, Q, E and the arrows for its camera.
+    The keys are space, J and L; the page uses WASD, Q, E and the arrows for its camera.
 
     Args:
-        layout: page; the controls are put where its parts are put now.
-        times: times of the samples, rising from 0 (n,) [s].
-        end: where the time ends [s]; not before the last sample.
+        layout: page; the controls are put into the container that is open.
+        times: times of the samples, increasing from 0, (n,) [s].
+        end: end of the time [s], not before the last sample.
 
     Attributes:
-        playing: whether time goes on.
+        playing: whether the time advances.
     """
 
     def __init__(self, layout: Layout, times: Array, end: float) -> None:
@@ -45,7 +45,7 @@ class Player:
         gui = layout.server.gui
         last = _STEP * max(math.ceil(round(end / _STEP, 6)), 1)
         self._button = gui.add_button("Play", hint="Key: space")
-        steps = gui.add_button_group("Step", tuple(_STEPS), hint="To the sample before or after. Keys: J, L")
+        steps = gui.add_button_group("Step", tuple(_STEPS), hint="To the previous or next sample. Keys: J, L")
         self._slider: viser.GuiSliderHandle[float] = gui.add_slider("time [s]", 0.0, round(last, 2), _STEP, 0.0)
         self._speed = Choice(layout, "Speed", tuple(_SPEEDS), "1")
         self._repeats: viser.GuiCheckboxHandle = gui.add_checkbox("Repeat", True)
@@ -59,7 +59,7 @@ class Player:
         self._say()
 
     def go_on(self) -> float:
-        """Return the time [s]: on by what passed since it was asked for last, or where the user put it."""
+        """Return the time [s]: advanced by the time since the last call, or as set by the user."""
         now = time.monotonic()
         passed, self._asked = 0.0 if self._asked is None else now - self._asked, now
         steps, self._steps = self._steps, 0
@@ -72,7 +72,7 @@ class Player:
         elif self.playing:
             end = self._end
             if self._time >= end:
-                self._put(0.0)  # it is repeated, or play was pressed at the end
+                self._put(0.0)  # repetition, or play pressed at the end
             else:
                 self._put(min(self._time + passed * _SPEEDS[self._speed.value], end))
                 self.playing = self._time < end or bool(self._repeats.value)
@@ -85,14 +85,14 @@ class Player:
         self._slider.value = round(moment, _DIGITS)  # type: ignore[misc]
 
     def _say(self) -> None:
-        """Let the button say what it does."""
+        """Label the button with its function."""
         if self.playing is not self._said_playing:
             self._said_playing = self.playing
             self._button.label = "Pause" if self.playing else "Play"
             self._button.icon = viser.Icon.PLAYER_PAUSE if self.playing else viser.Icon.PLAYER_PLAY
 
     async def _toggle(self, _: object) -> None:
-        """Asynchronous, as the others, so that what is pressed is taken in the order in which it came."""
+        """Toggle playback; asynchronous, as the others, so that clicks are processed in the order of arrival."""
         self.playing = not self.playing
 
     async def _step(self, event: viser.GuiEvent[Any]) -> None:

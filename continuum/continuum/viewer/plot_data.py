@@ -1,4 +1,4 @@
-"""What the plots of one section show: angles of its joints, lengths and tensions of its cables, line by line."""
+"""Data of the plots of one section: angles of its joints, lengths and tensions of its cables, line by line."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LENGTHS, TENSIONS = "Cable lengths [mm]", "Cable tensions [N]"
 
 @dataclass(frozen=True)
 class Motion:
-    """Joint angles over time, and how they are drawn.
+    """Joint angles over time, with label and colour.
 
     Attributes:
         label: label in legends; empty for the name of what is plotted.
@@ -50,8 +50,8 @@ class PlotData:
 
     Attributes:
         lines: lines.
-        times: rising (n,) [s].
-        values: values of each line (n_lines, n).
+        times: increasing times, (n,) [s].
+        values: values of each line, (n_lines, n).
     """
 
     lines: tuple[Line, ...]
@@ -62,9 +62,9 @@ class PlotData:
 def section_data(
     section: Section, motions: Sequence[Motion], lengths: Track = NOTHING, tensions: Track = NOTHING
 ) -> dict[str, PlotData]:
-    """Return the data of all plots of a section by title, of those quantities that are known.
+    """Return the data of all plots of a section by title, for the quantities that are known.
 
-    Where only the first joint of several is named, the others bend as it does: the section's bend theta is plotted.
+    If only the first of several joints is named, the others have its angle: the bend theta of the section is plotted.
     """
     data: dict[str, PlotData] = {}
     named = [name for name in section.theta_joints if any(name in motion.joints.names for motion in motions)]
@@ -86,23 +86,23 @@ def section_data(
 
 
 def track_of(times: Array, rows: Sequence[Mapping[str, float]], wanted: Iterable[str]) -> Track:
-    """Return a track of those ``wanted`` names that the last of ``rows`` has; rows that lack one are left out."""
+    """Return a track of the ``wanted`` names that the last of ``rows`` has; rows that lack one of them are omitted."""
     names = tuple(name for name in wanted if name in rows[-1])
     whole = [i for i, row in enumerate(rows) if all(name in row for name in names)]
     return Track(times[whole], names, np.array([[rows[i][name] for name in names] for i in whole]))
 
 
 def padded(data: PlotData, end: float) -> PlotData:
-    """Return data from 0 to ``end`` [s], so that all plots have the same time axis; the outermost values are kept."""
+    """Return data from 0 to ``end`` [s], for equal time axes of all plots; the first and last values are held."""
     inside = (data.times >= 0.0) & (data.times <= end)
     times = np.unique([0.0, *data.times[inside], end])
     return PlotData(data.lines, times, np.array([np.interp(times, data.times, line) for line in data.values]))
 
 
 def thinned(data: PlotData, most: int) -> PlotData:
-    """Return data of at most ``most`` points, an even number, that keep the smallest and largest value of each stretch.
+    """Return at most ``most`` points, an even number, that keep the smallest and largest value of each interval.
 
-    Values between may move in time by less than one stretch, two of the points.
+    Each interval has two points; a value within it may move in time by less than its length.
     """
     n = data.times.size
     if n <= most:
@@ -116,7 +116,7 @@ def thinned(data: PlotData, most: int) -> PlotData:
 
 
 def _compared(label: str, joint: str, motions: Sequence[Motion], factor: float = 1.0) -> PlotData:
-    """Return one joint's angle in each motion that has it; one that ends before the others keeps its last angle."""
+    """Return the angle of one joint in each motion that has it; a motion that ends early holds its last angle."""
     known = [motion for motion in motions if joint in motion.joints.names]
     columns = [(m.joints.times, m.joints.values[:, m.joints.names.index(joint)]) for m in known]
     times = columns[0][0] if len(columns) == 1 else np.unique(np.concatenate([own for own, _ in columns]))

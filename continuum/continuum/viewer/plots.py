@@ -1,4 +1,4 @@
-"""Plots over the last seconds, of an arm that nodes or the page's user move."""
+"""Plots over the last seconds, of an arm that nodes or a user of the page moves."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from continuum.viewer.section_plots import SectionPlots
 from continuum.viewer.seen import Seen
 
 SPAN = 20.0
-"""What the plots reach back [s]."""
+"""Duration that the plots show [s]."""
 
 _STEP = 0.05
 """Shortest time between two points [s]."""
@@ -41,10 +41,10 @@ class LivePlots:
         self._instants: deque[Seen] = deque()
 
     def show(self, seen: Seen, dark: bool = False) -> None:
-        """Take the instant in, and draw where it is time to."""
+        """Add an instant, and draw if a drawing is due."""
         instants = self._instants
         if instants and not 0.0 <= seen.time - instants[-1].time <= _GAP:
-            instants.clear()  # another run: no line over what was not seen
+            instants.clear()  # another run: no line across the gap
         if not instants or seen.time - instants[-1].time >= _STEP:
             instants.append(seen)
         while instants[0].time < seen.time - SPAN:

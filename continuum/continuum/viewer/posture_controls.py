@@ -1,4 +1,4 @@
-"""Controls of a posture: phi and theta of each section, and a target to drag that the tip follows."""
+"""Controls of a posture: phi and theta of each section, and a draggable target that the tip follows."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ _WORDS = {
     IkStatus.NO_CONVERGENCE: "not found",
 }
 _FREE = "Drag the target, or move a slider."
-_BOUND = "Choose above what you move first."
+_BOUND = "First choose above what you move."
 _GO, _STRAIGHTEN = "Go to target", "Straighten"
 _FAR = 10.0
-"""A target further away than so many lengths of the arm was not dragged there."""
+"""Largest distance of a target in lengths of the arm; one further away was not dragged there."""
 
 _MOVED = 1e-7
-"""A target or slider that moved by less did not move [m, deg]."""
+"""Smallest motion of a target or slider that counts [m, deg]."""
 
 
 @dataclass(frozen=True)
@@ -41,15 +41,15 @@ class _Sliders:
 
 
 class PostureControls:
-    """Sliders and a target, looked at once for each frame: whichever was moved last leads, the other follows.
+    """Sliders and a target, read once per frame: the one moved last determines the other.
 
     Args:
-        layout: of the page.
-        arm: the arm.
+        layout: page.
+        arm: arm.
 
     Attributes:
-        w: the posture wanted (n_sections, 2) [rad].
-        target: where the tip was dragged to (3,) [m].
+        w: commanded configuration, (n_sections, 2) [rad].
+        target: commanded position of the tip, (3,) [m].
     """
 
     def __init__(self, layout: Layout, arm: Arm) -> None:
@@ -65,14 +65,14 @@ class PostureControls:
                 with gui.add_folder(spoken(section.name)):
                     end = end_in_degrees(section.bend_limit)
                     theta = gui.add_slider("theta [deg]", 0.0, end, 0.1, 0.0, hint="bend of the section")
-                    phi = gui.add_slider("phi [deg]", -180.0, 180.0, 0.1, 0.0, hint="towards which it bends")
+                    phi = gui.add_slider("phi [deg]", -180.0, 180.0, 0.1, 0.0, hint="direction in which it bends")
                     self._sliders.append(_Sliders(phi, theta))
             with gui.add_folder("Target"):
                 self._typed: list[viser.GuiNumberHandle[float]] = [
                     gui.add_number(f"{axis} [mm]", float(1e3 * part), step=0.1)
                     for axis, part in zip("xyz", self.target, strict=True)
                 ]
-                self._buttons = gui.add_button_group("", (_GO, _STRAIGHTEN), hint="The arm goes there at once.")
+                self._buttons = gui.add_button_group("", (_GO, _STRAIGHTEN), hint="The arm moves there immediately.")
             self._answer = gui.add_markdown(_FREE)
         layout.words.update((_GO, _STRAIGHTEN))
         self._pressed = ""
@@ -83,7 +83,7 @@ class PostureControls:
         self._set = self._read()
 
     def hand_over(self, to_user: bool) -> None:
-        """Let the page's user move the target and the sliders, or show them alone."""
+        """Enable the target and the sliders for the user, or only display them."""
         if to_user is not self._gizmo.visible:
             self._gizmo.visible = to_user
             self._answer.content = _FREE if to_user else _BOUND
@@ -91,12 +91,12 @@ class PostureControls:
             for number in self._typed:
                 number.disabled = not to_user
         if not to_user:
-            self._pressed = ""  # what was pressed before is not done later
+            self._pressed = ""  # an earlier click has no later effect
         for sliders in self._sliders:
             sliders.phi.disabled = sliders.theta.disabled = not to_user
 
     def follow(self) -> bool:
-        """Take in what the user moved; True if anything was."""
+        """Apply what the user moved; return whether anything was."""
         pressed, self._pressed = self._pressed, ""
         place, angles = np.array(self._gizmo.position, dtype=float), self._read()
         if pressed == _GO:
@@ -105,7 +105,7 @@ class PostureControls:
             angles = np.zeros_like(angles)
             for sliders in self._sliders:
                 sliders.phi.value = sliders.theta.value = 0.0  # type: ignore[misc]
-        if not np.abs(place).max() < _FAR * self._arm.length:  # also of what is no number
+        if not np.abs(place).max() < _FAR * self._arm.length:  # also true of NaN
             self._faults.note("target of a browser", f"{place} m; allowed: up to {_FAR:g} lengths of the arm away")
             self._place(self.target)
             return False
@@ -125,7 +125,7 @@ class PostureControls:
         return False
 
     def show(self, w: Array) -> None:
-        """Let sliders and target follow ``w`` (n_sections, 2) [rad]: of an arm that somebody else moves."""
+        """Set sliders and target to ``w``, (n_sections, 2) [rad], of an arm that others move."""
         if np.abs(w - self.w).max() > _MOVED:
             self.w = w
             self._write()
@@ -141,7 +141,7 @@ class PostureControls:
         self._pressed = event.target.value
 
     def _read(self) -> Array:
-        """Phi and theta as the sliders show them, within limits whatever a browser says, (n_sections, 2) [deg]."""
+        """Return phi and theta of the sliders, clipped to their limits, (n_sections, 2) [deg]."""
         shown = [[sliders.phi, sliders.theta] for sliders in self._sliders]
         return np.array([[value_within(slider) for slider in pair] for pair in shown])
 

@@ -1,4 +1,4 @@
-"""Where the tip is, and the scale of the grid, in numbers."""
+"""Position of the tip and spacing of the grid as numbers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Readout:
         self.show(None)
 
     def show(self, tip: Array | None) -> None:
-        """Show the tip's position (3,) [m], None while it is not known; sent as often as plots are, if it changed."""
+        """Show the position of the tip, (3,) [m], None if unknown; sent if changed, at most as often as plots."""
         if time.monotonic() >= self._due:
             self._due = time.monotonic() + PERIOD
             numbers = ["–"] * 3 if tip is None else [f"{1e3 * part:.1f}" for part in tip]

@@ -1,4 +1,4 @@
-"""Plots of a whole recording over its time, with a cursor at the shown instant."""
+"""Plots of a whole recording, with a cursor at the current instant."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from continuum.viewer.tracks import Track
 _TIME = "time [s]"
 
 _MOST = 400
-"""Most points of a line; a plot is some 230 pixels wide."""
+"""Largest number of points of a line; a plot is about 230 pixels wide."""
 
 
 class RecordedPlots:
-    """Plots of a recording take the place of those over the last seconds.
+    """Plots of a recording, which replace those over the last seconds.
 
     Args:
         layout: page.
@@ -37,7 +37,7 @@ class RecordedPlots:
         self._data: dict[str, dict[str, PlotData]] = {}
 
     def show(self, now: float, dark: bool = False) -> None:
-        """Move the cursor to ``now`` [s], where it is time to."""
+        """Move the cursor to ``now`` [s] if a drawing is due."""
         if not self.plots.are_due():
             return
         section = self.plots.section

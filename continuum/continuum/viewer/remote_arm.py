@@ -1,4 +1,4 @@
-"""An arm that others move: what they say of it is shown, and what the page's user wants is held ready for them."""
+"""An arm that nodes move: the page shows their messages and provides the commands of its users."""
 
 from __future__ import annotations
 
@@ -15,21 +15,22 @@ from continuum.viewer.seen import Seen
 from continuum.viewer.tension_controls import TensionControls
 
 _NOTHING = "nothing"
-"""What the page's user moves unless another choice is made."""
+"""Default choice of what the user moves."""
 
-_UNHEARD = "No `joint_states` heard yet: the arm is drawn pale and straight, however it may stand."
+_UNHEARD = "No `joint_states` received yet: the arm is drawn pale and straight, whatever its posture."
 
 
 class RemoteArm:
-    """Takes in the newest state at any rate, from any thread, and gives it to the page when that asks.
+    """Source that accepts new states at any rate, from any thread, and provides the newest to the page.
 
     Args:
-        arm: the arm.
-        max_tension: largest that the page's user may ask for [N].
+        arm: arm.
+        max_tension: largest tension that a user may command [N].
 
     Attributes:
-        target: where the user dragged the tip (3,) [m]; None while the target is not the user's.
-        posture: what the user's sliders say, (n_sections, 2) [rad]; None while they are not the user's.
+        target: position of the tip commanded by a user, (3,) [m]; None while no user commands it.
+        posture: configuration commanded by a user, (n_sections, 2) [rad]; None while no user commands it.
+        tensions: controls of the cable tensions; None before `add_controls`.
     """
 
     def __init__(self, arm: Arm, max_tension: float) -> None:
@@ -41,12 +42,12 @@ class RemoteArm:
         self.tensions: TensionControls | None = None
 
     def tell(self, **news: object) -> None:
-        """Take in what is new of the fields of `Seen`."""
+        """Update fields of `Seen`."""
         self._seen = replace(self._seen, **news)  # type: ignore[arg-type]
 
     @property
     def latest(self) -> Seen:
-        """All that was taken in."""
+        """The newest state."""
         return self._seen
 
     def add_controls(self, layout: Layout) -> None:
@@ -54,7 +55,7 @@ class RemoteArm:
         with layout.move:
             leads = Choice(
                 layout, "You move", (_NOTHING, "the target", "the joints"),
-                hint="the target: poses for the inverse kinematics; the joints: in the place of a node that moves them",
+                hint="the target: poses for the inverse kinematics; the joints: instead of a node that moves them",
             )  # fmt: skip
             self._unheard = gui.add_markdown(_UNHEARD)
         self._leads = Held(layout.server, leads, _NOTHING)
@@ -79,7 +80,7 @@ class RemoteArm:
         return seen
 
     def let_go(self) -> None:
-        """What was moved by a user who looks no more is nobody's."""
+        """Discard commands of users whose browsers are no longer connected."""
         if self.tensions is None:
             return
         self.tensions.let_go()

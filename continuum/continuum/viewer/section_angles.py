@@ -1,4 +1,4 @@
-"""Sections' configurations and the joints' angles by name."""
+"""Configurations of the sections from angles of named joints, and vice versa."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from continuum.kinematics.configuration import allen_from_jones, jones_from_alle
 
 
 def joints_of(w: Array, arm: Arm) -> dict[str, float]:
-    """Angles [rad] of the joints that lead the others, at ``w`` (n_sections, 2) [rad]."""
+    """Return the angles [rad] of the joints that others mimic, at ``w`` (n_sections, 2) [rad]."""
     joints: dict[str, float] = {}
     for section, (phi, theta) in zip(arm.sections, np.transpose(jones_from_allen(w)).tolist(), strict=True):
         joints[section.phi_joint] = phi
@@ -21,9 +21,9 @@ def joints_of(w: Array, arm: Arm) -> dict[str, float]:
 
 
 def configuration_of_joints(joints: Mapping[str, float], arm: Arm) -> Array:
-    """Configuration ``w`` (n_sections, 2) [rad]: theta is the sum of a section's joints, or its first one n times.
+    """Return the configuration w, (n_sections, 2) [rad]; theta is n times the mean of the named joints of a section.
 
-    A section whose joints are not named is straight.
+    A section without a named joint is straight.
     """
     w = np.zeros((arm.n_sections, 2))
     for i, section in enumerate(arm.sections):

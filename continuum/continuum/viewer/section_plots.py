@@ -1,4 +1,4 @@
-"""Plots of one section, which is chosen on the page: one small plot for each joint, others of its cables."""
+"""Plots of one section, chosen on the page: one small plot for each joint, and plots of its cables."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from continuum.viewer.line_plot import LinePlot
 from continuum.viewer.plot_data import LENGTHS, PHI, TENSIONS, THETA, PlotData
 
 PERIOD = 0.2
-"""Shortest time between two drawings, by the machine's clock [s]."""
+"""Shortest time between two drawings [s]."""
 
 _LOW, _HIGH = 104, 190
-"""Heights of a plot of one joint and of one of several cables [pixels]."""
+"""Heights of a plot of one joint and of a plot of several cables [pixels]."""
 
 _PLACES = {THETA: 1.0, PHI: 3.0, LENGTHS: 4.0, TENSIONS: 5.0}
 _JOINTS = 2.0
 _MOST_JOINTS = 1000
-"""Places among the plots; those of joints lie from 2 to 3."""
+"""Positions among the plots; those of joints are from 2 to 3."""
 
 
 class SectionPlots:
-    """Plots on the page's panel of plots.
+    """Plots in the panel of plots.
 
     Args:
         layout: page.
@@ -46,22 +46,22 @@ class SectionPlots:
         return self._sections[self.choice.value]
 
     def are_due(self) -> bool:
-        """Whether to draw now; then not again before the period is over."""
+        """Return whether a drawing is due; the next one is due after `PERIOD`."""
         if time.monotonic() < self._due:
             return False
         self._due = time.monotonic() + PERIOD
         return True
 
     def draw_soon(self) -> None:
-        """Let the next drawing be due."""
+        """Make the next drawing due."""
         self._due = 0.0
 
     def plot(self, title: str) -> LinePlot | None:
-        """The plot of this title, None until there were data of it."""
+        """Return the plot with this title, None if it has never had data."""
         return self._plots.get(title)
 
     def show(self, data: Mapping[str, PlotData], now: float | None = None, dark: bool = False) -> None:
-        """Draw the plots by title, with a cursor at ``now`` [s] if given; there are no others."""
+        """Draw the plots by title, with a cursor at ``now`` [s] if given, and remove all others."""
         for number, title in enumerate(data):
             if title not in self._plots:
                 order = _PLACES.get(title, _JOINTS + number / _MOST_JOINTS)

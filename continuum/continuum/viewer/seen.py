@@ -1,4 +1,4 @@
-"""What is to be seen of an arm at one instant, whoever says it: nodes, a recording, or the page's own sliders."""
+"""State of an arm to draw at one instant, from nodes, a recording or the sliders of the page."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from continuum.viewer.layout import Layout
 
 @dataclass(frozen=True)
 class Status:
-    """How something is.
+    """Status of a node, sensor or link.
 
     Attributes:
-        name: of what.
-        level: 0 well, 1 a warning, 2 an error, 3 stale; the numbers of ``diagnostic_msgs/DiagnosticStatus``.
-        message: in words.
+        name: name of what it describes.
+        level: 0 well, 1 warning, 2 error, 3 stale, as in ``diagnostic_msgs/DiagnosticStatus``.
+        message: description.
     """
 
     name: str
@@ -26,7 +26,7 @@ class Status:
 
 
 class Plots(Protocol):
-    """Plots of a source that knows its time from beginning to end."""
+    """Plots of a source whose whole duration is known."""
 
     def show(self, now: float, dark: bool = False) -> None:
         """Show the instant ``now`` [s], on a dark or a light page."""
@@ -34,19 +34,19 @@ class Plots(Protocol):
 
 @dataclass(frozen=True)
 class Seen:
-    """One instant; what is not known is empty.
+    """One instant; unknown fields are empty.
 
     Attributes:
-        time: of the instant, by any clock [s].
-        joints: joint angles by name [rad]. The arm is drawn by them.
-        overlays: joint angles of other motions of the arm [rad]; each is drawn as a ghost.
-        simulated: those of a simulated arm beside a measured one [rad]. Where there are any, the arm is drawn by
-            these, and ``joints`` as its ghost.
-        lengths: of cables by name [m]; where nobody says them, those of the cables as they are drawn are plotted.
-        tensions: of cables by name [N].
-        target: where the tip shall be, (3,) [m] in ``base_link``.
-        statuses: of sensors, link, nodes.
-        plots: what plots the instant, if that is not the page's plots over the last seconds.
+        time: time of the instant on any clock [s].
+        joints: joint angles of the drawn arm by name [rad].
+        simulated: joint angles of a simulated arm beside a measured one by name [rad]. If there are any, the arm is
+            drawn at these angles, and ``joints`` as its ghost.
+        overlays: joint angles of other motions of the arm by name [rad]; each is drawn as a ghost.
+        lengths: lengths of cables by name [m]; if empty, the lengths of the drawn cables are plotted.
+        tensions: tensions of cables by name [N].
+        target: target of the tip, (3,) [m] in ``base_link``.
+        statuses: statuses of sensors, link and nodes.
+        plots: plots of the source; None for the plots over the last seconds.
     """
 
     time: float = 0.0
@@ -61,15 +61,15 @@ class Seen:
 
     @property
     def has_posture(self) -> bool:
-        """Whether anybody has said how the arm stands."""
+        """Whether the posture of the arm is known."""
         return bool(self.simulated or self.joints)
 
 
 class Source(Protocol):
-    """Who says what is to be seen. It is asked once for each frame, and only while somebody looks."""
+    """Source of the state to draw. It is queried once per frame, and only while a browser is connected."""
 
     def add_controls(self, layout: Layout) -> None:
-        """Put its controls on the page; called once, before the first frame."""
+        """Add the controls of the source to the page; called once, before the first frame."""
 
     def newest(self) -> Seen:
-        """What is to be seen now."""
+        """Return the state to draw now."""

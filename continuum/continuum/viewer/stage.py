@@ -1,4 +1,4 @@
-"""What surrounds the arm: camera, lights, and a grid in the plane of its base."""
+"""Surroundings of the arm: camera, lights, and a grid in the plane of its base."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from continuum.arm import Arm
 from continuum.arrays import Array
 
 _OFFSET = np.array([1.7, 1.1, 0.53])
-"""From the point looked at to the camera, in lengths of the arm; the last is upwards."""
+"""Position of the camera relative to the focal point, in lengths of the arm; the last component is upwards."""
 
 _OFFSET_HANGING = 0.1
-"""The same upwards where the base is at the top, so that the camera is below the grid."""
+"""Distance of the camera below the focal point if the base is at the top, so that it is below the grid."""
 
 _HEIGHT = 0.47
-"""Of the point looked at above the base, in lengths of the arm."""
+"""Height of the focal point above the base, in lengths of the arm."""
 
 _FIELD = 0.75
 """Vertical field of view [rad]."""
 
 _NARROW = 640
-"""Width below which the panels are a sheet over the lower half of the page [pixels]; viser's own breakpoint is near."""
+"""Width below which the panels cover the lower half of the page [pixels]; the breakpoint of viser is similar."""
 
 _FURTHER, _LOWER = 2.4, 1.1
-"""On a narrow page, the camera is further away by this factor, and lower by so many lengths of the arm."""
+"""On a narrow page, factor on the distance of the camera, and shift of the focal point down, in lengths of the arm."""
 
 _LIGHT_GRID = ((200, 200, 200), (140, 140, 140))
 _DARK_GRID = ((58, 58, 58), (100, 100, 100))
-"""Colours of all lines, and of every fifth."""
+"""Colours of the lines, and of every fifth line."""
 
 _EVERY = 5
 
@@ -72,7 +72,7 @@ class Stage:
             self._grid.cell_color, self._grid.section_color = _DARK_GRID if dark else _LIGHT_GRID
 
     def set_hanging(self, hanging: bool) -> None:
-        """Show the base at the top, or at the bottom; the view of all browsers is reset."""
+        """Show the base at the top or at the bottom; this resets the views of all browsers."""
         if hanging is not self._hanging:
             self._hanging = hanging
             self._set_first_view()
@@ -80,7 +80,7 @@ class Stage:
                 self.reset(client)
 
     def reset(self, client: viser.ClientHandle) -> None:
-        """Show a browser the arm from where it is seen at first."""
+        """Reset the camera of a browser to the initial view."""
         position, look_at, up = self._view(narrow=client.camera.image_width < _NARROW)
         with client.atomic():
             client.camera.up_direction = up
@@ -101,7 +101,7 @@ class Stage:
         camera.look_at = tuple(look_at)
 
     def _view(self, narrow: bool) -> tuple[Array, Array, Array]:
-        """Return camera, point looked at [m] and direction of up, each (3,), in the base frame."""
+        """Return the camera position, the focal point [m] and the up direction, (3,) each, in the base frame."""
         up = np.array([0.0, 0.0, -1.0 if self._hanging else 1.0])
         look_at = np.array([0.0, 0.0, _HEIGHT * self._length])
         above = -_OFFSET_HANGING if self._hanging else _OFFSET[2]

@@ -1,4 +1,4 @@
-"""Statuses of sensors, link and nodes as a table."""
+"""Table of the statuses of sensors, link and nodes."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from continuum.viewer.seen import Status
 
 _WORDS = ("well", "warning", "error", "stale")
 _COLOURS = ("#1a8f3c", "#b07800", "#d02020", "#808080")
-_NOTHING = "<p>Nobody reports a status.</p>"
+_NOTHING = "<p>No status reported.</p>"
 
 
 class StatusTable:
-    """On the page's panel of statuses, sent anew only where one changed.
+    """Table in the panel of statuses, sent only when a status has changed.
 
     Args:
-        layout: of the page.
+        layout: page.
     """
 
     def __init__(self, layout: Layout) -> None:
@@ -32,7 +32,7 @@ class StatusTable:
 
 
 def _table(statuses: Iterable[Status]) -> str:
-    """What others say is text, whatever it looks like."""
+    """Return the table as HTML; names and messages are escaped."""
     rows = "".join(
         f'<tr><td style="vertical-align:top"><span style="color:{_COLOURS[level]}">&#9679; {_WORDS[level]}</span></td>'
         f'<td style="padding-left:0.6em"><b>{html.escape(status.name)}</b><br>{html.escape(status.message)}</td></tr>'

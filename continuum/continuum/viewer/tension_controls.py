@@ -1,4 +1,4 @@
-"""Sliders of cable tensions, dead until control is taken, and slack again as soon as it is given back."""
+"""Sliders of cable tensions, disabled until control is taken and reset to zero when it is returned."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from continuum.viewer.slider_value import value_within
 
 
 class TensionControls:
-    """One slider for each cable that somebody says the tension of; none while nobody does.
+    """One slider for each cable whose tension is published.
 
     Args:
-        layout: of the page.
-        cables: names of the arm's cables.
+        layout: page.
+        cables: names of the cables of the arm.
         most: largest tension [N].
     """
 
@@ -35,11 +35,11 @@ class TensionControls:
 
     @property
     def taken(self) -> bool:
-        """Whether the page's user pulls the cables."""
+        """Whether a user controls the tensions."""
         return bool(self._taken.value)
 
     def offer(self, pulled: Collection[str]) -> None:
-        """Show the sliders of the cables whose tensions somebody says; those offered before stay where nobody does."""
+        """Show the sliders of published tensions; if none is published any longer, the previous sliders remain."""
         if pulled and set(pulled) != set(self._pulled):
             self._pulled = tuple(pulled)
             self._folder.visible = True
@@ -47,9 +47,9 @@ class TensionControls:
                 slider.visible = name in self._pulled
 
     def wanted(self) -> Mapping[str, float]:
-        """Tensions [N] of the cables that are offered, within limits whatever a browser says.
+        """Return the commanded tensions [N] of the shown cables, clipped to the limits of the sliders.
 
-        All are 0 where control is not taken, and whenever it is taken anew.
+        All are 0 while control is not taken, and again whenever it is taken.
         """
         for slider in self._sliders.values():
             if slider.disabled is self.taken:
@@ -58,5 +58,5 @@ class TensionControls:
         return {name: value_within(self._sliders[name]) if self.taken else 0.0 for name in self._pulled}
 
     def let_go(self) -> None:
-        """Take control from a user who went away."""
+        """Return control if the browser that took it is no longer connected."""
         self._taken.let_go()

@@ -1,4 +1,4 @@
-"""What a recording says over time, to be asked for any instant: a rosbag2 folder, or a CSV table of joint angles."""
+"""Values of a recording over time, available at any instant: of a rosbag2 folder or a CSV table of joint angles."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ SIMULATED = "/simulated"
 """Namespace of a simulated arm beside a measured one."""
 
 _SECTION = "section_1"
-"""What the section of a table is called, which names none."""
+"""Name of the section of a table, which has none."""
 
 
 @dataclass(frozen=True)
 class Track:
-    """Values of some names over time; those of an instant hold until the next.
+    """Named values over time, constant from each instant to the next.
 
     Attributes:
-        times: rising (n,) [s].
-        names: of the columns.
-        values: (n, n_names).
+        times: increasing times, (n,) [s].
+        names: names of the columns.
+        values: values, (n, n_names).
     """
 
     times: Array
@@ -42,7 +42,7 @@ class Track:
     values: Array
 
     def at(self, time: float) -> Mapping[str, float]:
-        """Values by name at an instant [s]; before the first, none."""
+        """Return the values by name at an instant [s]; none before the first."""
         row = int(np.searchsorted(self.times, time, side="right")) - 1
         return dict(zip(self.names, self.values[row].tolist(), strict=True)) if row >= 0 else {}
 
@@ -52,14 +52,14 @@ NOTHING = Track(np.empty(0), (), np.empty((0, 0)))
 
 @dataclass(frozen=True)
 class Tracks:
-    """One recording; what it does not have is empty. Time begins with its first joint state.
+    """One recording; missing quantities are empty. Time starts at the first joint state.
 
     Attributes:
         joints, simulated: joint angles [rad].
-        lengths: of cables [m].
-        tensions: of cables [N].
-        target: of the tip: x, y, z [m].
-        notes: what was left out or repaired while reading, one sentence each.
+        lengths: lengths of cables [m].
+        tensions: tensions of cables [N].
+        target: target of the tip: x, y, z [m].
+        notes: data omitted or repaired while reading, one sentence each.
     """
 
     joints: Track
@@ -71,15 +71,15 @@ class Tracks:
 
     @property
     def duration(self) -> float:
-        """To the last joint state [s]."""
+        """Time of the last joint state [s]."""
         return float(self.joints.times[-1])
 
 
 def read_tracks(path: str | Path) -> Tracks:
-    """Read a recording: a folder or storage file of rosbag2, another file is a CSV table.
+    """Read a recording: a folder or storage file of rosbag2; any other file is a CSV table.
 
     Raises:
-        FileError: it cannot be read, or has no joint angles.
+        FileError: the recording cannot be read or has no joint angles.
     """
     return _from_bag(path) if is_bag(path) else _from_table(path)
 
@@ -122,9 +122,9 @@ def _refuse_degrees(bag: Bag, joints: Track) -> None:
 
 
 def _read(bag: Bag, topic: str, fields: Sequence[str], notes: list[str], namespace: str = "") -> list[Track]:
-    """A track of each field, of the messages that have values in it; all must have the names of the first of these.
+    """Return a track of each field from the messages that have it; all need the names of the first such message.
 
-    What is left out is added to ``notes``.
+    Omitted messages are added to ``notes``.
     """
     if namespace + topic not in bag.topics:
         return [NOTHING] * len(fields)

@@ -1,4 +1,4 @@
-"""The way that a point went lately, as a line."""
+"""Recent path of a point, as a line."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from continuum.cable_colours import Colour
 
 _POINTS = 400
 _LEAP = 50.0
-"""What moves by so many steps at once was put elsewhere: its line begins anew."""
+"""Distance in steps beyond which a point has jumped, and its line starts again."""
 
 
 class Trail:
     """A line that follows a point.
 
     Args:
-        server: of the page.
-        name: of the line in the scene.
-        colour: of the line.
-        step: a point nearer to the last one is left out [m].
-        thickness: of the line [m].
+        server: server of the page.
+        name: name of the line in the scene.
+        colour: colour of the line.
+        step: smallest distance between points of the line [m].
+        thickness: thickness of the line [m].
     """
 
     def __init__(self, server: viser.ViserServer, name: str, colour: Colour, step: float, thickness: float) -> None:
@@ -34,7 +34,7 @@ class Trail:
         )
 
     def follow(self, point: Array) -> None:
-        """Go on to ``point`` (3,) [m]."""
+        """Extend the line to ``point``, (3,) [m]."""
         way = np.linalg.norm(point - self._points[-1]) if self._points else 0.0
         if self._points and way < self._step:
             return
@@ -47,6 +47,6 @@ class Trail:
             self._line.visible = True
 
     def clear(self) -> None:
-        """Begin anew."""
+        """Clear the line."""
         self._points.clear()
         self._line.visible = False

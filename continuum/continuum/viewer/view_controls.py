@@ -1,4 +1,4 @@
-"""How the page shows the arm: light or dark, base at the top or bottom, rotation vectors, camera; files to save."""
+"""Controls of the view: light or dark, base at the top or bottom, rotation vectors, camera."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from continuum.viewer.stage import Stage
 
 
 class ViewControls:
-    """A folder of the page, the same in all browsers; only "Reset view" moves the camera of one browser alone.
+    """A folder of the page, shared by all browsers; only "Reset view" acts on a single browser.
 
     Args:
         layout: page.
         stage: camera and grid.
-        hanging: whether the base is at the top at first.
+        hanging: whether the base is initially at the top.
     """
 
     def __init__(self, layout: Layout, stage: Stage, hanging: bool = False) -> None:
@@ -41,7 +41,7 @@ class ViewControls:
         return bool(self._vectors.value)
 
     def apply(self) -> None:
-        """Let the page be as chosen; called once for each frame."""
+        """Apply the settings; called once per frame."""
         self._stage.set_hanging(bool(self._hanging.value))
         if bool(self._dark.value) is not self.dark:
             self.dark = bool(self._dark.value)
