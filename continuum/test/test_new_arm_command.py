@@ -14,9 +14,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum.arm import SECTION_PARAMETERS, load_arm, prototype_section
-from continuum.cli.taken_defaults import TakenDefault
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.parameters import PARAMETERS
+from continuum.dynamics.taken_defaults import TakenDefault
 from continuum.parameter_keys import common_name
 
 MEASURED = ("--link-length", 0.03, "--hole-radius", 0.02, "--mass", 0.031)

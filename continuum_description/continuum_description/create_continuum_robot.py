@@ -7,7 +7,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from continuum.arm import load_arm
+from continuum.arm import arm_block, load_arm
+from continuum.dynamics.taken_defaults import taken_defaults, warnings
+from continuum.parameter_file import read_parameter_file
+from continuum.shipped_files import ARMS, find_file
 from continuum.urdf.robot import robot_urdf, robot_xacro, to_text
 from continuum_description.command_line import run_tool, tool_parser
 
@@ -31,6 +34,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _description(options: argparse.Namespace) -> str:
     arm = load_arm(options.arm)
+    block = arm_block(options.arm, read_parameter_file(find_file(options.arm, ARMS)))
+    for line in warnings(taken_defaults(block, arm)):
+        print(f"create_continuum_robot: {line}", file=sys.stderr)
     return to_text(robot_urdf(arm) if options.format == "urdf" else robot_xacro(arm))
 
 

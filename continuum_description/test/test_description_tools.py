@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from continuum.arm import SECTION_PARAMETERS, Arm, Section, load_arm
+from continuum.cli import main
 from continuum.errors import InvalidValueError
 from continuum.urdf.robot import robot_urdf, to_text
 from continuum_description import create_continuum_robot, create_continuum_segment
@@ -44,6 +45,30 @@ def test_robot_writes_the_same_to_file_and_standard_output(tmp_path: Path, capsy
     assert capsys.readouterr().out == ""
     assert create_continuum_robot.main(arguments) == 0
     assert target.read_text() == capsys.readouterr().out == to_text(robot_urdf(load_arm(SHIPPED_ARMS[0])))
+
+
+@pytest.mark.parametrize(
+    ("section", "warned"),
+    [
+        ("b: 0.005, a: 0.032", ["mass", "inertia"]),
+        ("b: 0.005, a: 0.032, mass: 0.01", ["inertia"]),
+        ("b: 0.005, a: 0.032, mass_g: 10, link_inertia: 1.0e-6", []),
+        ("b: 0.01925, a: 0.032", []),
+    ],
+)
+def test_robot_warns_of_masses_of_the_prototype_in_links_of_another_size(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], section: str, warned: list[str]
+) -> None:
+    """With the lines of `continuum info`; the description is written all the same."""
+    arm = tmp_path / "arm.yaml"
+    arm.write_text(f"sections: [s]\ns: {{n_joints: 3, bend_limit: 0.9, {section}}}\n")
+    assert create_continuum_robot.main(["--arm", str(arm)]) == 0
+    out, err = capsys.readouterr()
+    assert out == to_text(robot_urdf(load_arm(arm)))
+    assert [line.split("warning: ")[1].split(":")[0] for line in err.splitlines()] == warned
+    assert main(["info", str(arm)]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert all(line.removeprefix("create_continuum_robot: ") in shown for line in err.splitlines())
 
 
 def test_segment_writes_a_urdf_on_the_named_parent(capsys: pytest.CaptureFixture[str]) -> None:

@@ -26,7 +26,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print a table of the sections and the defaults that were taken, or JSON."""
-    from continuum.cli.taken_defaults import in_lines, taken_defaults  # here, so that help need not wait for NumPy
+    from continuum.dynamics.taken_defaults import in_lines, taken_defaults  # here, so that help need not wait for NumPy
 
     arm = load_arm(options.arm)
     block = arm_block(options.arm, read_parameter_file(find_file(options.arm, ARMS)))

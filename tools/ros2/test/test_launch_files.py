@@ -131,6 +131,14 @@ def test_substitutions(evaluate, text: str, value: str) -> None:
     assert texts(evaluate(f'<let name="v" value="w"/><log message="{text}"/>')) == [value]
 
 
+def test_what_a_command_warns_of_is_passed_on(evaluate, capsys: pytest.CaptureFixture[str]) -> None:
+    tags = "<log message=\"$(command 'sh -c &quot;echo a; echo b >&amp;2&quot;' {})\"/>"
+    assert [text.strip() for text in texts(evaluate(tags.format("warn")))] == ["a"]
+    assert capsys.readouterr().err == "b\n"
+    with pytest.raises(UserError, match="failed"):
+        evaluate(tags.format(""))
+
+
 def test_packages(evaluate, overlay: Path) -> None:
     text = "$(find-pkg-prefix demo);$(find-pkg-share demo);$(exec-in-pkg talk demo);$(find-exec sh)"
     prefix, share, executable, shell = texts(evaluate(f'<log message="{text}"/>'))[0].split(";")

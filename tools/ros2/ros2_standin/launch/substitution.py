@@ -7,6 +7,7 @@ import shlex
 import shutil
 import socket
 import subprocess
+import sys
 from collections.abc import Callable
 from types import MappingProxyType
 
@@ -87,6 +88,8 @@ def _command(scope: Scope, line: str, on_stderr: str = "fail") -> str:
     if done.returncode or (done.stderr and on_stderr == "fail"):
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
         raise UserError(f"the command {line!r} failed (exit code {done.returncode}): {last}")
+    if on_stderr == "warn":
+        sys.stderr.write(done.stderr)
     return done.stdout + (done.stderr if on_stderr == "capture" else "")
 
 

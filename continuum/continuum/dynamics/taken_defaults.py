@@ -78,19 +78,25 @@ def same_size(section: Section, other: Section) -> bool:
 def in_lines(taken: list[TakenDefault], arm: Arm) -> list[str]:
     """A line for each default, with the sections that it was taken for if not for all; then the doubtful ones."""
     lines: dict[str, list[str]] = {}
-    warnings: dict[str, list[str]] = {}
     for one in taken:
         text = f"  {one.name}: {_in_words(one.value, one.unit)}, default{_PROTOTYPE * one.of_prototype}"
         lines.setdefault(text, []).append(one.section)
-        if one.other_size:
-            warnings.setdefault(one.name, []).append(one.section)
     every = [section.name for section in arm.sections]
     found = [f"{text}, of {', '.join(of)}" if of != every else text for text, of in lines.items()]
-    found += [
-        f"warning: {name}{_PROTOTYPE}, whose links have another size; give that of {', '.join(of)}"
-        for name, of in warnings.items()
-    ]
+    found += warnings(taken)
     return [part for line in found for part in textwrap.wrap(line, _WIDTH, subsequent_indent="    ")]
+
+
+def warnings(taken: list[TakenDefault]) -> list[str]:
+    """A line for each default that was measured on links of another size."""
+    sections: dict[str, list[str]] = {}
+    for one in taken:
+        if one.other_size:
+            sections.setdefault(one.name, []).append(one.section)
+    return [
+        f"warning: {name}{_PROTOTYPE}, whose links have another size; give that of {', '.join(of)}"
+        for name, of in sections.items()
+    ]
 
 
 def _in_words(value: Any, unit: str) -> str:
