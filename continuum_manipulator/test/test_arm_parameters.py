@@ -40,6 +40,11 @@ def arm_file(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def node(domain, arm_file):
+    content = arm_file.read_text()
+    assert " half_spacing: 0.015\n" in content
+    assert " center_of_mass: 0.015\n" in content
+    content = content.replace(" half_spacing: 0.015\n", " half_spacing_mm: 15.0\n")
+    arm_file.write_text(content.replace(" center_of_mass: 0.015\n", " center_of_mass_mm: 15.0\n"))
     rclpy.init(args=["--ros-args", "--params-file", str(arm_file)], domain_id=domain)
     node = Plain()
     yield node
@@ -59,7 +64,15 @@ def test_a_node_has_the_arm_of_the_library(node, arm_file):
 def test_no_parameter_is_there_by_two_names_and_none_can_be_changed(node):
     names = {name for name in node.list_parameters([], 0).names if name.startswith("arm.")}
     assert "arm.section_1.dynamics.stiffness" in names
-    assert not {name for name in names if name.endswith(("_deg", "spacing", "hole_radius", ".mass", ".inertia"))}
+    other_names = ("_deg", "spacing", "spacing_mm", "hole_radius", ".mass", ".inertia")
+    assert not {name for name in names if name.endswith(other_names)}
     for name in names:
         (result,) = node.set_parameters([Parameter(name, value=node.get_parameter(name).value)])
         assert not result.successful, name
+
+
+def test_parameters_are_declared_as_the_tutorial_says(node):
+    """Of the section by the first keys of its table, in SI units; of the block `dynamics` as in the file."""
+    assert node.get_parameter("arm.section_1.b").value == 0.015
+    assert node.get_parameter("arm.section_1.dynamics.center_of_mass_mm").value == 15.0
+    assert not node.has_parameter("arm.section_1.dynamics.center_of_mass")
