@@ -84,7 +84,7 @@ def given_values(
                 name, unit = None, ""
         name = key if name is None else name
         if name in given.keys:
-            allowed = f"left out: {prefix}{given.keys[name]} is the same quantity, and is given too"
+            allowed = f"one name for a quantity; {prefix}{given.keys[name]} gives it too"
             raise InvalidValueError(f"{prefix}{key}", value, allowed)
         given.values[name] = in_si(value, unit) if unit else value
         given.keys[name] = key

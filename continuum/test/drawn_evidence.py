@@ -35,7 +35,7 @@ class Drawn:
         runs: by level.
         nuisance: two coefficients.
         pair: a hypothesis of two coefficients, one of which moves two columns alike.
-        own: one that each run has a coefficient of its own for.
+        per_run: one that has a separate coefficient in each run.
     """
 
     runs: list[list[RunLikelihood]]

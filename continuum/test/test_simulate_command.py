@@ -159,7 +159,7 @@ def test_a_cable_does_not_push():
     hangs = pulled_posture(tilted, 1e-9).tension
     assert hangs[0] > 1.0
     assert hangs[1] == 0.0
-    with pytest.raises(InvalidValueError, match="total bend is -0.1; allowed: a bend"):
+    with pytest.raises(InvalidValueError, match=r"total bend is -0\.1; allowed: a bend"):
         pulled_posture(tilted, -0.1)
 
 

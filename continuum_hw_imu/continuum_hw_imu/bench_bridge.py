@@ -128,7 +128,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         client.wait_for(lambda: client.link.is_open, OPEN_TIME)
         if client.link.is_open:
             client.wait_for(lambda: client.hello is not None, ANSWER_TIME)
-        self._commander.deviance = self._streams.problem
+        self._commander.mismatch = self._streams.problem
         problem = self._commander.line_problem() or ("" if client.hello else NO_HELLO)
         if problem:
             self._hang_up()
@@ -223,7 +223,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         now = time.monotonic()
         self._autostart(now)
         commander = self._commander
-        commander.deviance = self._streams.problem
+        commander.mismatch = self._streams.problem
         if commander.keep_up(now):
             self._to_come = False
             self.diagnostics.warnings.note("stopped", "by the bench, until ~/reset_stop")

@@ -40,7 +40,7 @@ class BenchCommander:
     Attributes:
         gate: passes or blocks commands.
         client: client of the bench while the link is maintained, else None.
-        deviance: reason why the connected bench does not match the arm; empty if it does.
+        mismatch: reason why the connected bench does not match the arm; empty if it does.
         refused: reason why the last attempt to keep the port failed; empty if it succeeded.
     """
 
@@ -48,7 +48,7 @@ class BenchCommander:
         self._clock = clock
         self.gate = CommandGate(limits, n_cables)
         self.client: BenchClient | None = None
-        self.deviance = ""
+        self.mismatch = ""
         self.refused = ""
 
     def line_problem(self) -> str:
@@ -62,7 +62,7 @@ class BenchCommander:
             version = client.decoder.other_version
             return NO_HELLO if version is None else f"the bench speaks version {version} of the protocol"
         silence = client.silent_for(self._clock())
-        return self.deviance or (f"the bench is silent for {silence:.1f} s" if silence > SILENT else "")
+        return self.mismatch or (f"the bench is silent for {silence:.1f} s" if silence > SILENT else "")
 
     def problem(self) -> str:
         """Problem that blocks tension to a claimed bench; empty if there is none."""

@@ -76,7 +76,7 @@ class BenchDiagnostics:
             "frames overtaken": client.arrivals.late,
             "frames damaged": client.decoder.refused,
             "frames of other sensors or cables": self._streams.unfit,
-            "sendings refused by the port": client.link.refused,
+            "writes refused by the port": client.link.refused,
         }
         if talk.status is not None:
             counts["frames that the bench found damaged"] = talk.status.refused
@@ -106,7 +106,7 @@ class BenchDiagnostics:
         if client is None or not client.clock.known:
             return self._status("clock", [(STALE, NOT_CONFIGURED if client is None else "nothing received yet")], {})
         clock, age = client.clock, self._streams.age
-        complaints = list(self._grown("clock", {"leaps of a clock": clock.leaps}))
+        complaints = list(self._grown("clock", {"clock jumps": clock.leaps}))
         oldest, self._streams.oldest = self._streams.oldest, 0.0  # since the last report
         if oldest > LATE:
             complaints.append((WARN, f"samples come up to {1e3 * oldest:.0f} ms late"))

@@ -11,7 +11,7 @@ LONGEST_PATIENCE = 2.0
 """Longest time for which a safe bench pulls on [s] without commands or heartbeats."""
 
 
-def deviance(hello: Hello, n_joints: int, n_cables: int) -> str:
+def mismatch(hello: Hello, n_joints: int, n_cables: int) -> str:
     """Describe why a bench does not match an arm; empty if it does, with one sensor on each link and all cables.
 
     The times of the bench are checked too: the node waits for slack cables, and relies on the bench if the node dies.

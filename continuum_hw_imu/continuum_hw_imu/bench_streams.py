@@ -13,7 +13,7 @@ from rclpy.time import Time
 from continuum.inertial.angle_estimator import AngleEstimate
 from continuum.inertial.calibration import CalibrationSteps
 from continuum.inertial.imu_sample import ImuSample
-from continuum_hw_imu.bench_fit import deviance
+from continuum_hw_imu.bench_fit import mismatch
 from continuum_hw_imu.imu_messages import ImuMessages
 from continuum_hw_imu.latency_meter import LatencyMeter
 from continuum_hw_imu.link.received import Received
@@ -106,7 +106,7 @@ class BenchStreams:
 
     def _greet(self, hello: Hello) -> None:
         """Start over with another bench, or with the same one after its restart."""
-        self.problem = deviance(hello, len(self._sensors), len(self._planar.cables))
+        self.problem = mismatch(hello, len(self._sensors), len(self._planar.cables))
         self.watch = None if self.problem else SensorWatch(hello, self.steps)
         self.tension = None
 

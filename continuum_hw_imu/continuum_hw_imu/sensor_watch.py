@@ -33,7 +33,7 @@ class SensorWatch:
         steps: present calibration of the sensors.
         samples: number of samples so far.
         missing, clipped: number of samples in which each sensor was missing or clipped, (n,).
-        heard: whether each sensor was in the latest sample, (n,).
+        received: whether each sensor was in the latest sample, (n,).
         estimate: latest estimate; None before the first, and while the calibration is incomplete.
 
     Raises:

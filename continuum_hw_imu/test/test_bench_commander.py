@@ -57,7 +57,7 @@ def test_cables_are_let_go_when_commands_stop(bench, commander):
 
 
 def test_a_bench_that_does_not_fit_is_not_pulled(bench, commander):
-    commander.deviance = "another arm's"
+    commander.mismatch = "another arm's"
     assert commander.begin() == "another arm's"
     assert not commander.gate.is_open
     assert not commander.gate.command([5.0, 0.0], bench.now)
@@ -111,9 +111,9 @@ def test_release_leaves_the_gate_open(bench, commander):
 
 def test_every_trouble_of_the_line_keeps_tension_out(bench, commander):
     assert BenchCommander(LIMITS, 2).line_problem() == "not configured"
-    commander.deviance = "another arm's"
+    commander.mismatch = "another arm's"
     assert commander.begin() == "another arm's"
-    commander.deviance = ""
+    commander.mismatch = ""
     commander.begin()
     bench.now += 0.6
     assert "silent" in commander.problem()

@@ -11,7 +11,7 @@ from __future__ import annotations
 import io
 import struct
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -42,7 +42,7 @@ class Recovered:
 
     Attributes:
         messages: number of copied messages.
-        damaged: number of damaged records of the file (chunks, schemas, channels) that were omitted.
+        damaged: number of damaged records that were omitted; a wrong length counts as one, whatever follows it.
     """
 
     messages: int
@@ -89,22 +89,21 @@ class _Copy:
         self.messages = self.damaged = 0
 
     def take(self, data: bytes) -> None:
-        """Copy all chunks; a finished file repeats its schemas and channels after the chunks."""
-        chunks: list[list[McapRecord]] = []
+        """Copy chunk by chunk, after all schemas and channels: a finished file repeats them after its chunks."""
         for kind, content in _records(data):
-            try:
-                record = _parsed(kind, content)
-                if isinstance(record, Chunk):
-                    chunks.append(breakup_chunk(record, validate_crc=True))
-                else:
-                    self._announce(record)
-            except _DAMAGED:
-                self.damaged += 1
-        for records in chunks:
-            try:
-                self._copy(records)
-            except LookupError:  # the channel of a message was in a damaged record
-                self.damaged += 1
+            if kind in (Opcode.SCHEMA, Opcode.CHANNEL):
+                self._or_damaged(lambda kind=kind, content=content: self._announce(_parsed(kind, content)))
+        for kind, content in _records(data):
+            if kind in (Opcode.CHUNK, Opcode.MESSAGE):
+                self._or_damaged(lambda kind=kind, content=content: self._copy(_parsed(kind, content)))
+        if data.endswith(_MAGIC) and _end(data) < len(data) - len(_MAGIC):
+            self.damaged += 1  # a wrong length leads past the end of a finished file
+
+    def _or_damaged(self, step: Callable[[], None]) -> None:
+        try:
+            step()
+        except _DAMAGED:
+            self.damaged += 1
 
     def _announce(self, record: McapRecord | None) -> None:
         if isinstance(record, Schema):
@@ -112,12 +111,15 @@ class _Copy:
         elif isinstance(record, Channel):
             self._channels[record.id] = record
 
-    def _copy(self, records: list[McapRecord]) -> None:
-        for record in records:
-            self._announce(record)
-            if isinstance(record, Message):
-                self._bag.write(self._topic(self._channels[record.channel_id]), record.data, record.log_time)
-                self.messages += 1
+    def _copy(self, record: McapRecord | None) -> None:
+        """Copy a message, or all messages of a chunk if the whole chunk is undamaged."""
+        records = breakup_chunk(record, validate_crc=True) if isinstance(record, Chunk) else [record]
+        for one in records:
+            self._announce(one)
+        messages = [one for one in records if isinstance(one, Message)]
+        for message, topic in [(one, self._topic(self._channels[one.channel_id])) for one in messages]:
+            self._bag.write(topic, message.data, message.log_time)
+            self.messages += 1
 
     def _topic(self, channel: Channel) -> Connection:
         name = channel.topic
@@ -128,20 +130,35 @@ class _Copy:
 
 
 def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
-    """Yield kind and content of every complete record."""
+    """Kind and content of every record that is complete."""
     start = MAGIC_SIZE
-    while start + _HEAD.size <= len(data):
-        kind, length = _HEAD.unpack_from(data, start)
-        start += _HEAD.size + length
-        if start > len(data):
-            return
-        yield kind, data[start - length : start]
+    while (end := _record_end(data, start)) is not None:
+        yield data[start], data[start + _HEAD.size : end]
+        start = end
 
 
-def _parsed(kind: int, content: bytes) -> McapRecord | None:
-    """Return the record, or None for a kind that the recovery does not need."""
-    of_kind = {Opcode.SCHEMA: Schema, Opcode.CHANNEL: Channel, Opcode.CHUNK: Chunk}.get(kind)
-    return None if of_kind is None else of_kind.read(ReadDataStream(io.BytesIO(content)))
+def _record_end(data: bytes, start: int) -> int | None:
+    """End of the record that starts there; None if it is not complete."""
+    if start + _HEAD.size > len(data):
+        return None
+    end = start + _HEAD.size + int(_HEAD.unpack_from(data, start)[1])
+    return end if end <= len(data) else None
+
+
+def _end(data: bytes) -> int:
+    """End of the last complete record."""
+    start = MAGIC_SIZE
+    while (end := _record_end(data, start)) is not None:
+        start = end
+    return start
+
+
+def _parsed(kind: int, content: bytes) -> McapRecord:
+    """Parse a record of a kind that a recovery needs."""
+    stream = ReadDataStream(io.BytesIO(content))
+    if kind == Opcode.MESSAGE:
+        return Message.read(stream, len(content))
+    return {Opcode.SCHEMA: Schema, Opcode.CHANNEL: Channel, Opcode.CHUNK: Chunk}[Opcode(kind)].read(stream)
 
 
 def _qos(offers: str) -> list[Qos]:
@@ -158,7 +175,7 @@ def main() -> int:
         return 2
     try:
         found = recover(sys.argv[1], sys.argv[2])
-        print(f"{found.messages} messages recovered to {sys.argv[2]}; damaged chunks left out: {found.damaged}")
+        print(f"{found.messages} messages recovered to {sys.argv[2]}; damaged records left out: {found.damaged}")
     except ContinuumError as error:
         print(f"bag_recovery: error: {error}", file=sys.stderr)
         return 1

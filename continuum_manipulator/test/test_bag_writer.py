@@ -188,3 +188,11 @@ def test_request_is_met_by_every_publisher():
     kept = QoSProfile(depth=1, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
     assert received_by_all([kept, STREAM]).durability == STREAM.durability
     assert received_by_all([kept]).durability == kept.durability
+
+
+def test_records_behind_a_wrong_length_of_a_finished_file_are_counted_as_damage(tmp_path):
+    file = bag_of_chunks(tmp_path / "bag")
+    data = bytearray(file.read_bytes())
+    data[8 + 1 + 7] = 1  # the highest byte of the first record's length
+    file.write_bytes(data)
+    assert recover(file, tmp_path / "recovered") == Recovered(0, 1)

@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from continuum.cli.completion import completes_files
+from continuum.errors import InvalidValueError
 from continuum.shipped_files import MODELS
 
 if TYPE_CHECKING:
@@ -36,6 +37,11 @@ def read_model(name: str, section: str | None = None) -> Model:
         FileError: there is no such file or model, or it cannot be read.
         InvalidValueError: a value in it is not allowed.
     """
-    from continuum.dynamics.model_file import load_model  # here, so that help need not wait for it
+    from continuum.dynamics.model_file import load_named_model  # here, so that help need not wait for it
+    from continuum.dynamics.section_model import is_arm_file
+    from continuum.parameter_file import read_parameter_file
+    from continuum.shipped_files import find_file
 
-    return load_model(name, section)
+    if section is not None and not is_arm_file(read_parameter_file(find_file(name, MODELS))):
+        raise InvalidValueError("--section", section, f"left out: {name} is a model file, which has no sections")
+    return load_named_model(name, section)[0]

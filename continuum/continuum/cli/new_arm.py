@@ -32,26 +32,28 @@ def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
         "new-arm", help="write the arm file of your arm", description=__doc__,
-        epilog="Without lengths and mass, they are those of the prototype of the thesis. All sections get the same "
-        "values; change them in the file.",
+        epilog="If lengths and mass are omitted, the prototype's are used. All sections have the same values; edit the "
+        "file to change them.",
     )  # fmt: skip
     parser.add_argument("file", metavar="NAME.yaml", help="the file to write")
     parser.add_argument("--sections", metavar="N", type=int, default=1, help="number of sections; default %(default)s")
     parser.add_argument("--joints", metavar="N", type=int, default=5, help="joints of a section; default %(default)s")
     length = parser.add_mutually_exclusive_group()
-    length.add_argument("--link-length", metavar="M", type=float, help="from a joint to the next [m]")
-    length.add_argument("--half-spacing", metavar="M", type=float, help="from a disc to the next joint [m], half of it")
-    parser.add_argument("--hole-radius", metavar="M", type=float, help="from the axis to the cables' holes [m]")
+    length.add_argument("--link-length", metavar="M", type=float, help="distance from a joint to the next [m]")
+    length.add_argument(
+        "--half-spacing", metavar="M", type=float, help="from a disc to the next joint [m]: half the link length"
+    )
+    parser.add_argument("--hole-radius", metavar="M", type=float, help="distance from the axis to the cable holes [m]")
     parser.add_argument("--mass", metavar="KG", type=float, help="mass of a link with its disc [kg]")
     parser.add_argument(
         "--inertia", metavar="KGM2", type=float,
-        help="inertia of a link about its centre of mass, across the axis [kg m2]; default that of a cylinder of the "
-        "link's mass and length, with the holes on its rim",
+        help="inertia of a link about its centre of mass, across the axis [kg m2]; default: that of a "
+        "cylinder with the mass and length of the link, with the holes on its rim",
     )  # fmt: skip
     parser.add_argument("--stiffness", metavar="K", type=float, help="stiffness of a joint's spring [N m/rad]")
     parser.add_argument("--viscous-friction", metavar="V", type=float, help="viscous friction of a joint [N m s/rad]")
     parser.add_argument("--coulomb-friction", metavar="C", type=float, help="Coulomb friction of a joint [N m]")
-    parser.add_argument("--force", action="store_true", help="overwrite a file that is there already")
+    parser.add_argument("--force", action="store_true", help="overwrite an existing file")
     parser.set_defaults(run=run)
 
 
@@ -115,7 +117,7 @@ def _section(options: argparse.Namespace) -> tuple[dict[str, Any], dict[str, str
         raise ContinuumError(f"required too: {', '.join(missing)}; a default would be that of an arm of another size")
     else:
         mass, hole_radius = options.mass, options.hole_radius
-        inertia = _rounded(mass * (3 * hole_radius**2 + (2 * half_spacing) ** 2) / 12)
+        inertia = _rounded(mass * (3 * hole_radius * hole_radius + 4 * half_spacing * half_spacing) / 12)
         remarks["inertia"] = "taken to be that of a cylinder, m (3 r^2 + l^2) / 12"
     if options.inertia is not None:
         inertia = options.inertia

@@ -35,9 +35,9 @@ def positive_part(x: Numbers) -> Numbers:
     return (x + np.abs(x)) / 2
 
 
-def smooth_sign(x: Numbers, sensitivity: Numbers) -> Numbers:
-    """tanh(sensitivity x): the sign of x, smoothed at the origin; ``sensitivity`` in units of 1 / x."""
-    return np.tanh(sensitivity * x)
+def smooth_sign(x: Numbers, slope: Numbers) -> Numbers:
+    """tanh(slope x): the sign of x, smoothed at the origin; ``slope`` in units of 1 / x."""
+    return np.tanh(slope * x)
 
 
 def suffix_sum(x: Numbers) -> Numbers:

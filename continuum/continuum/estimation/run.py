@@ -129,10 +129,10 @@ class Run:
         k = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(times) - 2)
         since = t - times[k]
         if self.held:
-            sensitivity = np.where(t < times[0], values[0], np.where(t >= times[-1], values[-1], values[k]))
+            rate = np.where(t < times[0], values[0], np.where(t >= times[-1], values[-1], values[k]))
             base = np.where(t >= times[-1], total[-1], total[k])
             since = np.where(t >= times[-1], t - times[-1], since)
-            return np.asarray(base + sensitivity * since)
+            return np.asarray(base + rate * since)
         rate = np.diff(values)[k] / np.diff(times)[k]
         inside = total[k] + values[k] * since + rate * since**2 / 2
         before, after = values[0] * (t - times[0]), total[-1] + values[-1] * (t - times[-1])

@@ -108,13 +108,20 @@ class CheckedNode(Node):
         return super().declare_parameters(namespace, typed, ignore_override)
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
-        """As rclpy's method, but the refusal of a read-only parameter names the option to restart with the value."""
+        """As rclpy's method, but the refusal of a read-only parameter says how to restart the node with the value.
+
+        A value of the arm is changed in its file, which may give it by another name or in another unit.
+        """
         result = super().set_parameters_atomically(parameter_list)
-        if not result.successful:
-            read_only = [p for p in parameter_list if self.describe_parameter(p.name).read_only]
-            if read_only:
-                options = " ".join(f"-p {shlex.quote(f'{p.name}:={_yaml(p)}')}" for p in read_only)
-                result.reason += f" Restart the node with: --ros-args {options}"
+        for parameter in [] if result.successful else parameter_list:
+            descriptor = self.describe_parameter(parameter.name)
+            if not descriptor.read_only or descriptor.type != parameter.type_.value:
+                continue
+            if parameter.name.startswith("arm."):
+                how = "Change the arm file, and restart the node."
+            else:
+                how = f"Restart the node with: --ros-args -p {shlex.quote(f'{parameter.name}:={_yaml(parameter)}')}"
+            result.reason = f"{result.reason.rstrip('.')}. {how}"
         return result
 
     @classmethod

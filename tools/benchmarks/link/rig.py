@@ -39,7 +39,7 @@ class Rig:
         domain: ROS domain.
         folder: folder of the emulator's files.
         bench: the emulator's process.
-        ears: the listener.
+        latency_probe: node that measures delays.
     """
 
     domain: int

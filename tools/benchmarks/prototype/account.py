@@ -52,9 +52,9 @@ class Account:
         rounding, noise: the same diagnosis again, itself the first of both; what was changed, and what was said.
         of_beginning: diagnosis of the beginning.
         predicted: simulations of the end by its models.
-        spread: standard deviation of the end's measured angles, (n,) [deg].
+        sd: standard deviation of the end's measured angles, (n,) [deg].
         alone: every effect, and by how much it is expected to lower the logarithm of the refitted model's error.
-        beside: where the guess promises most beside what the verdict adds, empty where it is part of that; how much.
+        with_guess: where the guess gains most in addition to the verdict, empty where it is part of that; the gain.
     """
 
     diagnosis: Diagnosis
