@@ -1,4 +1,4 @@
-"""`continuum view`: an arm in the browser, moved by sliders, by a target that is dragged, or by recordings."""
+"""`continuum view`: show an arm in the browser, moved by sliders or a draggable target, or play recordings."""
 
 from __future__ import annotations
 
@@ -24,28 +24,32 @@ if TYPE_CHECKING:
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
-        "view", help="see an arm or recordings in the browser", description=__doc__,
-        epilog="What nodes do is shown by: ros2 run continuum_manipulator viewer",
+        "view", help="show an arm or recordings in the browser", description=__doc__,
+        epilog="To view running nodes: ros2 run continuum_manipulator viewer",
     )  # fmt: skip
     what = parser.add_argument(
         "what", metavar="ARM.yaml|RECORDING", nargs="*",
-        help="arm to move, by its file or the name of one of the library's; or what to play: the folder of a rosbag2 "
-        "recording, or a CSV table of joint angles; more recordings of the same arm are drawn over the first",
+        help="arm file or name of a library arm to move, or recording to play: the folder of a rosbag2 recording, or a "
+        "CSV table of joint angles; further recordings of the same arm are drawn over the first",
     )  # fmt: skip
     arm = parser.add_argument(
-        "--arm", metavar="ARM.yaml", help="arm of the recording; default: modules of the prototype, as many as it has"
+        "--arm",
+        metavar="ARM.yaml",
+        help="arm of the recording; default: an arm of prototype modules with as many joints as the recording",
     )
     model = parser.add_argument(
         "--model", metavar="MODEL.yaml", action="append", default=[],
         help="draw the open-loop simulation of the recording by this model over it; may be repeated",
     )  # fmt: skip
-    parser.add_argument("--section", metavar="NAME", help="section of --model, where that is a file of several")
+    parser.add_argument("--section", metavar="NAME", help="section of --model, if the file has several sections")
     completes_files(what, ARMS, "csv")
     completes_files(arm, ARMS)
     completes_files(model, MODELS)
-    parser.add_argument("--host", default=HOST, help="address to serve on; default %(default)s, this host alone")
-    parser.add_argument("--port", type=int, default=PORT, help="0 for any that is free; default %(default)s")
-    parser.add_argument("--no-browser", action="store_true", help="print the address, and do not open it")
+    parser.add_argument(
+        "--host", default=HOST, help="address to serve on; default %(default)s, reachable from this host only"
+    )
+    parser.add_argument("--port", type=int, default=PORT, help="port; 0 for any free port; default %(default)s")
+    parser.add_argument("--no-browser", action="store_true", help="print the address without opening it")
     parser.set_defaults(run=run)
 
 
@@ -130,7 +134,7 @@ def _recordings(options: argparse.Namespace) -> _Shown:
             print("simulating ...", flush=True)
         recording, hanging = read_recording(options.what[0]), hangs(models[0])
         overlays = [
-            open_loop_track(recording, first.joints, model, one)
+            open_loop_track(recording, first.joints, model, one, first.origin)
             for one, model in zip(options.model, models, strict=True)
         ]
     playback = Playback(arm, first, name, dict(zip(names, overlays, strict=True)))

@@ -12,7 +12,7 @@ from continuum.recordings.recording import Recording
 from continuum.viewer.tracks import Track
 
 
-def open_loop_track(recording: Recording, measured: Track, model: Model, name: str) -> Track:
+def open_loop_track(recording: Recording, measured: Track, model: Model, name: str, origin: float = 0.0) -> Track:
     """Return the joint angles [rad] that the sensors of a model would read, simulated from start to end of a run.
 
     Only the initial angles and rates are fitted to the run. The bending plane of the section is that of the first
@@ -23,6 +23,8 @@ def open_loop_track(recording: Recording, measured: Track, model: Model, name: s
         measured: measured joint angles of one section by name [rad].
         model: model of the section.
         name: name of the model in messages.
+        origin: time at which the measured angles begin, as the recording counts it [s]; damaged samples that are left
+            out may make the recording begin later.
 
     Raises:
         InvalidValueError: the arm has several sections, or the model has another number of joints or other inputs, or
@@ -40,7 +42,7 @@ def open_loop_track(recording: Recording, measured: Track, model: Model, name: s
     phi = phi_joint(section)
     plane = np.full((recording.times.size, 1), measured.at(float(measured.times[0])).get(phi, 0.0))
     names = (*theta_joints(section, recording.n_joints), phi)
-    return Track(recording.times - recording.times[0], names, np.hstack([score.theta, plane]))
+    return Track(recording.times - origin, names, np.hstack([score.theta, plane]))
 
 
 def hangs(model: Model) -> bool:

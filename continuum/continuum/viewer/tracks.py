@@ -59,6 +59,7 @@ class Tracks:
         lengths: lengths of cables [m].
         tensions: tensions of cables [N].
         target: target of the tip: x, y, z [m].
+        origin: time at which the tracks begin, as `read_recording` counts it [s].
         notes: data omitted or repaired while reading, one sentence each.
     """
 
@@ -67,6 +68,7 @@ class Tracks:
     lengths: Track = NOTHING
     tensions: Track = NOTHING
     target: Track = NOTHING
+    origin: float = 0.0
     notes: tuple[str, ...] = ()
 
     @property
@@ -86,13 +88,14 @@ def read_tracks(path: str | Path) -> Tracks:
 
 def _from_table(path: str | Path) -> Tracks:
     run = read_recording_csv(path)
-    times = run.times - run.times[0]
+    origin = float(run.times[0])
+    times = run.times - origin
     joints = Track(times, theta_joints(_SECTION, run.n_joints), run.theta)
     if run.tensions is None:
-        return Tracks(joints, notes=run.notes)
+        return Tracks(joints, origin=origin, notes=run.notes)
     pull = run.tensions
-    tensions = Track(pull.times - run.times[0], cable_names(_SECTION, pull.values.shape[1]), pull.values)
-    return Tracks(joints, tensions=tensions, notes=run.notes)
+    tensions = Track(pull.times - origin, cable_names(_SECTION, pull.values.shape[1]), pull.values)
+    return Tracks(joints, tensions=tensions, origin=origin, notes=run.notes)
 
 
 def _from_bag(path: str | Path) -> Tracks:
@@ -112,7 +115,7 @@ def _from_bag(path: str | Path) -> Tracks:
             _read_targets(bag),
         ]
     joints, simulated, lengths, tensions, target = (Track(t.times - start, t.names, t.values) for t in tracks)
-    return Tracks(joints, simulated, lengths, tensions, target, tuple(notes))
+    return Tracks(joints, simulated, lengths, tensions, target, notes=tuple(notes))
 
 
 def _refuse_degrees(bag: Bag, joints: Track) -> None:
