@@ -158,7 +158,7 @@ def test_a_model_file_takes_the_names_of_arm_files_and_other_units(tmp_path: Pat
 
 def test_a_model_file_with_both_names_is_refused_by_both() -> None:
     entries = {name: {"value": 0.02, "unit": "m"} for name in ("b", "half_spacing")}
-.*parameters\.b "):
+    with pytest.raises(InvalidValueError, match=r"^parameters\.half_spacing is .*parameters\.b "):
         model_from_mapping({"n_joints": 2, "parameters": entries})
 
 
