@@ -6,14 +6,16 @@ import argparse
 import signal
 import sys
 import threading
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from continuum.arm import Arm, load_arm
 from continuum.cli.browser_window import open_window
 from continuum.cli.completion import completes_files
-from continuum.cli.viewed_files import is_arm, labels
+from continuum.cli.viewed_files import check_kinds, check_same_joints, is_arm, labels, load_viewed_arm
 from continuum.errors import InvalidValueError
+from continuum.joint_names import bending_joints
 from continuum.shipped_files import ARMS, MODELS
 from continuum.viewer.address import HOST, PORT
 
@@ -35,7 +37,8 @@ def add_to(commands: Any) -> None:
     arm = parser.add_argument(
         "--arm",
         metavar="ARM.yaml",
-        help="arm of the recording; default: an arm of prototype modules with as many joints as the recording",
+        help="arm of the recording; default: the arm of --model, otherwise an arm of prototype modules with as many "
+        "joints as the recording",
     )
     model = parser.add_argument(
         "--model", metavar="MODEL.yaml", action="append", default=[],
@@ -59,6 +62,7 @@ def run(options: argparse.Namespace) -> int:
     from continuum.viewer.layout import NAME
     from continuum.viewer.page import Page
 
+    check_kinds(options.what)
     shown = _arm(options) if all(is_arm(one) for one in options.what) else _recordings(options)
     title = " - ".join([*([", ".join(labels(options.what))] if options.what else []), NAME])
     stop = threading.Event()
@@ -92,12 +96,17 @@ def _arm(options: argparse.Namespace) -> _Shown:
 
     if len(options.what) > 1:
         raise InvalidValueError("ARM.yaml", ", ".join(options.what), "one arm; several recordings can be compared")
+    file = options.what[0] if options.what else options.arm
+    arm = default_arm() if file is None else load_viewed_arm(file)
     for option, value in (("--arm", options.arm), ("--model", ", ".join(options.model))):
         if value and (options.what or option == "--model"):
             raise InvalidValueError(option, value, "only beside a recording")
-    file = options.what[0] if options.what else options.arm
-    arm = default_arm() if file is None else load_arm(file)
     return _Shown(arm, ManualSource(arm))
+
+
+def _print_notes(path: str, notes: Iterable[str]) -> None:
+    for note in notes:
+        print(f"continuum: {path}: {note}", file=sys.stderr)
 
 
 def _recordings(options: argparse.Namespace) -> _Shown:
@@ -105,6 +114,7 @@ def _recordings(options: argparse.Namespace) -> _Shown:
     from continuum.cli.models import read_model
     from continuum.recordings.recorded_arm import check_joints
     from continuum.viewer.default_arm import arm_of_joints
+    from continuum.viewer.model_arm import arm_of_model
     from continuum.viewer.playback import Playback
     from continuum.viewer.tracks import Tracks, read_tracks
 
@@ -112,17 +122,22 @@ def _recordings(options: argparse.Namespace) -> _Shown:
         if sys.stdout.isatty():  # a refusal is one line, elsewhere
             print(f"reading {path} ...", flush=True)
         tracks = read_tracks(path)
-        for note in tracks.notes:
-            print(f"continuum: {path}: {note}", file=sys.stderr)
+        _print_notes(path, tracks.notes)
         return tracks
 
     if options.model and len(options.what) > 1:
         raise InvalidValueError("--model", ", ".join(options.model), "only beside one recording")
     models = [read_model(one, options.section) for one in options.model]
     first, *others = (read(path) for path in options.what)
-    arm = arm_of_joints(first.joints.names) if options.arm is None else load_arm(options.arm)
-    for path, tracks in zip(options.what, (first, *others), strict=True):
-        check_joints(path, tracks.joints.names, arm)
+    if options.arm is not None:
+        arm = load_arm(options.arm)
+        check_joints(options.what[0], first.joints.names, arm)
+    elif options.model and len(sections := bending_joints(first.joints.names)) == 1:
+        arm = arm_of_model(options.model[0], options.section, *sections)
+    else:
+        arm = arm_of_joints(first.joints.names)
+    for path, tracks in zip(options.what[1:], others, strict=True):
+        check_same_joints(path, tracks.joints.names, options.what[0], first.joints.names)
     name, *names = labels([*options.what, *options.model])
     overlays = [tracks.joints for tracks in others]
     hanging = False
@@ -133,6 +148,7 @@ def _recordings(options: argparse.Namespace) -> _Shown:
         if sys.stdout.isatty():
             print("simulating ...", flush=True)
         recording, hanging = read_recording(options.what[0]), hangs(models[0])
+        _print_notes(options.what[0], [note for note in recording.notes if note not in first.notes])
         overlays = [
             open_loop_track(recording, first.joints, model, one, first.origin)
             for one, model in zip(options.model, models, strict=True)

@@ -13,11 +13,19 @@ _B, _A = 0.01925, 0.032
 _MODULES = 5
 _WITHIN = 0.99  # bend limit relative to the bend at which discs touch
 
+HOLES_TO_SPACING = _A / _B
+"""Radius of the cables' holes relative to half the joint spacing."""
+
 
 def default_arm(n_sections: int = 3) -> Arm:
     """Return an arm of sections of five modules, each rotated by a twelfth of a turn from the preceding section."""
     twists = [0.0] + [math.pi / 6] * (n_sections - 1)
     return Arm(tuple(Section(f"section_{i}", _MODULES, _B, _A, twist=twist) for i, twist in enumerate(twists, start=1)))
+
+
+def reachable_bend(n_joints: int, b: float, a: float) -> float:
+    """Return a bend limit of a section [rad]: half a turn, or less if the discs touch before."""
+    return min(math.pi, _WITHIN * 2 * n_joints * math.atan2(b, a))
 
 
 def arm_of_joints(joints: Iterable[str]) -> Arm:
@@ -31,10 +39,9 @@ def arm_of_joints(joints: Iterable[str]) -> Arm:
     if not sections:
         raise InvalidValueError("joints", names, f"bending joints, with names that end with {ending} ..")
     counts = [sum(name in names for name in theta_joints(section, len(names))) for section in sections]
-    limits = [min(math.pi, _WITHIN * 2 * n * math.atan2(_B, _A)) for n in counts]
     return Arm(
         tuple(
-            Section(section, n, _B, _A, bend_limit=limit)
-            for section, n, limit in zip(sections, counts, limits, strict=True)
+            Section(section, n, _B, _A, bend_limit=reachable_bend(n, _B, _A))
+            for section, n in zip(sections, counts, strict=True)
         )
     )
