@@ -1,6 +1,7 @@
 """A recording on the viewer's page: all of it that is to be seen, at the instant that the time slider says."""
 
 import csv
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,11 +12,10 @@ from continuum.joint_names import theta_joints
 from continuum.kinematics.chain import arm_pose
 from continuum.viewer import playback, player
 from continuum.viewer.default_arm import arm_of_joints
-from continuum.viewer.drawn_cables import drawn_cables
 from continuum.viewer.motion_csv import motion_csv
 from continuum.viewer.page import Page
 from continuum.viewer.plot_data import LENGTHS, TENSIONS
-from continuum.viewer.section_angles import configuration_of_joints
+from continuum.viewer.section_angles import configuration_of_joints, joints_of
 from continuum.viewer.tracks import NOTHING, Track, read_tracks
 
 pytestmark = pytest.mark.slow
@@ -137,10 +137,48 @@ def test_the_motion_is_saved_as_a_table(tmp_path):
     times, angles = np.arange(40) / 100, np.random.default_rng(0).uniform(-0.3, 0.3, (40, 2))
     file = tmp_path / "motion.csv"
     joints = Track(times, names, angles)
-    file.write_text(motion_csv(joints, drawn_cables(joints, arm), NOTHING, arm), encoding="utf-8")
+    file.write_text(motion_csv(joints, NOTHING, NOTHING, arm), encoding="utf-8")
     again = read_tracks(file)
     np.testing.assert_allclose(again.joints.times, times, atol=1e-9)
     np.testing.assert_allclose(again.joints.values, angles, atol=1e-8)
+
+
+def columns_of(text, ending):
+    """The columns of a table whose names end so, (n_rows, n)."""
+    header, *rows = csv.reader(text.splitlines())
+    chosen = [i for i, name in enumerate(header) if name.endswith(ending)]
+    return np.array([[float(row[i] or "nan") for i in chosen] for row in rows])
+
+
+def test_saved_cables_and_tip_are_those_of_their_row():
+    """Also in a recording that is too long for the page to draw each of its cable lengths."""
+    joints = joints_track(postures := np.random.default_rng(2).uniform(-0.3, 0.3, (5400, 2, 2)))
+    text = motion_csv(joints, NOTHING, NOTHING, runs.ARM)
+    rows = [0, 1, 2, 2700, 2701, 5398, 5399]
+    lengths = [runs.tangle(postures[row], runs.ARM) for row in rows]
+    np.testing.assert_allclose(columns_of(text, "_length_m")[rows], lengths, atol=1e-9)
+    tips = [arm_pose(postures[row], runs.ARM)[:3, 3] for row in rows]
+    tip = np.hstack([columns_of(text, f"tip_{axis}_m") for axis in "xyz"])
+    np.testing.assert_allclose(tip[rows], tips, atol=1e-9)
+
+
+def joints_track(postures):
+    named = [joints_of(w, runs.ARM) for w in postures]
+    return Track(np.arange(len(named)) / 100, tuple(named[0]), np.array([list(row.values()) for row in named]))
+
+
+def test_what_is_saved_beside_a_simulated_arm_was_measured(shown):
+    files = []
+    client = SimpleNamespace(send_file_download=lambda name, content, **_: files.append(content.decode()))
+    shown.source._save(SimpleNamespace(client=client))
+    (text,) = files
+    tracks, (row, now) = shown.source._tracks, (30, 0.3)
+    for ending, track, unit in (
+        ("_deg", tracks.joints, np.degrees),
+        ("_length_m", tracks.lengths, np.array),
+        ("_tension_N", tracks.tensions, np.array),
+    ):
+        np.testing.assert_allclose(columns_of(text, ending)[row], unit(list(track.at(now + 1e-6).values())), atol=1e-6)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -49,10 +49,24 @@ class LinkPoses:
 
     def angles(self, named: Mapping[str, float]) -> Array:
         """Return the angles of all joints, (n_joints,) [rad]; 0 for a joint that is not named and mimics none."""
-        angles = np.array([named.get(name, np.nan) for name in self.joints])
+        angles: Array = self.angles_over(tuple(named), np.array([list(named.values())], dtype=float))[0]
+        return angles
+
+    def angles_over(self, names: Sequence[str], values: Array) -> Array:
+        """Return the angles of all joints at several instants, (n, n_joints) [rad], as `angles` for each.
+
+        Args:
+            names: names of the known joints; those of no joint here do not count.
+            values: their angles, (n, n_names) [rad].
+        """
+        column = {name: i for i, name in enumerate(names)}
+        angles = np.full((len(values), len(self.joints)), np.nan)
+        for joint, name in enumerate(self.joints):
+            if name in column:
+                angles[:, joint] = values[:, column[name]]
         for joint, mimicked, multiplier, offset in self._followers:
-            if np.isnan(angles[joint]):
-                angles[joint] = multiplier * np.nan_to_num(angles[mimicked]) + offset
+            followed = multiplier * np.nan_to_num(angles[:, mimicked]) + offset
+            angles[:, joint] = np.where(np.isnan(angles[:, joint]), followed, angles[:, joint])
         known: Array = np.nan_to_num(angles)
         return known
 

@@ -48,7 +48,7 @@ class Playback:
                 gui.add_markdown(f"`{self._name}`")
             end = max(float(motion.joints.times[-1]) for motion in self._motions)
             self.player = Player(layout, self._tracks.joints.times, end)
-            save = gui.add_button("Save CSV", hint="Joint angles, tip and cables of the motion that is drawn solid")
+            save = gui.add_button("Save CSV", hint="Joint angles, tip and cables of the recording")
         save.on_click(self._save)
         self._plots = RecordedPlots(layout, self._arm, self._motions, self._lengths, self._tracks.tensions)
 
@@ -75,6 +75,7 @@ class Playback:
         return [Motion("simulated", tracks.simulated, SOLID), Motion("measured", tracks.joints, GHOST), *overlays]
 
     def _save(self, event: viser.GuiEvent[Any]) -> None:
+        tracks = self._tracks
         if event.client is not None:
-            content = motion_csv(self._motions[0].joints, self._lengths, self._tracks.tensions, self._arm)
+            content = motion_csv(tracks.joints, tracks.lengths, tracks.tensions, self._arm)
             event.client.send_file_download("motion.csv", content.encode(), save_immediately=True)
