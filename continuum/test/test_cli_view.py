@@ -1,8 +1,11 @@
 """`continuum view`: what it refuses before it serves a page, and what it says while one waits."""
 
 import sys
+import threading
+import time
 import webbrowser
 from pathlib import Path
+from queue import SimpleQueue
 
 import numpy as np
 import pytest
@@ -160,16 +163,28 @@ def test_files_have_different_labels(paths: list[str]) -> None:
 def test_a_browser_opens_only_for_a_user_with_a_screen(
     monkeypatch: pytest.MonkeyPatch, terminal: bool, screen: bool
 ) -> None:
-    opened: list[str] = []
+    opened: SimpleQueue[str] = SimpleQueue()
+    closed = threading.Event()
     monkeypatch.setattr(sys.stdout, "isatty", lambda: terminal)
     monkeypatch.setattr(sys, "platform", "linux")
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     if screen:
         monkeypatch.setenv("DISPLAY", ":0")
-    monkeypatch.setattr(webbrowser, "open", opened.append)
+
+    def wait_for_end(address: str) -> None:
+        """As a browser in the terminal does."""
+        opened.put(address)
+        closed.wait(30.0)
+
+    monkeypatch.setattr(webbrowser, "open", wait_for_end)
+    begin = time.monotonic()
     open_window("http://127.0.0.1:8080")
-    assert bool(opened) is (terminal and screen)
+    assert time.monotonic() - begin < 20.0
+    if terminal and screen:
+        assert opened.get(timeout=30.0) == "http://127.0.0.1:8080"
+    closed.set()
+    assert opened.empty()
 
 
 def test_a_refused_recording_is_one_line_in_a_pipe(capsys: Captured, tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """A recording on the viewer's page: all of it that is to be seen, at the instant that the time slider says."""
 
 import csv
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -56,10 +57,10 @@ def test_all_of_a_recording_is_found(folder):
 class Shown:
     """The page of the recording, at a time of the machine that the test says."""
 
-    def __init__(self, folder, monkeypatch):
+    def __init__(self, folder, monkeypatch, overlays=None):
         self._now = 100.0
         monkeypatch.setattr(player.time, "monotonic", lambda: self._now)
-        self.source = playback.Playback(runs.ARM, read_tracks(folder), "run")
+        self.source = playback.Playback(runs.ARM, read_tracks(folder), "run", overlays)
         self.page = Page(runs.ARM, self.source, port=0)
         self.player = self.source.player
         self.page.draw()
@@ -126,9 +127,26 @@ def test_the_slider_says_the_time(shown):
 def test_steps_go_from_sample_to_sample_and_pause(shown):
     shown.after(0.305)
     for steps, row in ((1, 31), (1, 32), (-1, 31), (-100, 0), (1000, runs.N - 1)):
-        shown.player._steps = steps
+        shown.player._steps.put(steps)
         assert shown.after(0.1) == pytest.approx(row / runs.RATE)
         assert not shown.player.playing
+
+
+def test_steps_go_on_where_another_motion_is_longer(folder, monkeypatch):
+    tracks = read_tracks(folder)
+    other = replace(tracks.joints, times=1.5 * tracks.joints.times)
+    shown = Shown(folder, monkeypatch, {"longer": other})
+    try:
+        end, times = tracks.duration, [shown.after(0.5)]
+        for step in [1] * 50 + [-1] * 5:
+            shown.player._steps.put(step)
+            times.append(shown.after(0.1))
+        steps = np.diff(times)
+        assert np.all(steps[:50] >= 0.0)
+        assert np.all(steps[50:] < 0.0)
+        assert max(times) == pytest.approx(1.5 * end, abs=1e-3)
+    finally:
+        shown.page.close()
 
 
 def test_the_motion_is_saved_as_a_table(tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import threading
 import webbrowser
 
 
@@ -14,6 +15,9 @@ def has_window() -> bool:
 
 
 def open_window(address: str) -> None:
-    """Open ``address`` in the default browser if there is a screen; otherwise the user opens the printed address."""
+    """Open ``address`` in the default browser if there is a screen; otherwise the user opens the printed address.
+
+    Returns at once: `webbrowser.open` waits for the end of a browser that runs in the terminal.
+    """
     if has_window():
-        webbrowser.open(address)
+        threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()

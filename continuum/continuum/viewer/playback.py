@@ -9,6 +9,7 @@ import numpy as np
 import viser
 
 from continuum.arm import Arm
+from continuum.arrays import Array
 from continuum.viewer.drawn_cables import drawn_cables
 from continuum.viewer.layout import Layout
 from continuum.viewer.motion_csv import motion_csv
@@ -46,8 +47,7 @@ class Playback:
                 gui.add_html(motion_legend([(motion.label, motion.colour) for motion in self._motions]))
             else:
                 gui.add_markdown(f"`{self._name}`")
-            end = max(float(motion.joints.times[-1]) for motion in self._motions)
-            self.player = Player(layout, self._tracks.joints.times, end)
+            self.player = Player(layout, self._steps())
             save = gui.add_button("Save CSV", hint="Joint angles, tip and cables of the recording")
         save.on_click(self._save)
         self._plots = RecordedPlots(layout, self._arm, self._motions, self._lengths, self._tracks.tensions)
@@ -65,6 +65,12 @@ class Playback:
             target=np.array([target[axis] for axis in "xyz"]) if target else None,
             plots=self._plots,
         )
+
+    def _steps(self) -> Array:
+        """Return the times of the recording, and after its end those of the motion that ends last, (n,) [s]."""
+        times = self._tracks.joints.times
+        longest = max((motion.joints.times for motion in self._motions), key=lambda one: float(one[-1]))
+        return np.concatenate([times, longest[longest > times[-1]]])
 
     def _all_motions(self) -> Sequence[Motion]:
         """Return all motions, first the one that is drawn solid."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from queue import SimpleQueue
 from typing import Any
 
 import numpy as np
@@ -30,20 +31,19 @@ class Player:
 
     Args:
         layout: page; the controls are put into the container that is open.
-        times: times of the samples, increasing from 0, (n,) [s].
-        end: end of the time [s], not before the last sample.
+        times: times of the samples to step over, increasing from 0, (n,) [s].
 
     Attributes:
         playing: whether the time advances.
     """
 
-    def __init__(self, layout: Layout, times: Array, end: float) -> None:
-        self._times, self._time, self._end = times, 0.0, end
+    def __init__(self, layout: Layout, times: Array) -> None:
+        self._times, self._time, self._end = times, 0.0, float(times[-1])
         self._asked: float | None = None
-        self._steps = 0
+        self._steps: SimpleQueue[int] = SimpleQueue()  # keys arrive in the thread of the event loop
         self.playing, self._said_playing = True, False
         gui = layout.server.gui
-        last = _STEP * max(math.ceil(round(end / _STEP, 6)), 1)
+        last = _STEP * max(math.ceil(round(self._end / _STEP, 6)), 1)
         self._button = gui.add_button("Play", hint="Key: space")
         steps = gui.add_button_group("Step", tuple(_STEPS), hint="To the previous or next sample. Keys: J, L")
         self._slider: viser.GuiSliderHandle[float] = gui.add_slider("time [s]", 0.0, round(last, 2), _STEP, 0.0)
@@ -62,7 +62,7 @@ class Player:
         """Return the time [s]: advanced by the time since the last call, or as set by the user."""
         now = time.monotonic()
         passed, self._asked = 0.0 if self._asked is None else now - self._asked, now
-        steps, self._steps = self._steps, 0
+        steps = sum(self._steps.get() for _ in range(self._steps.qsize()))
         if self._slider.value != self._shown:
             self._time = value_within(self._slider)
         elif steps:
@@ -96,10 +96,10 @@ class Player:
         self.playing = not self.playing
 
     async def _step(self, event: viser.GuiEvent[Any]) -> None:
-        self._steps += _STEPS.get(event.target.value, 0)
+        self._steps.put(_STEPS.get(event.target.value, 0))
 
     async def _step_back(self, _: object) -> None:
-        self._steps -= 1
+        self._steps.put(-1)
 
     async def _step_forward(self, _: object) -> None:
-        self._steps += 1
+        self._steps.put(1)
