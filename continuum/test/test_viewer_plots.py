@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from continuum.kinematics.routing import tangle
 from continuum.viewer.default_arm import default_arm
 from continuum.viewer.drawn_cables import drawn_cables
-from continuum.viewer.line_plot import with_cursor
+from continuum.viewer.line_plot import range_of, with_cursor
 from continuum.viewer.manual_source import ManualSource
 from continuum.viewer.page import Page
 from continuum.viewer.plot_data import (
@@ -49,7 +49,7 @@ def drawn(plots, title):
 
 
 def test_plots_show_only_the_cables_that_are_reported(plots):
-    """A number that is missing anywhere leaves the browser's plot empty."""
+    """A cable without values has no line."""
     own, others = ARM.sections[0].cable_names, ARM.sections[1].cable_names
 
     def show(time, **what):
@@ -137,7 +137,32 @@ def test_all_plots_of_a_recording_have_the_same_time():
     for end in (1.5, 2.0, 4.0):
         data = padded(late, end)
         assert (data.times[0], data.times[-1]) == (0.0, end)
-        np.testing.assert_allclose(data.values[0], np.interp(data.times, late.times, late.values[0]))
+        np.testing.assert_allclose(data.values[0], np.interp(data.times, late.times, late.values[0], np.nan, np.nan))
+
+
+def test_a_line_ends_with_its_motion():
+    """Also among many points, and with a cursor beyond its end."""
+    name, whole, part = SECTION.theta_joints[:2], np.linspace(0.0, 10.0, 1001), np.linspace(2.0, 6.0, 401)
+    motions = [motion(name, np.sin([times, times]).T, label, times) for label, times in (("a", whole), ("b", part))]
+    data = padded(thinned(section_data(SECTION, motions)["Joint 1 [deg]"], 200), 12.0)
+    assert (data.times[0], data.times[-1]) == (0.0, 12.0)
+    interval = 10.0 / 100
+    for now in (1.0, 4.0, 8.0, 11.0):
+        times, *lines, _ = with_cursor(data, now)
+        for line, own in zip(lines, (whole, part), strict=True):
+            drawn = times[np.isfinite(line)]
+            np.testing.assert_allclose((drawn[0], drawn[-1]), (own[0], own[-1]), atol=2 * interval)
+            assert np.isfinite(line[(times > drawn[0]) & (times < drawn[-1])]).all()
+
+
+@given(st.lists(st.integers(-5000, 5000).map(lambda tenths: tenths / 10), min_size=1, max_size=9))
+def test_the_axis_of_a_line_that_ends_has_all_of_its_values(numbers):
+    assert range_of(np.array([numbers])) is None
+    low, high = range_of(np.array([[np.nan, *numbers, np.nan]]))
+    assert low <= min(numbers)
+    assert max(numbers) <= high
+    assert low < high
+    assert high - low <= max(4.0, 4.0 * (max(numbers) - min(numbers)))
 
 
 @given(st.floats(-1.0, 11.0))

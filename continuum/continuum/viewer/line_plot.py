@@ -33,7 +33,7 @@ _BELOW, _ABOVE = -1.0, 2.0
 
 
 class LinePlot:
-    """One plot, absent while it has no line. The plots of viser draw nothing if a single number is missing.
+    """One plot, absent while it has no line. Lines end at NaN; the browser then needs the range of values.
 
     Args:
         layout: page.
@@ -55,7 +55,7 @@ class LinePlot:
         if data is None or len(data.times) < 2:  # one point is not a line, and its axes would be meaningless
             self.remove()
             return
-        made_of = (data.lines, dark, now is None)
+        made_of = (data.lines, dark, now is None, range_of(data.values))
         arrays = (data.times, *data.values)
         if now is not None:
             times, *lines = with_cursor(data, now)
@@ -86,6 +86,8 @@ class LinePlot:
             for line in data.lines
         ]
         scales = {"x": uplot.Scale(time=False, auto=True)}
+        if (ends := range_of(data.values)) is not None:
+            scales["y"] = uplot.Scale(auto=False, range=ends)
         if cursor:
             series.append(uplot.Series(label="cursor", scale="cursor", stroke=_CURSOR, width=1, points=no_points))
             scales["cursor"] = uplot.Scale(auto=False, range=(0.0, 1.0))
@@ -105,6 +107,18 @@ class LinePlot:
                 scales=scales,
                 order=self._order,
             )
+
+
+def range_of(values: Array) -> tuple[float, float] | None:
+    """Return the range of the axis of lines with NaN, (n_lines, n); None without NaN, where the browser finds it.
+
+    The ends are rounded, so that a plot over the last seconds is not made again for each instant.
+    """
+    if np.isfinite(values).all():
+        return None
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    step = 10.0 ** np.floor(np.log10(high - low)) if high > low else 1.0
+    return float(step * (np.ceil(low / step) - 1)), float(step * (np.floor(high / step) + 1))
 
 
 def with_cursor(data: PlotData, now: float) -> tuple[Array, ...]:

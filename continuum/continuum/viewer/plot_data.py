@@ -51,7 +51,7 @@ class PlotData:
     Attributes:
         lines: lines.
         times: increasing times, (n,) [s].
-        values: values of each line, (n_lines, n).
+        values: values of each line, (n_lines, n), NaN where it is not drawn.
     """
 
     lines: tuple[Line, ...]
@@ -93,32 +93,39 @@ def track_of(times: Array, rows: Sequence[Mapping[str, float]], wanted: Iterable
 
 
 def padded(data: PlotData, end: float) -> PlotData:
-    """Return data from 0 to ``end`` [s], for equal time axes of all plots; the first and last values are held."""
+    """Return data from 0 to ``end`` [s], for equal time axes of all plots; NaN before the first and after the last."""
     inside = (data.times >= 0.0) & (data.times <= end)
     times = np.unique([0.0, *data.times[inside], end])
-    return PlotData(data.lines, times, np.array([np.interp(times, data.times, line) for line in data.values]))
+    return PlotData(data.lines, times, np.array([_within(times, data.times, line) for line in data.values]))
 
 
 def thinned(data: PlotData, most: int) -> PlotData:
     """Return at most ``most`` points, an even number, that keep the smallest and largest value of each interval.
 
-    Each interval has two points; a value within it may move in time by less than its length.
+    Each interval has two points; a value within it may move in time by less than its length. NaN remains only where an
+    interval has no value.
     """
     n = data.times.size
     if n <= most:
         return data
     bounds = np.linspace(0, n, most // 2 + 1).astype(int)[:-1]
     middles = bounds + np.diff(np.append(bounds, n)) // 2
-    extremes = [reduce.reduceat(data.values, bounds, axis=1) for reduce in (np.minimum, np.maximum)]
+    extremes = [reduce.reduceat(data.values, bounds, axis=1) for reduce in (np.fmin, np.fmax)]
     times = np.stack([data.times[bounds], data.times[middles]], axis=1).ravel()
     times[-1] = data.times[-1]
     return PlotData(data.lines, times, np.stack(extremes, axis=2).reshape(len(data.values), -1))
 
 
 def _compared(label: str, joint: str, motions: Sequence[Motion], factor: float = 1.0) -> PlotData:
-    """Return the angle of one joint in each motion that has it; a motion that ends early holds its last angle."""
+    """Return the angle of one joint in each motion that has it, NaN before and after the motion."""
     known = [motion for motion in motions if joint in motion.joints.names]
     columns = [(m.joints.times, m.joints.values[:, m.joints.names.index(joint)]) for m in known]
     times = columns[0][0] if len(columns) == 1 else np.unique(np.concatenate([own for own, _ in columns]))
-    values = np.degrees([factor * np.interp(times, own, column) for own, column in columns])
+    values = np.degrees([factor * _within(times, own, column) for own, column in columns])
     return PlotData(tuple(Line(motion.label or label, motion.colour) for motion in known), times, values)
+
+
+def _within(times: Array, known: Array, values: Array) -> Array:
+    """Return values interpolated at ``times`` [s], NaN outside the ``known`` times [s]."""
+    interpolated: Array = np.interp(times, known, values, left=np.nan, right=np.nan)
+    return interpolated

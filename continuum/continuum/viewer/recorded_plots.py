@@ -43,5 +43,5 @@ class RecordedPlots:
         section = self.plots.section
         if section.name not in self._data:
             whole = section_data(section, self._motions, self._lengths, self._tensions)
-            self._data[section.name] = {title: thinned(padded(data, self._end), _MOST) for title, data in whole.items()}
+            self._data[section.name] = {title: padded(thinned(data, _MOST), self._end) for title, data in whole.items()}
         self.plots.show(self._data[section.name], now, dark)
