@@ -127,6 +127,10 @@ def test_the_page_itself_and_programs_are_let_in(served: Served) -> None:
         {"type": "TransformControlsUpdateMessage", "name": "/target"},
         CAMERA | {"position": (0.0, NAN, 0.0)},
         {"type": "ShareUrlRequest"},
+        {"type": "CommandTriggerMessage"},
+        {"type": "CommandTriggerMessage", "uuid": 3},
+        {"type": "CommandTriggerMessage", "uuid": 300 * "a"},
+        {"type": "CommandTriggerMessage", "uuid": "a", "name": "b"},
         {"type": "RunJavascriptMessage", "source": "alert(1)"},
         {"type": "no such"},
         {"no": "type"},
@@ -137,6 +141,28 @@ def test_the_page_itself_and_programs_are_let_in(served: Served) -> None:
 )
 def test_what_no_page_says_is_counted_and_changes_nothing(served: Served, said: object) -> None:
     refused(served, msgspec.msgpack.encode(said))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        CAMERA,
+        drag(),
+        {"type": "TransformControlsDragStartMessage", "name": "/target"},
+        {"type": "TransformControlsDragEndMessage", "name": "/target"},
+        {"type": "CommandTriggerMessage", "uuid": "of a command that was removed"},
+    ],
+    ids=repr,
+)
+def test_what_a_page_says_is_let_in(served: Served, said: object) -> None:
+    with served.client() as client:
+        client.send(msgspec.msgpack.encode(CAMERA))
+        served.hears(client, PLACES[0])
+        before = served.faults.total
+        client.send(msgspec.msgpack.encode(said))
+        served.hears(client, PLACES[1])
+        served.hears(client, PLACES[0])
+        assert served.faults.total == before
 
 
 @pytest.mark.parametrize("data", [b"", b"\xc1", b"\xdc\xff\xff", "text", "\x1b[31m"], ids=repr)
