@@ -55,7 +55,7 @@ def announce_compilation() -> None:
     """Log once per program that it compiles: the first call takes half a minute; later programs use the cache."""
     if not _announced.is_set():
         _announced.set()
-        _log.info("compiling for this machine; this happens once and takes up to a minute")
+        _log.info("compiling for this machine; this happens once and takes a minute or more")
 
 
 @dataclass(frozen=True)
