@@ -23,7 +23,7 @@ from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.parameters import Parameters
 from continuum.errors import InvalidValueError
 from continuum.recordings.read_recording import read_recording
-from continuum.viewer.model_arm import planar_section
+from continuum.viewer.model_arm import is_approximate, planar_section
 from continuum.viewer.seen import Source
 
 
@@ -108,6 +108,8 @@ def test_the_arm_of_a_model_is_drawn(monkeypatch: pytest.MonkeyPatch, tmp_path: 
     two = {"half_spacing": np.array([0.01, 0.02, 0.01, 0.02, 0.01])}
     spacing = model.with_values(two).parameters
     assert planar_section("s", spacing).length == pytest.approx(float(np.sum(spacing.joint_spacing)))
+    assert is_approximate(spacing)
+    assert not is_approximate(model.parameters)
     arm, _ = page_of(monkeypatch, run, "--arm", "prototype", *of_section)
     assert arm.length == pytest.approx(0.1925)
 

@@ -114,7 +114,7 @@ def _recordings(options: argparse.Namespace) -> _Shown:
     from continuum.cli.models import read_model
     from continuum.recordings.recorded_arm import check_joints
     from continuum.viewer.default_arm import arm_of_joints
-    from continuum.viewer.model_arm import arm_of_model
+    from continuum.viewer.model_arm import arm_of_model, is_approximate
     from continuum.viewer.playback import Playback
     from continuum.viewer.tracks import Tracks, read_tracks
 
@@ -134,6 +134,9 @@ def _recordings(options: argparse.Namespace) -> _Shown:
         check_joints(options.what[0], first.joints.names, arm)
     elif options.model and len(sections := bending_joints(first.joints.names)) == 1:
         arm = arm_of_model(options.model[0], options.section, *sections)
+        if is_approximate(models[0].parameters):
+            note = "dimensions vary along the arm; the arm and its cables are drawn with their means"
+            _print_notes(options.model[0], [note])
     else:
         arm = arm_of_joints(first.joints.names)
     for path, tracks in zip(options.what[1:], others, strict=True):

@@ -39,6 +39,12 @@ def arm_of_model(path: str | Path, section: str | None, name: str) -> Arm:
     return Arm((planar_section(name, model.parameters),))
 
 
+def is_approximate(p: Parameters) -> bool:
+    """Return whether `planar_section` has means of dimensions that vary along the arm, or no gaps between discs."""
+    varying = [one for one in (p.joint_spacing, p.hole_radius) if one is not None]
+    return bool(any(not np.allclose(one, one[0]) for one in varying) or not np.allclose(p.disc_gap, 0.0))
+
+
 def planar_section(name: str, p: Parameters) -> Section:
     """Return a section with the joint spacing and hole radius of a planar model; their means if they vary.
 
