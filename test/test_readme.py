@@ -145,7 +145,7 @@ def test_the_page_of_a_diagnosis_says_how_it_was_made_and_loads_nothing_from_els
     page = checkout / "out" / "diagnosis.html"
     if not page.exists():
         pytest.skip("no diagnosis was made in this run")
-    made = r"Made on \d{4}-\d\d-\d\d by continuum [\d.]+ of [\w.]+; model lamecc_prototype.yaml\.</p>"
+    made = r"Made on \d{4}-\d\d-\d\d by continuum [\d.]+\. Recordings: [\w.]+\. Model: lamecc_prototype.yaml\.</p>"
     assert re.search(made, page.read_text(encoding="utf-8"))
     alone = checkout / "out" / "alone"
     alone.mkdir()

@@ -86,7 +86,7 @@ def test_a_diagnosis_is_reported_and_written(
     made = output["made"]
     assert (made["recordings"], made["model"]) == (["run_1.csv", "run_2.csv"], "small.yaml")
     page = unescape(out["html"].read_text(encoding="utf-8"))
-    assert "of run_1.csv, run_2.csv; model small.yaml." in page
+    assert "Recordings: run_1.csv, run_2.csv. Model: small.yaml." in page
     assert "<svg" in page
     assert load_model(out["yaml"]).n_joints == N
     monkeypatch.setattr(view.signal, "signal", lambda *_: None)

@@ -18,43 +18,43 @@ recordings show of them."""
 
 _NEXT_STEPS = """\
 what you can do next:
-  continuum info ARM.yaml                 lengths, cables, bend limits of an arm
+  continuum info ARM.yaml                 show lengths and bend limits of an arm
   continuum solve ARM.yaml 0.15 0 0.20    bring the tip to a point
   continuum new-arm my_arm.yaml           write the file of your arm
   continuum model new --out MODEL.yaml    write the model file of a planar arm
   continuum view ARM.yaml                 move it in the browser, or a recording
   continuum simulate --release 90 --picture X.png
-                                          let go of an arm bent by 90 degrees
+                                          release an arm bent by 90 degrees
   continuum import-dot 1.csv 2.csv 3.csv 4.csv 5.csv --out run_1.csv ..
-                                          joint angles of exported sensor data
-  continuum diagnose run_1.csv run_2.csv  what the simulation gets wrong and why
+                                          compute joint angles from sensor data
+  continuum diagnose run_1.csv run_2.csv  find what the simulation gets wrong
   continuum identify run_1.csv run_2.csv --validate 2
-                                          springs and friction, with intervals
+                                          identify springs and friction
   continuum curvature run_1.csv --picture X.png
-                                          how the arm is bent at rest
+                                          compare bends at rest with two models
   continuum report RECORDING --arm ARM.yaml
-                                          tracking error, cable rates and losses
+                                          report tracking errors and losses
 
-  ros2 launch trajectory_generator arm.launch.py       the nodes of an arm
+  ros2 launch trajectory_generator arm.launch.py       start the nodes of an arm
   ros2 launch trajectory_generator arm.launch.py trajectory:=helix.yaml
-                                          the same, following the thesis's helix
+                                          the same, along the thesis's helix
   ros2 launch continuum_manipulator dynamics.launch.xml
-                                          a simulated arm that tensions pull
-  ros2 bag record /cable_states           record what the cables do
+                                          simulate an arm that tensions pull
+  ros2 bag record /cable_states           record the states of cables
 
 ARM.yaml is a file like continuum_description/config/three_sections.yaml; for an
-arm that comes with the library its name will do: continuum info three_sections.
+arm of the library its name is enough: continuum info three_sections.
 TAB completes what you type: eval "$(register-python-argcomplete continuum)"
-Exit codes: 0 done, 1 the answer is no (a target out of reach, a simulation that
-fails), 2 wrong usage, file or value; 130 stopped by Ctrl-C; diagnose has more.
+Exit codes: 0 done, 1 no solution (target out of reach, simulation failed),
+2 wrong usage, file or value; 130 stopped by Ctrl-C; diagnose has more.
 """
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-"""Where stdout is a file, and there is no more room for it."""
+"""Errors of writing to stdout when it is a file and no space is left."""
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command; returns the process's exit code, 1 where nobody reads on."""
+    """Run the command and return the exit code of the process; 1 if the reader of its output has closed the pipe."""
     try:
         try:
             return _run(sys.argv[1:] if arguments is None else arguments)
@@ -65,7 +65,7 @@ def main(arguments: list[str] | None = None) -> int:
             raise
         print("continuum: stopped", file=sys.stderr)
         return 130
-    except BrokenPipeError:  # whoever read, as `head` does, has seen enough
+    except BrokenPipeError:  # the reader, such as `head`, has closed the pipe
         _print_no_more()
         return 1
     except OSError as error:
@@ -77,19 +77,19 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _print_no_more() -> None:
-    """What is still to be printed would be tried again at the end."""
+    """Discard further output, which Python would otherwise try to write again at exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _was_interrupted(error: BaseException | None) -> bool:
-    """Whether an interrupt is behind an error: numba makes a `SystemError` of one, a lock in use a `RuntimeError`."""
+    """Return whether an interrupt caused an error: numba makes it a `SystemError`, a held lock a `RuntimeError`."""
     while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__cause__ or error.__context__
     return error is not None
 
 
 def _run(arguments: list[str]) -> int:
-    """Parse and run; what takes time to import is imported here, where an interrupt is caught."""
+    """Parse and run; slow imports are here, where an interrupt is caught."""
     from continuum.cli.completion import complete
     from continuum.cli.negative_numbers import written_out
     from continuum.errors import ContinuumError
@@ -107,7 +107,7 @@ def _run(arguments: list[str]) -> int:
 
 @contextmanager
 def _log_on_stderr() -> Iterator[None]:
-    """Print what the library logs, such as that it compiles, a line each."""
+    """Print log messages of the library, such as that it compiles, one line each."""
     import logging
 
     logger, handler = logging.getLogger("continuum"), logging.StreamHandler()
@@ -123,7 +123,7 @@ def _log_on_stderr() -> Iterator[None]:
 
 
 def command_parser() -> Parser:
-    """The parser of the command with all its subcommands."""
+    """Return the parser of the command with all its subcommands."""
     import argparse
 
     from continuum.cli import (

@@ -34,20 +34,23 @@ _ASSUMED = Message(
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
-        "curvature", help="how an arm is bent at rest, and which model is nearer to it", description=__doc__,
+        "curvature", help="compare the bend of an arm at rest with two models", description=__doc__,
         epilog="Thesis chapter 4.3, Fig. 10. Exit codes: 0 done, 2 wrong usage, file or value.",
     )  # fmt: skip
     parser.add_argument(
-        "data", metavar="RUN", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
+        "data", metavar="RECORDING", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
     )
     add_model_option(parser, "model file of an arm with cables")
     parser.add_argument(
-        "--hold", metavar="N", type=int, help="hold whose joint angles are printed and drawn; default the most bent"
+        "--hold",
+        metavar="N",
+        type=int,
+        help="hold whose joint angles are printed and drawn; default: the most bent one",
     )
     parser.add_argument(
         "--sensor-error", metavar="DEG", type=float,
-        help="standard deviation of the angles' error that is alike in all rows of a hold; default 0.2 at first, "
-        "growing with time as much as the angles wander in the holds",
+        help="standard deviation of the angle error common to all rows of a hold; default: 0.2 degrees at the start of "
+        "the recording, increasing with the drift observed within the holds",
     )  # fmt: skip
     parser.add_argument("--csv", "--out", metavar="OUT.csv", help="write the joint angles of all holds")
     parser.add_argument("--json", metavar="OUT.json", help="write everything for machines")
@@ -57,7 +60,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Find the holds, compare, print, and write what was asked for."""
+    """Find the holds, compare, print, and write the requested files."""
     slow = options.sensor_error
     if slow is not None and not 0 <= slow < math.inf:
         raise InvalidValueError("--sensor-error", slow, "an angle >= 0 [degrees]")
@@ -104,7 +107,7 @@ def show(found: Answer, chosen: int, tr: Translator = ENGLISH) -> None:
 
     several = len({hold.recording.name for hold in found.holds}) > 1
     headings = (
-        *(tr("run"),) * several,
+        *(tr("recording"),) * several,
         tr("hold"),
         tr("from\n[s]"),
         tr("to\n[s]"),

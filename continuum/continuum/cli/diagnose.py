@@ -1,4 +1,4 @@
-"""`continuum diagnose`: what a simulation gets wrong about measured data, why, and what mending it gains."""
+"""`continuum diagnose`: what a simulation gets wrong about recordings, why, and how much a correction improves it."""
 
 from __future__ import annotations
 
@@ -38,15 +38,15 @@ _VERDICTS = {
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
-        "diagnose", help="what a simulation gets wrong about recordings, and why", description=__doc__,
+        "diagnose", help="find what a simulation gets wrong about recordings, and why", description=__doc__,
         epilog="Exit codes: 0 adequate, 3 a cause is named, 4 ambiguous, 5 unknown; 2 wrong usage or data, 130 Ctrl-C.",
     )  # fmt: skip
     parser.add_argument(
-        "data", metavar="DATA", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
+        "data", metavar="RECORDING", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
     )
     add_model_option(parser)
     parser.add_argument("--json", metavar="OUT.json", help="write verdict, parameters and scores for machines")
-    parser.add_argument("--report", metavar="OUT.html", help="write a page with pictures that needs no other file")
+    parser.add_argument("--report", metavar="OUT.html", help="write a self-contained page with charts")
     parser.add_argument(
         "--extended",
         metavar="OUT.yaml",
@@ -54,21 +54,21 @@ def add_to(commands: Any) -> None:
     )
     parser.add_argument(
         "--tolerance", metavar="DEG", type=float,
-        help="open-loop error of an adequate model, root mean square; default three times the angles' noise",
+        help="largest open-loop error of an adequate model, root mean square; default three times the angles' noise",
     )  # fmt: skip
     parser.add_argument(
         "--measured", metavar="NAME=VALUE", action="append", default=[],
-        help="an effect's value that was measured by hand, as tip_payload.mass=50g, rest_angle.angle[3]=4+-0.5deg or "
-        "inertia.mass[5]=12%% (more than in the model file); 0 where there is none; may be repeated; without +-SD as "
-        "exact as the usual instrument. docs/discovery.md lists what can be given",
+        help="value of an effect measured by hand, as tip_payload.mass=50g, rest_angle.angle[3]=4+-0.5deg or "
+        "inertia.mass[5]=12%% (more than in the model file); 0 means that the effect is absent. Without +-SD, the "
+        "standard deviation of the usual instrument is assumed. May be repeated. docs/discovery.md lists the values",
     )  # fmt: skip
     without = parser.add_argument(
         "--without", metavar="EFFECT", action="append", default=[],
-        help="an effect that was taken off the arm for all of these recordings, as sensor_cable; may be repeated",
+        help="effect that was removed from the arm for all of these recordings, as sensor_cable; may be repeated",
     )  # fmt: skip
     parser.add_argument(
-        "--zeroed", metavar="DATA", action="append", default=[],
-        help="one of the recordings, before which the sensors' zeros were set by a protractor; may be repeated",
+        "--zeroed", metavar="RECORDING", action="append", default=[],
+        help="one of the recordings, before which the zeros of the sensors were set with a protractor; may be repeated",
     )  # fmt: skip
     completes(without, lambda _: effect_names())
     add_language_option(parser, "verdict and page")
@@ -76,7 +76,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Read, diagnose, print, and write what was asked for."""
+    """Read, diagnose, print, and write the requested files."""
     if options.tolerance is not None and not 0 < options.tolerance < math.inf:
         raise InvalidValueError("--tolerance", options.tolerance, "an angle > 0 [degrees]")
     _check_effects(options)
@@ -87,7 +87,7 @@ def run(options: argparse.Namespace) -> int:
         if recording.n_joints != model.n_joints:
             allowed = f"{model.n_joints}, as {options.model} has; --model names another"
             raise InvalidValueError(f"{recording.name}: number of joints", recording.n_joints, allowed)
-    # Here, so that data that are refused need not wait for numba.
+    # Imported here, so that rejected data need not wait for numba.
     from continuum.cli.progress import progress_bar
     from continuum.discovery import diagnose
     from continuum.discovery.hand_measurement import measurement_of
@@ -106,9 +106,9 @@ def run(options: argparse.Namespace) -> int:
     write(options.json, lambda path: write_json(result, path, _made(options)))
     write(options.report, lambda path: write_report(result, path, _how(options, tr), tr))
     write(options.extended, lambda path: save_model(result.extended_model, path))
-    show(result, tr)  # at last: whoever reads it may stop reading
+    show(result, tr)  # last, as a reader may close the pipe
     print()
-    print(tr("of {recordings}; model {model}", **_inputs(options)))
+    print(tr("Recordings: {recordings}. Model: {model}.", **_inputs(options)))
     announce([options.json, options.report, options.extended], tr=tr)
     if options.extended is not None:
         shown = before_after_command(options.data[0], options.model, options.section, options.extended)
@@ -117,7 +117,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _check_effects(options: argparse.Namespace) -> None:
-    """Refuse an effect that there is not; of a measured value, what stands before the first dot."""
+    """Check that each effect exists; that of a measured value is the text before the first dot."""
     known = effect_names()
     given = [("--without", name, name) for name in options.without]
     given += [("--measured", text, text.partition(".")[0].strip()) for text in options.measured]
@@ -128,7 +128,7 @@ def _check_effects(options: argparse.Namespace) -> None:
 
 
 def _number_of(path: str, data: Sequence[str]) -> int:
-    """Which of the recordings a path is."""
+    """Return the index of the recording with this path."""
     paths = [Path(one).resolve() for one in data]
     if Path(path).resolve() not in paths:
         raise InvalidValueError("--zeroed", path, f"one of {', '.join(data)}")
@@ -136,13 +136,14 @@ def _number_of(path: str, data: Sequence[str]) -> int:
 
 
 def _made(options: argparse.Namespace) -> dict[str, Any]:
-    """How a diagnosis was made: the version, of what, without the folders, and with which options."""
+    """Return how a diagnosis was made: version, options, and the names of its files without their folders."""
     *names, model = (printable(Path(path).name) for path in (*options.data, options.model))
     version = importlib.metadata.version("continuum")
     return {
         "version": version,
         "recordings": names,
         "model": model,
+        "section": options.section,
         "tolerance_deg": options.tolerance,
         "measured": options.measured,
         "without": options.without,
@@ -151,23 +152,24 @@ def _made(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _inputs(options: argparse.Namespace) -> dict[str, str]:
-    """Recordings and model."""
+    """Return the names of the recordings and of the model."""
     made = _made(options)
     return {"recordings": ", ".join(made["recordings"]), "model": made["model"]}
 
 
 def _how(options: argparse.Namespace, tr: Translator) -> str:
-    """Recordings and model, by which version and on which day, in one sentence."""
+    """Return date, version, recordings and model in words."""
     day, version = datetime.datetime.now().astimezone().date().isoformat(), _made(options)["version"]
     return tr(
-        "Made on {day} by continuum {version} of {recordings}; model {model}.",
+        "Made on {day} by continuum {version}. Recordings: {recordings}. Model: {model}.",
         day=day, version=version, **_inputs(options),
     )  # fmt: skip
 
 
 def show(result: Diagnosis, tr: Translator = ENGLISH) -> None:
-    """Print the verdict and what it rests on."""
+    """Print the verdict and the results that it is based on."""
     from continuum.discovery.decision import Kind
+    from continuum.discovery.report.quantities import tenths
     from continuum.discovery.words import (
         errors_in_words,
         estimate_in_words,
@@ -187,7 +189,8 @@ def show(result: Diagnosis, tr: Translator = ENGLISH) -> None:
         print()
     if result.verdict.kind is Kind.AMBIGUOUS:
         for causes, p in zip(result.sets, result.verdict.relative_fits, strict=True):
-            print(tr("may be: {effects}   relative fit {percent:.0f} %", effects=_labels(causes, tr), percent=100 * p))
+            fit = tenths(p, tr)
+            print(tr("may be: {effects}   relative fit {percent} %", effects=_labels(causes, tr), percent=fit))
         print()
     estimates = [*(one for cause in result.causes for one in cause.estimates), *result.estimates]
     headings = tr("parameter"), tr("value, 95 % interval")
@@ -216,12 +219,12 @@ def _print_heading(text: str) -> None:
 
 
 def _labels(causes: Sequence[Cause], tr: Translator) -> str:
-    """The effects of a set by the names that model files have for them."""
+    """Return the effects of a set by their names in model files."""
     return tr(" and ").join(cause.label for cause in causes) or tr("nothing")
 
 
 def _show_power(result: Diagnosis, tr: Translator) -> None:
-    """Print what the recordings would have shown, and which run would tell more."""
+    """Print which effects the recordings would have shown, and the next experiment."""
     from continuum.discovery.power_words import experiment_in_words, power_in_words
 
     shown, hidden = power_in_words(result, tr)
@@ -229,7 +232,7 @@ def _show_power(result: Diagnosis, tr: Translator) -> None:
         _print_heading(tr("Smallest size that these recordings would have shown (in 80 of 100 cases)"))
         print_pairs(shown)
     if hidden:
-        _print_heading(tr("Not to be seen in them at its typical size"))
+        _print_heading(tr("Effects that these recordings cannot show at their typical size"))
         print_pairs(hidden)
     if text := experiment_in_words(result, tr):
         print()

@@ -1,4 +1,4 @@
-"""`continuum identify`: springs and friction of an arm from its releases, and how well they predict others."""
+"""`continuum identify`: identify springs and friction from recordings, and predict other recordings with them."""
 
 from __future__ import annotations
 
@@ -27,39 +27,41 @@ if TYPE_CHECKING:
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
-        "identify", help="springs and friction from recordings, and how well they predict", description=__doc__,
-        epilog="Thesis chapters 3.3 and 4.2: Table 3 (values), Table 4 (NRMSE of every run, Eq. 19), Fig. 9 "
+        "identify", help="identify springs and friction from recordings, and predict others", description=__doc__,
+        epilog="Thesis chapters 3.3 and 4.2: Table 3 (values), Table 4 (NRMSE of every recording, Eq. 19), Fig. 9 "
         "(--report). Exit codes: 0 done, 2 wrong usage, file or value.",
     )  # fmt: skip
     parser.add_argument(
-        "data", metavar="RUN", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
+        "data", metavar="RECORDING", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
     )
-    add_model_option(parser, "model file with masses, lengths and first values")
+    add_model_option(parser, "model file with masses, lengths and start values")
     parser.add_argument(
         "--method", choices=("fit", "swarm"), default="fit",
         help="fit: maximum likelihood of open-loop simulations, with intervals; swarm: the thesis's particle swarm "
         "(Table 2), which lowers Eq. 19 of the rates; default %(default)s",
     )  # fmt: skip
     parser.add_argument(
-        "--identify", metavar="N,N,..", help="runs that values are identified from, by number from 1; default all, or "
-        "those that --validate does not name",
+        "--identify", metavar="N,N,..", help="recordings to identify from, by number from 1; default all, or those "
+        "that --validate does not name",
     )  # fmt: skip
     parser.add_argument(
-        "--validate", metavar="N,N,..", help="runs that are predicted only; default those that --identify does not name"
+        "--validate", metavar="N,N,..", help="recordings to predict only; default those that --identify does not name"
     )
     parser.add_argument(
         "--per-joint", action="store_true",
-        help="spring, viscous and Coulomb friction of every joint; without it, those that all joints share",
+        help="identify stiffness, viscous and Coulomb friction of every joint; otherwise one value for all joints",
     )  # fmt: skip
-    parser.add_argument("--seed", metavar="N", type=int, help="of --method swarm; default 0")
+    parser.add_argument("--seed", metavar="N", type=int, help="seed for --method swarm; default 0")
     parser.add_argument("--out", metavar="MODEL.yaml", help="write the model with the identified values")
-    parser.add_argument("--report", metavar="PAGE.html", help="write a page with both tables and every run's angles")
+    parser.add_argument(
+        "--report", metavar="PAGE.html", help="write a page with both tables and the angles of every recording"
+    )
     add_language_option(parser, "tables and page")
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Identify, predict, print, and write what was asked for."""
+    """Identify, predict, print, and write the requested files."""
     from continuum.dynamics.model import with_dry_friction
     from continuum.dynamics.model_file import save_model
     from continuum.identification.scores import scores
@@ -168,6 +170,6 @@ def _made(options: argparse.Namespace, seconds: float, tr: Translator) -> str:
 
     version, model = importlib.metadata.version("continuum"), printable(Path(options.model).name)
     return tr(
-        "Made by continuum {version} of model {model}; {seconds:.1f} s of processor time.",
+        "Made by continuum {version} with model {model}; {seconds:.1f} s of processor time.",
         version=version, model=model, seconds=seconds,
     )  # fmt: skip

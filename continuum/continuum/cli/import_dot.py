@@ -25,7 +25,7 @@ Span = tuple[float, float]
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
-        "import-dot", help="joint angles from exported recordings of inertial sensors", description=__doc__,
+        "import-dot", help="compute joint angles from exported recordings of inertial sensors", description=__doc__,
         epilog="Times count in seconds from the start of the first sensor, as in the printed rests. A run without "
         "tensions has slack cables, so let it --begin after the release of the cable. "
         "Exit codes: 0 done, 1 written, but diagnose would refuse it, 2 wrong usage, file or value.",

@@ -34,17 +34,17 @@ def add_to(commands: Any) -> None:
 
 def _add_new(ways: Any) -> None:
     new = ways.add_parser(
-        "new", help="from values; missing ones are asked for",
+        "new", help="write it from values; missing ones are asked for",
         description="Write a model file from values: one for all joints, or one for each, as 0.3,0.2. At a terminal, "
         "the command asks for required values that are missing.",
     )  # fmt: skip
     new.add_argument("--joints", metavar="N", help="number of joints")
     new.add_argument(
         "--inputs", choices=("joint_torques", "cables"),
-        help="what drives the arm; default cables where --half-spacing and --hole-radius are given",
+        help="inputs of the arm; default: cables if --half-spacing and --hole-radius are given",
     )  # fmt: skip
     new.add_argument(
-        "--inertia-about", choices=_ABOUT, default="center", help="what --inertia is about; default %(default)s"
+        "--inertia-about", choices=_ABOUT, default="center", help="reference point of --inertia; default %(default)s"
     )
     for name, parameter in PARAMETERS.items():
         new.add_argument(f"--{name.replace('_', '-')}", metavar="V", help=_help(parameter).replace("%", "%%"))
@@ -54,13 +54,15 @@ def _add_new(ways: Any) -> None:
 
 def _add_urdf(ways: Any) -> None:
     urdf = ways.add_parser(
-        "from-urdf", help="from a URDF of a serial arm that moves in one plane",
+        "from-urdf", help="write it from a URDF of a serial arm that moves in one plane",
         description="Write a model file from a URDF: masses, inertias, lengths, damping and friction of one chain of "
         "joints with parallel axes. The relation between the angles of the model and of the URDF is printed, and "
         "written to the file.",
     )  # fmt: skip
-    urdf.add_argument("urdf", metavar="ARM.urdf", help="the description; xacro files have to be expanded first")
-    urdf.add_argument("--tip", metavar="LINK", help="link whose frame is the tip; default the last on the last link")
+    urdf.add_argument("urdf", metavar="ARM.urdf", help="robot description; expand xacro files first")
+    urdf.add_argument(
+        "--tip", metavar="LINK", help="link whose frame is the tip; default: the last frame fixed to the last link"
+    )
     urdf.add_argument(
         "--gravity", metavar="X,Y,Z", default="0,0,-9.81",
         help="acceleration of gravity in the frame of the URDF's root [m/s2]; default %(default)s",

@@ -17,6 +17,7 @@ from continuum.cli.tables import print_pairs
 from continuum.errors import InvalidValueError
 from continuum.languages import Translator, translator
 from continuum.shipped_files import ARMS
+from continuum.significant_digits import rounded
 
 if TYPE_CHECKING:
     from continuum.recordings.kinematic_report import KinematicReport
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
-        "report", help="tracking error, cable rates and losses of a recording", description=__doc__
+        "report", help="report tracking error, cable rates and losses of a recording", description=__doc__
     )
     parser.add_argument("recording", metavar="RECORDING", help="folder of a rosbag2 recording")
     arm = parser.add_argument(
@@ -98,7 +99,7 @@ def _tip_error(report: KinematicReport, tr: Translator) -> str:
     if math.isnan(report.tip_error_max):
         return tr("no pose was reached")
     median, largest = 1e3 * report.tip_error_median, 1e3 * report.tip_error_max
-    return tr("median {median:.2g} mm, max {largest:.2g} mm", median=median, largest=largest)
+    return tr("median {median} mm, max {largest} mm", median=rounded(median, 2), largest=rounded(largest, 2))
 
 
 def _rate_disagreement(report: KinematicReport, tr: Translator) -> str:

@@ -32,42 +32,44 @@ _MOST_SAMPLES = 10_000_000
 def add_to(commands: Any) -> None:
     """Add this subcommand to the parser's."""
     parser = commands.add_parser(
-        "simulate", help="how an arm moves when it is let go or pulled", description=__doc__,
+        "simulate", help="simulate the motion of an arm that is released or pulled", description=__doc__,
         epilog="Exit codes: 0 done, 1 the integration failed or bends a joint by more than half a turn, 2 wrong usage, "
         "file or value.",
     )  # fmt: skip
     add_model_option(parser)
     parser.add_argument(
         "--release", metavar="DEG",
-        help="bend [degrees] in which the arm starts at rest: in total, the same at every joint, or q1,q2,.. of each "
-        "joint; default 0",
+        help="initial bend, at rest [degrees]: either the total, distributed equally over the joints, or one angle per "
+        "joint (q1,q2,..); default 0",
     )  # fmt: skip
     parser.add_argument(
         "--pulled", action="store_true",
-        help="the total bend of --release is held by one cable, not the same at every joint; the cable is cut at 0 s, "
-        "where all that is written begins",
+        help="the total bend of --release is held by one cable, not distributed equally; the cable is cut at 0 s, when "
+        "the output begins",
     )  # fmt: skip
     parser.add_argument(
         "--tensions", metavar="FILE.csv",
-        help="cable tensions over time: columns t_s,u1_N,u2_N, linear between rows; a table that begins after 0 s "
-        "holds its first row from 0 s on",
+        help="cable tensions over time: columns t_s,u1_N,u2_N, linear between rows; if a table begins after 0 s, "
+        "its first row holds from 0 s",
     )  # fmt: skip
     parser.add_argument(
         "--torques", metavar="FILE.csv",
-        help="torques of the joints' drives over time, of a model that they drive: columns t_s,tau1_Nm,.., else as "
-        "--tensions",
+        help="torques of the joints' drives over time, for a model driven by joint torques: columns t_s,tau1_Nm,..; "
+        "otherwise as for --tensions",
     )  # fmt: skip
     parser.add_argument(
         "--duration", metavar="S", type=float,
-        help=f"[s]; default to the end of the table, or {_RELEASE_DURATION:g}",
+        help=f"duration [s]; default: until the end of the table, or {_RELEASE_DURATION:g} s without one",
     )  # fmt: skip
-    parser.add_argument("--rate", metavar="HZ", type=float, default=120.0, help="samples a second; default %(default)g")
+    parser.add_argument(
+        "--rate", metavar="HZ", type=float, default=120.0, help="samples per second; default %(default)g"
+    )
     parser.add_argument(
         "--integrator", choices=("esdirk", "bdf"), default="esdirk",
-        help="esdirk is the fast one, bdf the thesis's; default %(default)s",
+        help="esdirk is faster, bdf is that of the thesis; default %(default)s",
     )  # fmt: skip
-    parser.add_argument("--csv", metavar="OUT.csv", help="write time, joint angles and rates, and tensions there")
-    parser.add_argument("--picture", metavar="OUT.png", help="draw them, and the arm")
+    parser.add_argument("--csv", metavar="OUT.csv", help="write time, joint angles and rates, and tensions")
+    parser.add_argument("--picture", metavar="OUT.png", help="plot the same quantities and draw the arm")
     parser.add_argument(
         "--json", action="store_true", help="print one line of JSON instead of the table, in N, rad, rad/s and s"
     )

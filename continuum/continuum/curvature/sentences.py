@@ -46,7 +46,7 @@ def friction_in_words(one: Comparison, tr: Translator = ENGLISH) -> str:
     if np.any(np.isnan([one.held.zone.lower, one.held.zone.upper])):
         return tr("The range that dry friction holds in the dynamic model was not found at every joint.")
     if beyond.size == 0:
-        return tr("Every joint angle is one that dry friction holds in the dynamic model.")
+        return tr("In the dynamic model, dry friction can hold the arm at every measured joint angle.")
     if beyond.size == 1:
         return tr("Joint {joint} is bent further than dry friction can hold it in the dynamic model.", joint=beyond[0])
     return tr(

@@ -20,6 +20,7 @@ from continuum.dynamics.tensions import LET_GO, Tensions, slack
 from continuum.errors import InvalidValueError
 from continuum.languages import Message
 from continuum.recordings.recording import Recording
+from continuum.significant_digits import rounded
 
 RATE = 120.0  # readings per second, as on the prototype
 _SECONDS = 3.0
@@ -136,7 +137,7 @@ def _driven(model: Model, recordings: Sequence[Recording], times: Array) -> Iter
         return
     turns = np.column_stack([np.interp(n * share - j, [0, 0.25, 0.5, 0.75, 1], [0, 1, 0, -1, 0]) for j in range(n)])
     waves = np.column_stack([np.roll(wave, 7 * j) for j in range(n)])
-    limits = ", ".join(f"{torque:.2g}" for torque in most)
+    limits = ", ".join(rounded(torque, 2) for torque in most)
     yield (
         Message("slow torque at one joint after another"),
         Message(

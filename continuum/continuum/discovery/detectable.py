@@ -55,7 +55,7 @@ def _reason(one: Power, smallest: float) -> str:
         return Message("It changes nothing in these recordings.")
     if one.changes < 1:
         return Message(
-            "Its typical size changes the readings by only {factor:.2g} times the error of the simulation.",
+            "At its typical size, it changes the readings by only {factor:.2g} times the simulation error.",
             factor=one.changes,
         )
     if one.kept < _MOSTLY:

@@ -29,6 +29,7 @@ from continuum.errors import InvalidValueError
 from continuum.languages import Message
 from continuum.recordings.rate_ratio import odd_rates
 from continuum.recordings.recording import Recording
+from continuum.significant_digits import rounded
 
 TOLERANCE = 3.0
 """Default open-loop error up to which a model is adequate, in units of the angles' noise: an error that no single
@@ -184,7 +185,7 @@ def _notes(recordings: Sequence[Recording], found: Examination, best: Examined) 
             else Message("inputs are assumed to change linearly from row to row")
         )
     if len(recordings) < 3:
-        notes.append(Message("few recordings: nothing shows that the answer holds for another run"))
+        notes.append(Message("Too few recordings to show whether the verdict holds for other recordings."))
     notes += _pulled(found, best)
     local = sorted({h.effect for h in best.found.chosen if h.local})
     if local:
@@ -204,7 +205,7 @@ def _pulled(found: Examination, best: Examined) -> Iterator[Message]:
         for unknown, value in zip(fit.unknowns.common, fit.values.common, strict=True):
             if one.key in unknown.places and abs(value - unknown.mean) > _PULLED * one.sd:
                 yield Message(
-                    "{measured}: the recordings call for {value:.4g} or beyond, more than {limit:g} standard "
+                    "{measured}: the recordings call for {value} or beyond, more than {limit:g} standard "
                     "deviations away; measure it again, as no other result is certain until this is resolved",
-                    measured=str(one), value=one.value + value, limit=_PULLED,
+                    measured=str(one), value=rounded(one.value + value, 4), limit=_PULLED,
                 )  # fmt: skip

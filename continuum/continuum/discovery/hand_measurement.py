@@ -16,6 +16,7 @@ from continuum.dynamics.model import ActiveEffect, Model
 from continuum.dynamics.parameters import RATIO, ByHand, Parameter
 from continuum.errors import InvalidValueError
 from continuum.estimation.structure import absent_values
+from continuum.significant_digits import rounded
 
 _FORM: Final = "NAME[JOINT]=VALUE UNIT, optionally +-SD, as tip_payload.mass=50g, rest_angle.angle[3]=4+-0.5deg"
 _NUMBER: Final = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -76,7 +77,7 @@ class HandMeasurement:
 
     def __str__(self) -> str:
         unit = effect_named(self.effect).parameters[self.parameter].unit
-        return f"{self.name} = {self.value:.4g} +- {self.sd:.2g}" + f" {unit}" * (unit != "1")
+        return f"{self.name} = {rounded(self.value, 4)} +- {rounded(self.sd, 2)}" + f" {unit}" * (unit != "1")
 
 
 def measurement_of(text: str) -> HandMeasurement:

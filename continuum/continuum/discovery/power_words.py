@@ -10,6 +10,7 @@ from continuum.discovery.words import joints_in_words
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.parameters import RATIO
 from continuum.languages import ENGLISH, Message, Translator
+from continuum.significant_digits import rounded
 
 RECORD_AGAIN = Message("Make the same recordings again, and diagnose these alone.")
 _LISTED = 6  # effects that a sentence bears
@@ -99,7 +100,7 @@ def _size_at(one: Detectable, tr: Translator) -> str:
 
 def _size_in_words(one: Detectable, tr: Translator) -> str:
     if one.unit == "rad":
-        return tr("{angle:.2g} degrees", angle=math.degrees(one.smallest))
+        return tr("{angle} degrees", angle=rounded(math.degrees(one.smallest), 2))
     if effect_named(one.effect).parameters[one.parameter].meaning.endswith(RATIO):
-        return f"{100 * one.smallest:.2g} %"
-    return f"{one.smallest:.2g}" + f" {one.unit}" * (one.unit != "1")
+        return f"{rounded(100 * one.smallest, 2)} %"
+    return rounded(one.smallest, 2) + f" {one.unit}" * (one.unit != "1")

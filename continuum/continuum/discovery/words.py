@@ -15,6 +15,7 @@ from continuum.dynamics.parameters import RATIO
 from continuum.identification.estimate import Estimate
 from continuum.identification.nrmse import nrmse
 from continuum.languages import ENGLISH, Message, Translator
+from continuum.significant_digits import rounded
 
 MORE_RUNS = Message(
     "Record at least three more runs with other motions, each with the arm at rest at its beginning or end."
@@ -131,11 +132,12 @@ def estimate_name(one: Estimate, tr: Translator = ENGLISH) -> str:
 
 def estimate_in_words(one: Estimate, tr: Translator = ENGLISH) -> str:
     """Value with its interval and unit."""
-    interval = " " + tr("({low:.4g} to {high:.4g})", low=one.low, high=one.high) if math.isfinite(one.low) else ""
+    low, high = rounded(one.low, 4), rounded(one.high, 4)
+    interval = " " + tr("({low} to {high})", low=low, high=high) if math.isfinite(one.low) else ""
     unit = f" {one.unit}" * (one.unit != "1")
-    degrees = " " + tr("= {angle:.3g} degrees", angle=math.degrees(one.value)) if one.unit == "rad" else ""
-    percent = f" = {100 * one.value:+.3g} %" if one.meaning.endswith(RATIO) else ""
-    return f"{one.value:.4g}{interval}{unit}{degrees}{percent}"
+    degrees = " " + tr("= {angle} degrees", angle=rounded(math.degrees(one.value), 3)) if one.unit == "rad" else ""
+    percent = f" = {rounded(100 * one.value, 3, '+')} %" if one.meaning.endswith(RATIO) else ""
+    return f"{rounded(one.value, 4)}{interval}{unit}{degrees}{percent}"
 
 
 def similar_causes(result: Diagnosis, tr: Translator = ENGLISH) -> list[str]:
@@ -159,16 +161,17 @@ def _matters(causes: Sequence[Cause], tr: Translator) -> str:
 
 
 def _closes(result: Diagnosis, tr: Translator) -> str:
-    return tr(
-        "Adding it to the simulation closes {share} of the distance between its open-loop error and the sensors' "
-        "noise.",
-        share=share_in_words(result.closed, tr),
-    )
+    share = share_in_words(result.closed, tr)
+    return tr.plural(
+        "Adding this effect to the model removes {share} of the open-loop error above sensor noise.",
+        "Adding these effects to the model removes {share} of the open-loop error above sensor noise.",
+        len(result.causes), share=share,
+    )  # fmt: skip
 
 
 def _rest(result: Diagnosis, tr: Translator) -> str:
     if result.verdict.complete:
-        return tr("No further torque is missing beyond what any model leaves.")
+        return tr("The remaining error is no larger than expected of a complete model.")
     return " ".join([tr("Part of the error remains, and its cause is unknown."), *_unsteady(result, tr)])
 
 

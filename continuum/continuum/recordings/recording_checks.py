@@ -153,7 +153,7 @@ def _without_pushing(samples: Samples) -> tuple[Samples, list[str]]:
         raise FileError(samples.path, f"{where}: {pushed}")
     if np.max(samples.pull) <= _ZERO_TENSION:  # as far above as below: noise of load cells on loose cables
         loose = Message(
-            "tensions from {low:.2g} to {high:.2g} N are of cables that hang loose, all set to zero",
+            "tensions between {low:.2g} and {high:.2g} N indicate slack cables; all were set to zero",
             low=np.min(least), high=np.max(samples.pull),
         )  # fmt: skip
         return replace(samples, pull=np.zeros_like(samples.pull)), [loose]

@@ -18,6 +18,7 @@ from continuum.identification.identified import Identified
 from continuum.identification.scores import Score
 from continuum.languages import ENGLISH, Message, Translator
 from continuum.printable import one_line
+from continuum.significant_digits import rounded
 from continuum.whole_file import write_whole
 
 _IDENTIFY, _VALIDATE = Message("identify"), Message("validate")
@@ -80,21 +81,24 @@ def remarks(
     if others:
         predictions = {"predicted": _mean(others, "position", tr), "predicted_rate": _mean(others, "rate", tr)}
         yield tr(
-            "Mean NRMSE of the runs that values are identified from: position {position}, rate {rate}; of the runs "
-            "that are predicted: {predicted} and {predicted_rate}.",
+            "Mean NRMSE, identification recordings: position {position}, rate {rate}; validation recordings: position "
+            "{predicted}, rate {predicted_rate}.",
             **means, **predictions,
         )  # fmt: skip
     else:
-        yield tr("Mean NRMSE of the runs that values are identified from: position {position}, rate {rate}.", **means)
-        yield tr("No run was kept to validate: Table 4 shows how the model fits, not how it predicts (--validate N).")
+        yield tr("Mean NRMSE, identification recordings: position {position}, rate {rate}.", **means)
+        yield tr(
+            "No recording was kept for validation: Table 4 shows the fit of the model, not its predictions "
+            "(--validate N)."
+        )
     if any(not np.isfinite(one.position) for one in predicted):
-        yield tr("The simulation of a run failed: the identified model cannot be used for motions like it.")
+        yield tr("The simulation of a recording failed: the identified model is unusable for similar motions.")
     if identified.error > identified.limit:
         yield tr(
-            "Half-second segments err by {error:.3f} times the sensors' noise, more than chance allows ({limit:.3f}): "
+            "Half-second segments err by {error} times the sensors' noise, more than chance allows ({limit:.3f}): "
             "the fit stopped short of its optimum, or something else is wrong with the model. Values can be off by "
             "more than their intervals. `continuum diagnose` looks for a cause.",
-            error=identified.error, limit=identified.limit,
+            error=rounded(identified.error, 4 if identified.error < 10 else 3), limit=identified.limit,
         )  # fmt: skip
     elif np.isfinite(identified.error):
         yield tr(
@@ -108,7 +112,9 @@ def remarks(
         "springs, viscous and Coulomb friction are known only in proportion to the masses."
     )
     if names := ", ".join(parameter_in_words(name, tr=tr) for name in identified.undetermined):
-        yield tr("These runs say little about {parameters}: the value is mostly the prior one.", parameters=names)
+        yield tr(
+            "These recordings contain little information on {parameters}: mostly the prior value.", parameters=names
+        )
     if names := ", ".join(_name(one, tr) for one in identified.values if one.start == one.value == 0):
         yield tr(
             "Not sought, as the model file has none: {parameters}. Give a first value if the arm has it.",

@@ -7,6 +7,7 @@ from typing import Final, NamedTuple
 
 from continuum.dynamics.parameters import RATIO
 from continuum.languages import ENGLISH, Translator
+from continuum.significant_digits import rounded
 
 _DEGREES: Final = 180 / math.pi
 _UNITS: Final = {
@@ -69,7 +70,7 @@ def number(value: float, digits: int = 3) -> str:
 
 def bound(value: float, tr: Translator = ENGLISH) -> str:
     """Format to three digits without trailing zeros; "none" if infinite."""
-    return f"{float(f'{value:.3g}'):g}".replace("-", "−") if math.isfinite(value) else tr("none")
+    return rounded(value, 3).replace("-", "−") if math.isfinite(value) else tr("none")
 
 
 def with_decimals(value: float, decimals: int) -> str:
