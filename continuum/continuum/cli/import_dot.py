@@ -31,7 +31,7 @@ def add_to(commands: Any) -> None:
         "Exit codes: 0 done, 1 written, but diagnose would refuse it, 2 wrong usage, file or value.",
     )  # fmt: skip
     parser.add_argument("files", nargs="+", metavar="FILE.csv", help="one export per sensor, in order from the base")
-    parser.add_argument("--out", metavar="RUN.csv", help="write time, joint angles and rates to this file")
+    parser.add_argument("--out", metavar="RECORDING.csv", help="write time, joint angles and rates to this file")
     parser.add_argument(
         "--first-turn", choices=("1", "2"), metavar="CABLE",
         help="1 or 2: the cable towards which the arm first turns in the recording; needed to find the sensors' axes",

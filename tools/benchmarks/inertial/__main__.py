@@ -69,8 +69,8 @@ def record_of(off: Mapping[str, Array], troubled: Sequence[Sequence[str]], secon
     ]
     head = f"RMS of the worst joint [degrees], {sets} sets of sensors: median (worst)", "at rest", "pulled", "released"
     of_faults = (
-        "fault, live at 60 Hz", "largest error of what is good [degrees]", "RMS of the worst joint",
-        "good while released",
+        "fault, live at 60 Hz", "largest error of valid angles [degrees]", "RMS of the worst joint",
+        "valid while released",
     )  # fmt: skip
     tables = {"errors": Table.of(head, rows), "faults": Table.of(of_faults, troubled)}
     return Record("inertial", "make bench-inertial", tuple(figures), tables)

@@ -15,7 +15,7 @@ from tools.benchmarks.record import Record, Table
 
 _STAGES = {
     "published": "given to DDS by the bridge",
-    "received": "had by DDS in the subscriber's process",
+    "received": "received by DDS in the subscriber's process",
     "called": "given to the subscriber, which is in Python",
 }
 
