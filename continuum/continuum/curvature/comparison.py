@@ -115,7 +115,7 @@ class Comparison:
 
     @cached_property
     def difference(self) -> tuple[float, Array]:
-        """S [rad^2] and its derivatives by the measured angles, (n,) [rad]."""
+        """S [rad^2] and its derivatives with respect to the measured angles, (n,) [rad]."""
         n, even = self.theta.size, self.theta - self.constant
         uneven = self.theta - self.held.theta
         derivatives = 2 / n * (uneven @ _following(self.held.derivative) - even)
@@ -246,7 +246,7 @@ def _length(vector: Array, by_theta: Array, covariance: Array) -> Distance:
 
 
 def _tip(theta: Array, p: Parameters) -> tuple[Array, Array]:
-    """Return the tip in the plane, (2,) [m], and its derivatives by the joint angles, (2, n).
+    """Return the tip in the plane, (2,) [m], and its derivatives with respect to the joint angles, (2, n).
 
     A joint turns all that is beyond it.
     """

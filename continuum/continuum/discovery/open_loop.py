@@ -1,4 +1,4 @@
-"""Open-loop simulation of segments of a recording by the exact equations, with derivatives by all unknowns."""
+"""Open-loop simulation of segments of a recording by the exact equations, with all sensitivities."""
 
 from __future__ import annotations
 
@@ -151,7 +151,7 @@ class RunSimulation:
         return self._simulator.run(x0, self._run.times[rows], self._inputs)
 
     def _beginning(self, row: int, local: Array) -> tuple[Array, Array]:
-        """Return the state at a row, (n_x,), and its derivative by all unknowns except the zeros, (n_x, k + 2 n)."""
+        """Return the state at a row, (n_x,), and its sensitivities to all unknowns except the zeros, (n_x, k + 2 n)."""
         n, k = self._problem.structure.n, self._directions.shape[1]
         q, w = self._way.q[row] + local[:n], self._way.w[row] + local[n : 2 * n]
         states = self._at_rest(q, row)
@@ -179,7 +179,7 @@ class RunSimulation:
         return np.concatenate([np.zeros(0), *found])
 
     def _rest_sensitivities(self, q: Array, row: int) -> tuple[Array, Array]:
-        """Return the derivatives of the states at rest by the angles, (n_z, n), and by the unknowns, (n_z, k)."""
+        """Return the sensitivities of the states at rest to the angles, (n_z, n), and to the unknowns, (n_z, k)."""
         at_rest = self._at_rest(q, row)
         by_angles = [(self._at_rest(q + step, row) - at_rest) / STEP for step in STEP * np.eye(q.size)]
         by_unknowns = np.zeros((at_rest.size, self._directions.shape[1]))
@@ -223,7 +223,7 @@ def extended_model(problem: Problem, state: State, run: int) -> Model:
 
 
 def _direction(problem: Problem, state: State, slots: Mapping[str, slice], unknown: Unknown) -> Mapping[int, float]:
-    """Return the derivatives of a model's values by an unknown, by index among all values; others are zero."""
+    """Return d(model's values) / d(unknown) by index among all values; others are zero."""
     found: dict[int, float] = {}
     for (effect, name, joint), factor in unknown.places.items():
         if effect:

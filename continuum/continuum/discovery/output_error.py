@@ -265,7 +265,7 @@ class OutputError:
         return cost if np.isfinite(cost) else np.inf
 
     def simulated(self, unknowns: Unknowns, values: Values) -> list[Segment]:
-        """Simulate every segment, with derivatives by all unknowns."""
+        """Simulate every segment, with derivatives with respect to all unknowns."""
         local = iter(values.local)
         return [run.segment(one, next(local)) for run, rows in self._runs(unknowns, values) for one in rows]
 

@@ -21,8 +21,9 @@ class Segment:
     Attributes:
         run, rows: number of the run, and rows in it.
         readings: angles as the sensors would read them, (rows, n) [rad]; NaN where the simulation failed.
-        jacobian: derivatives J of the residuals of all rows and joints by the unknowns: common to all recordings, of
-            the run, and of the segment (initial angles, initial rates, zeros of the sensors), (rows n, k).
+        jacobian: derivatives J of the residuals of all rows and joints with respect to the unknowns: common to all
+            recordings, of the run, and of the segment (initial angles, initial rates, zeros of the sensors),
+            (rows n, k).
         residuals: r, (rows n,) [rad].
         information: J'J, (k, k).
     """

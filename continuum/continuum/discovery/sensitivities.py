@@ -17,7 +17,7 @@ from continuum.discovery.unknowns import Unknown, Unknowns, linear_unknown, run_
 
 
 class Sensitivities:
-    """Residuals of a fit, and their derivatives by what was fitted and by all further effects.
+    """Residuals of a fit, and their derivatives with respect to the fitted values and all further effects.
 
     Args:
         judge: output-error fits of the recordings.

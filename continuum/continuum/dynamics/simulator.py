@@ -67,7 +67,7 @@ class Simulator:
             inputs: `Tensions` or `JointTorques`, as the model requires; None drives the arm with nothing.
             values: flat parameter values in the order of `parameter_vector`, (n_p,); those of the model by default.
             free: directions in these values by which to differentiate, (n_p, n_free).
-            free_initial: derivative of the initial state by the same free quantities, (n_x, n_free).
+            free_initial: derivative of the initial state with respect to the free quantities, (n_x, n_free).
 
         Raises:
             InvalidValueError: an argument has the wrong shape or is not finite, the times do not increase, or the

@@ -26,7 +26,7 @@ class Trajectory:
         states: joint angles, joint rates, states of effects, (n_times, n_x) [rad, rad/s, ...].
         n_joints: number of joints.
         steps, refused: number of accepted steps and of repeated steps (SciPy's BDF does not report the latter: 0).
-        sensitivities: derivative of the states by the free quantities, (n_times, n_x, n_free); n_free may be 0.
+        sensitivities: those of the states to the free quantities, (n_times, n_x, n_free); n_free may be 0.
     """
 
     status: SimulationStatus

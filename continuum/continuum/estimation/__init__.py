@@ -6,7 +6,7 @@ State x = (theta, theta', b, d) of n joints: angles [rad], rates [rad/s], slow s
     b' = -b / T_b + noise,                              y = h(theta) + b + e
 
 Friction is not integrated: the smoothed trajectory shows whether each joint slips, sticks, or reverses
-(`friction_modes`). The model is linearised along that trajectory (`transition`), its derivatives by all parameters
-(`columns`) pass through one augmented Kalman filter (`augmented_filter`), and the result for each run is a quadratic
-function of all parameters: the log-likelihood of every hypothesis.
+(`friction_modes`). The model is linearised along that trajectory (`transition`), its derivatives with respect to all
+parameters (`columns`) pass through one augmented Kalman filter (`augmented_filter`), and the result for each run is a
+quadratic function of all parameters: the log-likelihood of every hypothesis.
 """

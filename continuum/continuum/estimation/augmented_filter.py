@@ -27,7 +27,7 @@ class Measurement:
 
     Attributes:
         expected: readings of the trajectory, (n_times, n_readings).
-        H: their derivative by angles and rates, (n_readings, 2 n).
+        H: their derivative with respect to angles and rates, (n_readings, 2 n).
     """
 
     expected: Array

@@ -121,7 +121,7 @@ class Structure:
         return Measurement(expected, np.ascontiguousarray(H if run.has_rates else H[: self.n]))
 
     def reading_jacobian(self, run: Run, params: Mapping[str, Mapping[str, Array]]) -> Array:
-        """Return the derivatives of angles and rates as read by the true ones, the same in every row, (2 n, 2 n)."""
+        """Return d(read angles and rates) / d(true ones), the same in every row, (2 n, 2 n)."""
         n, unit = self.n, np.eye(self.n)
         still = np.zeros((n + 1, n))
         at = run.times[: n + 1]

@@ -26,9 +26,9 @@ class Transition:
 
     Attributes:
         end: end of the interval by the model, (n_times - 1, 2 n) [rad, rad/s].
-        F: derivative by the state, (n_times - 1, 2 n, 2 n).
-        D: derivative by missing torque, (n_times - 1, 2 n, n).
-        W: derivative by torque in each substep, (rows, 2 n, n).
+        F: derivative with respect to the state, (n_times - 1, 2 n, 2 n).
+        D: derivative with respect to missing torque, (n_times - 1, 2 n, n).
+        W: derivative with respect to torque in each substep, (rows, 2 n, n).
         noise: covariance of the process noise, (n_times - 1, 2 n, 2 n).
         slip: rates for dry friction, (rows, n) [rad/s].
         acceleration: acceleration without missing torque in the middle of each substep, (rows, n) [rad/s2].

@@ -172,7 +172,7 @@ def section() -> Section:
         f"(data/imu_pair). By the accelerometer the shaft is {result.upright:.1f} degrees off the vertical. It turns",
         "back and forth by half a turn and never rests. The encoder gives the sign and nothing else to the methods.",
         f"The gyroscopes lag behind it by {1e3 * result.delay:.0f} ms, found with scale, bias and zero left free;",
-        "every method is compared with it at that delay, less the mean error of the first second.",
+        "every method is compared with it at that delay, minus the mean error of the first second.",
         "`continuum.inertial` and VQF's offline variant use later readings too. VQF has its default parameters; as it",
         "takes a moment of vibration for rest, it is also run without bias estimation from rests.",
     )

@@ -83,7 +83,7 @@ class CompiledEquations:
         return np.concatenate([x[self.n_joints : 2 * self.n_joints], -np.linalg.solve(by_v, r)])
 
     def jacobian(self, x: Array, u: Array, p: Array | None = None) -> Array:
-        """Exact derivative of the rates by the state, (n_x, n_x): r = 0 gives dv/dx = -(dr/dv)^-1 dr/dx."""
+        """Exact jacobian of the rates at a state, (n_x, n_x): r = 0 gives dv/dx = -(dr/dv)^-1 dr/dx."""
         n = self.n_joints
         _, by_v, by_x = self.balance(x, self.rates(x, u, p)[n:], u, p)
         kinematic = np.zeros((n, self.n_x))

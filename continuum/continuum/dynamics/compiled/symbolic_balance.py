@@ -39,8 +39,8 @@ class SymbolicBalance:
     """Functions of one packed vector: state x, rates v, inputs u, parameters p, and h g [s] of an implicit stage.
 
     Each returns one packed vector, matrices column by column. The functions depend on the number of parameter values,
-    not on the values. The stage matrix is the derivative of r by the rates v when the state moves with them, theta'
-    and z by h g, theta by (h g)^2: J = dr/dv + h g dr/d(theta', z) + (h g)^2 dr/dtheta.
+    not on the values. The stage matrix is the derivative of r with respect to the rates v when the state moves with
+    them, theta' and z by h g, theta by (h g)^2: J = dr/dv + h g dr/d(theta', z) + (h g)^2 dr/dtheta.
     """
 
     def __init__(self, model: Model) -> None:
@@ -111,7 +111,7 @@ class SymbolicBalance:
 
 
 def _through_sums(by_sums: Any) -> Any:
-    """Convert a derivative by the sums to one by the joints: d sum_k / d joint_i is 1 for k >= i."""
+    """Convert a derivative with respect to sums into one for the joints: d sum_k / d joint_i is 1 for k >= i."""
     return casadi.cumsum(casadi.densify(by_sums)[:, ::-1], 1)[:, ::-1]
 
 

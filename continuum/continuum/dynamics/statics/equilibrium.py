@@ -33,7 +33,7 @@ class Equilibrium:
         status: the other attributes are valid only if it is STABLE or UNSTABLE.
         theta: joint angles, (n,) [rad].
         states: states of effects, (n_states,).
-        stiffness: derivative of the restoring torques by the joint angles, (n, n) [N m/rad].
+        stiffness: derivative of the restoring torques with respect to the joint angles, (n, n) [N m/rad].
         load: load of the equilibrium.
     """
 
@@ -107,7 +107,7 @@ def solve_pull(arm: RestingArm, load: Load, y: Array, torque: Array | None = Non
 
 
 def joint_stiffness(sensitivity: Array, n: int) -> Array:
-    """Return the derivative of the joint torques by the angles when the states of effects adapt, (n, n)."""
+    """Return d(joint torques) / d(angles), (n, n), with the states of effects adapting."""
     if sensitivity.shape[0] == n:
         return sensitivity
     following = -np.linalg.lstsq(sensitivity[n:, n:], sensitivity[n:, :n], rcond=1e-12)[0]
