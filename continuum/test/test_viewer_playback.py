@@ -185,7 +185,7 @@ def joints_track(postures):
     return Track(np.arange(len(named)) / 100, tuple(named[0]), np.array([list(row.values()) for row in named]))
 
 
-def test_what_is_saved_beside_a_simulated_arm_was_measured(shown):
+def test_with_a_simulated_arm_the_measured_one_is_saved(shown):
     files = []
     client = SimpleNamespace(send_file_download=lambda name, content, **_: files.append(content.decode()))
     shown.source._save(SimpleNamespace(client=client))
