@@ -11,7 +11,7 @@ from __future__ import annotations
 import io
 import struct
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,6 +34,10 @@ _HEAD = struct.Struct("<BQ")
 
 _DAMAGED = (McapError, struct.error, LookupError, ValueError, MemoryError, RuntimeError, zstandard.ZstdError)
 """Exceptions of parsing and decompression for damaged bytes; lz4 raises RuntimeError."""
+
+
+_Place = tuple[int, int, int]
+"""Kind of a record, and where its content starts and ends."""
 
 
 @dataclass(frozen=True)
@@ -90,28 +94,31 @@ class _Copy:
 
     def take(self, data: bytes) -> None:
         """Copy chunk by chunk, after all schemas and channels: a finished file repeats them after its chunks."""
-        for kind, content in _records(data):
-            if kind in (Opcode.SCHEMA, Opcode.CHANNEL):
-                self._or_damaged(lambda kind=kind, content=content: self._announce(_parsed(kind, content)))
-        for kind, content in _records(data):
-            if kind in (Opcode.CHUNK, Opcode.MESSAGE):
-                self._or_damaged(lambda kind=kind, content=content: self._copy(_parsed(kind, content)))
-        if data.endswith(_MAGIC) and _end(data) < len(data) - len(_MAGIC):
+        records = [*_records(data)]
+        self._each(self._announce, (Opcode.SCHEMA, Opcode.CHANNEL), data, records)
+        self._each(self._copy, (Opcode.CHUNK, Opcode.MESSAGE), data, records)
+        walked = records[-1][2] if records else MAGIC_SIZE
+        if data.endswith(_MAGIC) and walked < len(data) - len(_MAGIC):
             self.damaged += 1  # a wrong length leads past the end of a finished file
 
-    def _or_damaged(self, step: Callable[[], None]) -> None:
-        try:
-            step()
-        except _DAMAGED:
-            self.damaged += 1
+    def _each(
+        self, step: Callable[[McapRecord], None], kinds: Sequence[int], data: bytes, records: Iterable[_Place]
+    ) -> None:
+        """Do a step with every record of some kinds; count those that are damaged."""
+        for kind, start, end in records:
+            if kind in kinds:
+                try:
+                    step(_parsed(kind, data[start:end]))
+                except _DAMAGED:
+                    self.damaged += 1
 
-    def _announce(self, record: McapRecord | None) -> None:
+    def _announce(self, record: McapRecord) -> None:
         if isinstance(record, Schema):
             self._types[record.id] = record.name
         elif isinstance(record, Channel):
             self._channels[record.id] = record
 
-    def _copy(self, record: McapRecord | None) -> None:
+    def _copy(self, record: McapRecord) -> None:
         """Copy a message, or all messages of a chunk if the whole chunk is undamaged."""
         records = breakup_chunk(record, validate_crc=True) if isinstance(record, Chunk) else [record]
         for one in records:
@@ -129,28 +136,16 @@ class _Copy:
         return self._topics[name]
 
 
-def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
-    """Kind and content of every record that is complete."""
-    start = MAGIC_SIZE
-    while (end := _record_end(data, start)) is not None:
-        yield data[start], data[start + _HEAD.size : end]
-        start = end
-
-
-def _record_end(data: bytes, start: int) -> int | None:
-    """End of the record that starts there; None if it is not complete."""
-    if start + _HEAD.size > len(data):
-        return None
-    end = start + _HEAD.size + int(_HEAD.unpack_from(data, start)[1])
-    return end if end <= len(data) else None
-
-
-def _end(data: bytes) -> int:
-    """End of the last complete record."""
-    start = MAGIC_SIZE
-    while (end := _record_end(data, start)) is not None:
-        start = end
-    return start
+def _records(data: bytes) -> Iterator[_Place]:
+    """Kind, start and end of the content of every record that is complete."""
+    end = MAGIC_SIZE
+    while end + _HEAD.size <= len(data):
+        kind, length = _HEAD.unpack_from(data, end)
+        start = end + _HEAD.size
+        end = start + length
+        if end > len(data):
+            return
+        yield kind, start, end
 
 
 def _parsed(kind: int, content: bytes) -> McapRecord:

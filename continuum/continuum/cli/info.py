@@ -67,9 +67,14 @@ def _plain(arm: Arm) -> dict[str, object]:
     }
 
 
-def _show(arm: Arm) -> None:
+def summary(arm: Arm) -> str:
+    """Number of sections, length and number of cables, in one line."""
     sections = "1 section" if arm.n_sections == 1 else f"{arm.n_sections} sections"
-    title = f"{sections}, {1e3 * arm.length:.1f} mm long, {len(arm.cable_names)} cables"
+    return f"{sections}, {1e3 * arm.length:.1f} mm long, {len(arm.cable_names)} cables"
+
+
+def _show(arm: Arm) -> None:
+    title = summary(arm)
     headings = (
         "section",
         "joints",

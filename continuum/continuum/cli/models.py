@@ -38,10 +38,8 @@ def read_model(name: str, section: str | None = None) -> Model:
         InvalidValueError: a value in it is not allowed.
     """
     from continuum.dynamics.model_file import load_named_model  # here, so that help need not wait for it
-    from continuum.dynamics.section_model import is_arm_file
-    from continuum.parameter_file import read_parameter_file
-    from continuum.shipped_files import find_file
 
-    if section is not None and not is_arm_file(read_parameter_file(find_file(name, MODELS))):
+    model, found = load_named_model(name, section)
+    if section is not None and found is None:
         raise InvalidValueError("--section", section, f"left out: {name} is a model file, which has no sections")
-    return load_named_model(name, section)[0]
+    return model

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from continuum.arm import arm_from_mapping, prototype_section
+from continuum.cli.info import summary
 from continuum.cli.outputs import announce, check_outputs, write
 from continuum.errors import ContinuumError, FileError, InvalidValueError
 from continuum.parameter_keys import common_name
@@ -85,8 +86,7 @@ def run(options: argparse.Namespace) -> int:
     except InvalidValueError as error:
         raise _of_option(error, options) from None
     write(path, lambda file: write_whole(file, commented_arm(arm, dynamics, remarks)))
-    sections = "1 section" if arm.n_sections == 1 else f"{arm.n_sections} sections"
-    print(f"{sections}, {1e3 * arm.length:.1f} mm long, {len(arm.cable_names)} cables")
+    print(summary(arm))
     announce([path])
     return 0
 

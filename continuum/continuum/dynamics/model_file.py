@@ -28,7 +28,7 @@ from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.expressions import Numbers
 from continuum.dynamics.model import ActiveEffect, InputKind, Model
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
-from continuum.dynamics.section_model import is_arm_file, section_model
+from continuum.dynamics.section_model import SectionModel, is_arm_file, section_model
 from continuum.errors import InvalidValueError
 from continuum.parameter_file import read_parameter_file
 from continuum.parameter_keys import convertible, given_values, in_si, units_for
@@ -56,12 +56,13 @@ def load_model(path: str | Path, section: str | None = None) -> Model:
 
 
 def load_named_model(path: str | Path, section: str | None = None) -> tuple[Model, str | None]:
-    """As :func:`load_model`, with the name of the section: of a model file, the one that was given."""
+    """As :func:`load_model`, with the name of the section of an arm file; None of a model file."""
     content = read_parameter_file(find_file(path, MODELS))
     try:
         if not is_arm_file(content):
-            return model_from_mapping(content), section
-        return model_of_section(path, content, section), section_model(path, content, section).section
+            return model_from_mapping(content), None
+        found = section_model(path, content, section)
+        return _model_of(found), found.section
     except InvalidValueError as error:
         raise InvalidValueError(f"{path}: {error.name}", error.value, error.allowed) from None
 
@@ -73,7 +74,10 @@ def model_of_section(path: str | Path, content: Mapping[str, object], section: s
         FileError: no section has a block ``dynamics``.
         InvalidValueError: a value that is not allowed, or one that is required and missing.
     """
-    found = section_model(path, content, section)
+    return _model_of(section_model(path, content, section))
+
+
+def _model_of(found: SectionModel) -> Model:
     try:
         return model_from_mapping(found.mapping)
     except InvalidValueError as error:

@@ -10,8 +10,6 @@ import numpy as np
 from continuum.arm import Arm, Section, load_arm
 from continuum.dynamics.model_file import load_named_model
 from continuum.dynamics.parameters import Parameters
-from continuum.dynamics.section_model import is_arm_file
-from continuum.parameter_file import read_parameter_file
 from continuum.shipped_files import MODELS, find_file
 from continuum.viewer.default_arm import HOLES_TO_SPACING, reachable_bend
 
@@ -31,10 +29,9 @@ def arm_of_model(path: str | Path, section: str | None, name: str) -> Arm:
         FileError: the file cannot be read or describes no model.
         InvalidValueError: a value in it is not allowed.
     """
-    file = find_file(path, MODELS)
     model, modelled = load_named_model(path, section)
-    if is_arm_file(read_parameter_file(file)):
-        (found,) = (one for one in load_arm(file).sections if one.name == modelled)
+    if modelled is not None:
+        (found,) = (one for one in load_arm(find_file(path, MODELS)).sections if one.name == modelled)
         return Arm((replace(found, name=name),))
     return Arm((planar_section(name, model.parameters),))
 

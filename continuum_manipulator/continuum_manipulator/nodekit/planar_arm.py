@@ -58,8 +58,9 @@ class PlanarArm:
         Raises:
             ContinuumError: there is no such model or section, or it is not allowed.
         """
-        model, section = load_named_model(str(values["model"]), str(values["section"]) or None)
-        return cls(section or DEFAULT_SECTION, model)
+        given = str(values["section"])
+        model, section = load_named_model(str(values["model"]), given or None)
+        return cls(section or given or DEFAULT_SECTION, model)
 
     def joint_state(self, stamp: Time, angles: Array, rates: Array) -> JointState:
         """Return the message of joint angles (n,) [rad] and rates [rad/s]; joints have no motors, hence no efforts."""
