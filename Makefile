@@ -2,10 +2,12 @@
 
 SHELL := /bin/bash
 IN_WORKSPACE := source install/setup.bash &&
+# more workers than cores: tests that start nodes wait more than they compute
+PYTEST := $(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m pytest --numprocesses=4 --dist=loadfile
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup demo bench-demo test quick exam browser reproduction bench-dynamics bench-ik bench-identification bench-curvature bench-discovery \
+.PHONY: help setup demo bench-demo test quick browser reproduction bench-dynamics bench-ik bench-identification bench-curvature bench-discovery \
   bench-inertial bench-link bench-viewer fuzz prototype exams figures notebook equations docs api languages check check-old format lock clean seeded-faults
 
 help: ## list the targets
@@ -21,13 +23,10 @@ bench-demo: setup ## emulated bench, bridge and simulated arm: pulled, released,
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.demo.bench $(ARGS)
 
 test: check browser ## run the checks and every test (ARGS="-k name" are given to pytest)
-	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.setup.run_tests $(ARGS)
+	@$(PYTEST) --no-loadscope-reorder $(ARGS)
 
 quick: check ## run the checks and the fast unit tests: what to run after every change
-	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.setup.run_tests --quick $(ARGS)
-
-exam: setup ## hide every effect in both plants with more seeds (20 minutes); ARGS="--rounds 10"
-	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m pytest --part=hidden-effects --rounds 3 test/blind $(ARGS)
+	@$(PYTEST) -m "not (ros or hidden_effects or slow)" $(ARGS)
 
 browser: setup ## Chromium and Playwright for the viewer's tests, into out/browser; what cannot be had is left out
 	@$(IN_WORKSPACE) test -d out/browser/extra/playwright || \

@@ -40,10 +40,7 @@ def _set_up() -> None:
         made.write()
     virtual_environment.write_shell_files()
     stale = [name for name, digest in wanted.packages.items() if made.packages.get(name) != digest]
-    if stale:
-        workspace.build(stale)
-    if made.compiled != wanted.compiled:
-        workspace.compile_solver()
+    workspace.build(stale, compiled=made.compiled == wanted.compiled)
     wanted.write()
     print("Ready: `make demo`, or `source install/setup.bash` and then `continuum --help`.", flush=True)
 

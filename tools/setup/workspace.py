@@ -2,6 +2,7 @@
 
 import shutil
 import sysconfig
+from collections.abc import Sequence
 from pathlib import Path
 
 from tools.setup.environment import venv_environment
@@ -20,44 +21,55 @@ def check_build_tools() -> None:
         )
 
 
-def build(names: list[str]) -> None:
-    """Build the packages ``names``; Python packages are linked, so that changes of their files need no build.
-
-    Raises:
-        SetupError: a package does not build.
-    """
-    _remove_dead_links()
-    title = f"{len(names)} ROS package{'s' if len(names) > 1 else ''}"
-    with Step(title, "does not build; the lines above say which and why.") as step:
-        step.run(
-            [PYTHON, VENV / "bin" / "colcon", "--log-base", LOG, "build", "--symlink-install",
-             "--base-paths", *package_folders(), "--packages-select", *names,
-             "--build-base", BUILD, "--install-base", INSTALL, "--event-handlers", "console_cohesion+",
-             "--cmake-args", "-DBUILD_TESTING=OFF", "-DCMAKE_BUILD_TYPE=Release", f"-DPython3_EXECUTABLE={PYTHON}",
-             f"-DCMAKE_PROJECT_TOP_LEVEL_INCLUDES={SETUP / 'imported_include_dirs.cmake'}"],
-            venv_environment(),
-        )  # fmt: skip
-    _free_scripts()
-
+LIBRARY = "continuum"
+_BUILD_HINT = "does not build; the lines above say which and why."
 
 WARM_UPS = {
     "solver and integrator": ("continuum.kinematics.compiled.warm_up", "continuum.dynamics.warm_up"),
     "a first diagnosis": ("continuum.discovery.warm_up",),
 }
+"""Modules that fill the caches of numba and of compiled equations, so that nodes and diagnoses need not compile."""
 
 
-def compile_solver() -> None:
-    """Fill the caches of numba and of compiled equations, so that nodes and diagnoses need not compile at run time.
+def build(names: list[str], compiled: bool) -> None:
+    """Build the packages ``names``, and compile the library's code unless it is ``compiled``, at the same time.
+
+    The library comes first: its code is compiled where it is installed.
 
     Raises:
-        SetupError: the inverse kinematics solver, the integrator or the code of a diagnosis does not compile.
+        SetupError: a package does not build, or code does not compile.
     """
-    for what, modules in WARM_UPS.items():
-        with Step(f"{what}, compiled", "does not compile; the lines above say why.") as step:
-            step.run(
-                ["bash", "-c", " && ".join(["source install/setup.bash", *(f"python3 -m {name}" for name in modules)])],
-                venv_environment(),
-            )
+    _remove_dead_links()
+    library = [name for name in names if name == LIBRARY]
+    if library:
+        with Step("the library", _BUILD_HINT) as step:
+            step.run(_colcon(library), venv_environment())
+    rest = [name for name in names if name != LIBRARY]
+    titles = [f"{len(rest)} ROS package{'s' if len(rest) > 1 else ''}"] if rest else []
+    commands = [_colcon(rest)] if rest else []
+    if not compiled:
+        titles += [f"{what} compiled" for what in WARM_UPS]
+        commands += [_python(modules) for modules in WARM_UPS.values()]
+    if commands:
+        with Step(", ".join(titles), _BUILD_HINT) as step:
+            step.run_together(commands, venv_environment())
+    _free_scripts()
+
+
+def _colcon(names: list[str]) -> list[str | Path]:
+    """Return the command that builds packages; Python packages are linked, so changes of their files need no build."""
+    return [
+        PYTHON, VENV / "bin" / "colcon", "--log-base", LOG, "build", "--symlink-install",
+        "--base-paths", *package_folders(), "--packages-select", *names,
+        "--build-base", BUILD, "--install-base", INSTALL, "--event-handlers", "console_cohesion+",
+        "--cmake-args", "-DBUILD_TESTING=OFF", "-DCMAKE_BUILD_TYPE=Release", f"-DPython3_EXECUTABLE={PYTHON}",
+        f"-DCMAKE_PROJECT_TOP_LEVEL_INCLUDES={SETUP / 'imported_include_dirs.cmake'}",
+    ]  # fmt: skip
+
+
+def _python(modules: Sequence[str]) -> list[str | Path]:
+    """Return the command that runs modules of the installed library, one after the other."""
+    return ["bash", "-c", " && ".join(["source install/setup.bash", *(f"python3 -m {name}" for name in modules)])]
 
 
 def remove() -> None:

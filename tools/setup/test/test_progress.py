@@ -51,3 +51,26 @@ def test_of_a_long_output_the_end_is_shown() -> None:
 def test_a_program_that_is_not_there_is_an_error_with_its_name() -> None:
     with pytest.raises(SetupError, match="no-such-program"), progress.Step("baking", "hint") as step:
         step.run(["no-such-program"], dict(os.environ))
+
+
+def test_commands_run_at_the_same_time(tmp_path: Path, log: Path) -> None:
+    """Each waits for a file that the other writes."""
+    meet = "import os, sys, time\nopen(sys.argv[1], 'w').close()\nwhile not os.path.exists(sys.argv[2]): time.sleep(0.01)"
+    one, other = str(tmp_path / "one"), str(tmp_path / "other")
+    with progress.Step("baking", "hint") as step:
+        step.run_together([[*python(meet), one, other], [*python(meet), other, one]], dict(os.environ))
+    assert log.read_text().count("$ ") == 2
+
+
+def test_a_failure_ends_the_commands_beside_it(tmp_path: Path) -> None:
+    waits = "import time\nwhile True: time.sleep(1)"
+    with progress.Step("baking", "hint") as step, pytest.raises(SetupError, match="no fire"):
+        step.run_together([python(waits), python("print('no fire'); raise SystemExit(3)")], dict(os.environ))
+
+
+def test_a_long_step_shows_that_it_lives(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(progress, "_SIGN_OF_LIFE", 0.0)
+    with progress.Step("baking", "hint") as step:
+        step.run(python("import time; time.sleep(2.5)"), dict(os.environ))
+    dots = capfd.readouterr().out.split("baking ...")[1]
+    assert dots.startswith(".")
