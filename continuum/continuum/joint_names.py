@@ -8,6 +8,9 @@ from collections.abc import Iterable
 
 from continuum.errors import InvalidValueError
 
+DEFAULT_SECTION = "section_1"
+"""Name of the section of a model file, which names none."""
+
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")  # it becomes a part of topic, frame and parameter names
 _BENDING = re.compile(r"(?P<section>\w+)_theta_[1-9]\d*")
 

@@ -43,6 +43,7 @@ class DynamicsNode(CheckedNode):
     """Converts ``cable_tension_cmd`` to ``joint_states`` and ``cable_states`` by integrating a model.
 
     Simulated time is ROS time and has no gaps: on a slow machine the simulation lags behind, warns and catches up.
+    A command is stale if it is old on arrival, not if it is handled late; it times out by its stamp in simulated time.
     Commands are clipped to ``max_tension``; invalid ones are dropped, and the previous one remains in force. Without a
     valid command for ``command_timeout``, tension falls linearly to zero within ``slack_time``. The service
     ``~/release`` drops all tension at once, and ``~/reset`` sets a posture; later commands pull again.
@@ -165,12 +166,12 @@ class DynamicsNode(CheckedNode):
         self._publish_cables(self._planar.cable_states(stamp, angles, rates, self._tensions.tension))
 
     def _on_command(self, message: CableStates) -> None:
-        now = self._now()
-        wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
+        arrival = self.arrival()
+        wanted = read_tensions(message, self._planar.cables, arrival, self.values["command_timeout"])
         if self._pace is None:
             return  # within the first period
         tension_parameters.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
-        self._tensions.command(wanted, self._pace.seconds(min(now, nanoseconds(message.header.stamp))))
+        self._tensions.command(wanted, self._pace.seconds(min(arrival, nanoseconds(message.header.stamp))))
 
     def _release(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._tensions.release()

@@ -16,9 +16,9 @@ from continuum.arrays import Array
 from continuum.cable_colours import Colour, cable_colour
 from continuum.kinematics.cable_lines import CableLine, cable_lines, curvature_arrows
 from continuum.parameter_spec import ParameterSpec
+from continuum_manipulator.arm_joints import arm_joint_names
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
-from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_manipulator.nodekit.qos import REPORT
 from continuum_manipulator.nodekit.stamps import NANOSECONDS
 from continuum_manipulator.section_joints import read_bends, read_names
@@ -70,7 +70,7 @@ class MarkersNode(CheckedNode):
         read = {i: read_bends(index, message.position, section) for i, section in enumerate(self.arm.sections)}
         found = {i: bends for i, bends in read.items() if bends is not None}
         if not found:
-            raise MessageFault(messages.MISSING_NAME, "no joint of this arm is in the message")
+            raise messages.nothing_known("joint", message.name, arm_joint_names(self.arm))
         self._bends |= found
         self._stamp = message.header.stamp
         if len(self._bends) == self.arm.n_sections and self._due.is_canceled():

@@ -12,6 +12,7 @@ from continuum.kinematics.discs import even_bends
 from continuum.kinematics.joint_chain import length_rates_of_joints, lengths_of_joints
 from continuum.kinematics.routing import cables_through
 from continuum.parameter_spec import ParameterSpec
+from continuum_manipulator.arm_joints import arm_joint_names
 from continuum_manipulator.command_checks import (
     TOLERANCE,
     check_configuration,
@@ -22,7 +23,6 @@ from continuum_manipulator.command_checks import (
 from continuum_manipulator.config_states import config_states, read_config
 from continuum_manipulator.nodekit import messages
 from continuum_manipulator.nodekit.checked_node import CheckedNode
-from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_manipulator.section_joints import (
     Configuration,
     joint_names,
@@ -57,9 +57,7 @@ class SectionNode(CheckedNode):
         self._section = self.arm.sections[self._number - 1]
         self._cables = list(cables_through(self.arm, self._number - 1).names)
         self._joints = list(joint_names(self._section))
-        self._joints_of_others = {
-            name for section in self.arm.sections if section is not self._section for name in joint_names(section)
-        }
+        self._joints_of_others = {*arm_joint_names(self.arm)} - {*self._joints}
         self._publish_config = self.offer(ConfigStates, "section_config_states")
         self._publish_cables = self.offer(CableStates, "section_cable_states")
         self._publish_joints = self.offer(JointState, "section_joint_states")
@@ -78,7 +76,7 @@ class SectionNode(CheckedNode):
         state = read_joints(index, message.position, message.velocity, self._section)
         if state is None:
             if self._joints_of_others.isdisjoint(index):
-                raise MessageFault(messages.MISSING_NAME, "no joint of this arm is in the message")
+                raise messages.nothing_known("joint", message.name, [*self._joints, *self._joints_of_others])
             self.diagnostics.ignored["joint_states"] += 1
             return
         self._publish_config_state(state, message.header.stamp)

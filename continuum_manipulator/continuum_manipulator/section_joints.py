@@ -126,7 +126,9 @@ def _theta_names(index: Mapping[str, int], section: Section) -> list[str]:
     if section.phi_joint not in index or thetas not in (list(section.theta_joints), [section.theta_joints[0]]):
         missing = [section.phi_joint, *section.theta_joints]
         missing = [name for name in missing if name not in index]
-        raise MessageFault(messages.MISSING_NAME, f"joints {', '.join(missing)} not in the message")
+        strangers = [name for name in index if name.startswith(f"{section.name}_") and name not in joint_names(section)]
+        hint = messages.misspelt(strangers, missing)
+        raise MessageFault(messages.MISSING_NAME, f"joints {', '.join(missing)} not in the message{hint}")
     return thetas
 
 

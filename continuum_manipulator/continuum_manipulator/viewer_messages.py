@@ -10,7 +10,6 @@ from sensor_msgs.msg import JointState
 from continuum.arrays import Array
 from continuum.viewer.seen import Status
 from continuum_manipulator.nodekit import messages
-from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_manipulator.section_joints import read_names
 from continuum_msgs.msg import CableStates
 
@@ -27,7 +26,7 @@ def read_angles(message: JointState, known: Collection[str]) -> dict[str, float]
     index = read_names(message)
     found = {name: message.position[i] for name, i in index.items() if name in known}
     if not found:
-        raise MessageFault(messages.MISSING_NAME, "no joint of this arm is in the message")
+        raise messages.nothing_known("joint", message.name, sorted(known))
     messages.finite("position", list(found.values()))
     return found
 

@@ -25,7 +25,7 @@ BAD_PARAMETERS = {
         "reliability is 'perhaps'; allowed",
     ),
     "section of the wrong type": ("section", ARM, {"section": "first"}, "section is 'first'; allowed: a whole number"),
-    "unknown name": ("robot", ARM, {"targets": "position"}, "unknown parameter 'targets'; known: target,"),
+    "unknown name": ("robot", ARM, {"targets": "position"}, "unknown parameter 'targets'; did you mean target?"),
     "no arm": ("markers", (), {}, "arm is None; allowed: a block"),
     "an arm in the place of a model": ("dynamics", (), {"model": ARM_FILE}, "three_sections.yaml: is an arm file"),
     "two postures": (

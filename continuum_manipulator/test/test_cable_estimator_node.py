@@ -40,12 +40,12 @@ class Bench:
         probe.warm_up(lambda: self.say(measured(0, LENGTHS[0], np.zeros(len(CABLES)))), *received)
 
     def send(self, *messages: CableStates) -> None:
-        """Send messages, and hear what comes until nothing comes any more."""
+        """Send messages, and hear what answers them."""
         for received in (self.estimates, self.joints, self.poses, self.twists):
             received.clear()
         for message in messages:
             self.say(message)
-        self.probe.listen_until_quiet()
+        self.probe.settle()
 
 
 @pytest.fixture(scope="module")

@@ -40,7 +40,7 @@ class Bench:
         self.totals.clear()
         for message in messages:
             self.say_section(message)
-        self.probe.listen_until_quiet()
+        self.probe.settle()
         return list(self.totals)
 
 
@@ -155,7 +155,7 @@ def test_commands_name_the_section_and_its_own_cables(bench):
     bench.say_command(elsewhere)
     bench.say_command(unnamed)
     bench.say_command(unstamped)
-    bench.probe.listen_until_quiet()
+    bench.probe.settle()
     assert [message.section for message in bench.commands] == [1, 2, 3]
     bench.node.wait_for_line(f"cable_commands: name is empty; list the cables: {', '.join(ARM.cable_names)}")
     bench.node.wait_for_line("cable_commands: the message has no stamp; publish it with {header: {stamp: now}, ...}")

@@ -1,10 +1,13 @@
-"""What every node does with its topics: quality of service from parameters, lost messages counted."""
+"""What every node does with its topics: quality of service from parameters, lost messages counted, arrival noted."""
 
 from types import SimpleNamespace
 
 import pytest
 import rclpy
+from harness.waiting import LONG, wait_until
+from rclpy.duration import Duration
 from rclpy.event_handler import QoSSubscriptionEventType
+from rclpy.experimental import EventsExecutor
 from rclpy.qos import QoSReliabilityPolicy
 from std_msgs.msg import String
 
@@ -43,3 +46,24 @@ def test_quality_of_service_from_parameters_and_lost_messages(node):
     (handler,) = (handler for handler in received.event_handlers if handler.event_type == lost)
     handler.callback(SimpleNamespace(total_count=5, total_count_change=3))
     assert node.diagnostics.warnings.counts == {"messages lost on the way": 3}
+
+
+def test_a_message_that_waits_in_the_node_has_the_time_of_its_arrival(node):
+    arrivals: list[int] = []
+    node.listen(String, "waits", lambda _: arrivals.append(node.arrival()))
+    publisher = node.create_publisher(String, "waits", STREAM)
+    executor = EventsExecutor()
+    executor.add_node(node)
+    wait_until(publisher.get_subscription_count, "the subscription")
+
+    def now() -> int:
+        return node.get_clock().now().nanoseconds
+
+    before = now()
+    publisher.publish(String())
+    assert publisher.wait_for_all_acked(Duration(seconds=LONG))
+    after = now()
+    wait_until(lambda: now() > after + 100_000_000, "work of the node's elsewhere")
+    wait_until(lambda: (executor.spin_once(timeout_sec=0.1), arrivals)[1], "the message", pause=0)
+    executor.remove_node(node)
+    assert before <= arrivals[0] <= after

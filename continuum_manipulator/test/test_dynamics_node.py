@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from harness import NodeProcess, Probe, running, wait_until
+from harness.waiting import LONG
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
@@ -23,7 +24,7 @@ pytestmark = pytest.mark.ros
 MODEL = load_model("lamecc_prototype.yaml")
 CABLES = ["section_1_cable_1", "section_1_cable_2"]
 PERIOD = NANOSECONDS / 120
-TIMEOUT, SLACK_TIME = 1.0, 0.25
+TIMEOUT, SLACK_TIME = 2.0, 0.25
 MOST, FASTEST = 15.0, 200.0
 
 
@@ -120,7 +121,7 @@ def near(tension: float):
 def test_blas_takes_one_thread():
     """What the executable imports before it sets the number of threads does not bring NumPy, which reads it."""
     code = "import sys, continuum_manipulator.dynamics_node as node; print('numpy' in sys.modules, node.main.__name__)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=LONG, check=True)
     assert done.stdout.split() == ["False", "main"]
 
 
@@ -168,7 +169,7 @@ def test_tension_follows_no_faster_than_allowed_and_lets_go_when_commands_stop(a
     assert falling[0] <= last + TIMEOUT * NANOSECONDS + 2 * PERIOD
     slack = at[(tension.max(axis=1) == 0.0) & (np.arange(len(at)) >= held)][0]
     assert abs(slack - falling[0] - SLACK_TIME * NANOSECONDS) <= 3 * PERIOD
-    at_rest.node.wait_for_line("tension commands stopped: none for 1 s; the cables are slack in 0.25 s")
+    at_rest.node.wait_for_line("tension commands stopped: none for 2 s; the cables are slack in 0.25 s")
     at_rest.probe.wait_until(
         lambda: at_rest.probe.report("dynamics").get("cables") == "commands stopped",
         lambda: at_rest.probe.report("dynamics"),
@@ -212,10 +213,11 @@ def test_tension_stays_below_its_limit(at_rest):
 
 def test_release_drops_all_tension_at_once(at_rest):
     at_rest.pull([MOST, 0.0], near(MOST))
+    held = len(at_rest.cables) - 1
     answer = at_rest.release()
     at_rest.wait_for_states(30)
     assert (answer.success, answer.message) == (True, "all cables are slack")
-    tension = efforts(at_rest.cables)[:, 0]
+    tension = efforts(at_rest.cables)[held:, 0]
     drop = [(before, after) for before, after in pairwise(tension) if after < before]
     np.testing.assert_allclose(drop, [(MOST, 0.0)], rtol=1e-12)
     assert_no_gap(at_rest.joints)

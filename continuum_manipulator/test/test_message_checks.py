@@ -84,6 +84,17 @@ def test_names_that_are_not_there_are_listed():
     messages.named(["x"], "cables", ["a", "b"])
 
 
+def test_an_unknown_name_is_named_with_the_nearest_known_one():
+    known = ["section_1_phi", "section_1_theta_1", "section_2_phi"]
+    assert "did you mean section_1_theta_1?" in fault(messages.no_others, known, ["section_1_thetta_1"]).detail
+    assert fault(messages.no_others, ["a", "b"], ["elbow"]).detail == "elbow; known: a, b"
+    detail = fault(messages.indices_of, known, [*known[:2], "section2_phi"]).detail
+    assert detail == "section_2_phi not in the message; it has section2_phi; did you mean section_2_phi?"
+    near, far = (messages.nothing_known("joint", names, known).detail for names in (["sektion_1_phi"], ["elbow"]))
+    assert "did you mean section_1_phi" in near
+    assert far == messages.nothing_known("joint", [], known).detail == "no joint of this arm is in the message"
+
+
 @given(st.integers(0, 9), st.integers(0, 9))
 def test_only_a_stamp_of_zero_is_none(sec, nanosec):
     stamp = Time(sec=sec, nanosec=nanosec)

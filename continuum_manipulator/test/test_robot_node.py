@@ -41,7 +41,7 @@ class Bench:
         self.probe.wait_until(
             lambda: len(self.joints) >= n and len(self.status) >= n, lambda: f"{n} answers, not {len(self.joints)}"
         )
-        self.probe.listen_until_quiet()
+        self.probe.settle()
         joints, status = list(self.joints), list(self.status)
         assert [message.header.stamp for message in joints] == [message.header.stamp for message in status]
         return joints

@@ -40,9 +40,13 @@ BAD = {
     "no tensions": (command(effort=[], position=[0.2, 0.2]), "wrong length"),
     "no names": (command([], []), "missing name: name is empty; list the cables: left, right"),
     "one cable": (command(["left"], [1.0]), "missing name: right not in the message"),
+    "misspelt cable": (
+        command(["left", "rihgt"]),
+        "missing name: right not in the message; it has rihgt; did you mean right?",
+    ),
     "foreign cable": (command([*CABLES, "middle"], [1.0] * 3), "unknown name: middle; known: left, right"),
     "one cable twice": (command(["left", "left"]), "repeated name: left"),
-    "old": (command(age=0.6), "stale stamp: 0.600 s old at 100.000000000 s; allowed: 0.5 s"),
+    "old": (command(age=0.6), "stale stamp: 0.600 s old on arrival at 100.000000000 s; allowed: 0.5 s"),
     "of the future": (command(age=-0.6), "stale stamp: 0.600 s in the future"),
     "without stamp": (CableStates(name=list(CABLES), effort=[1.0, 2.0]), "no stamp"),
 }

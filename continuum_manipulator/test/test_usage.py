@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from ament_index_python.packages import get_package_prefix
+from harness.waiting import LONG
 
 from continuum.arm import SECTION_PARAMETERS
 from continuum_manipulator.nodekit.usage import usage
@@ -16,7 +17,7 @@ NODES = ("section", "robot", "dynamics", "cable_tangler", "markers", "recorder",
 @pytest.mark.parametrize("word", ["--help", "-h"])
 def test_help_is_printed_and_is_no_error(word):
     program = Path(get_package_prefix("continuum_manipulator")) / "lib" / "continuum_manipulator" / "section"
-    result = subprocess.run([str(program), word], capture_output=True, text=True, timeout=60, check=False)
+    result = subprocess.run([str(program), word], capture_output=True, text=True, timeout=LONG, check=False)
     assert (result.returncode, result.stderr) == (0, "")
     assert result.stdout.startswith(
         "usage: ros2 run continuum_manipulator section --ros-args --params-file ARM.yaml -p "

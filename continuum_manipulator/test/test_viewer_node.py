@@ -30,7 +30,7 @@ def probe(domain):
 
 
 def page_of(probe) -> str:
-    with urllib.request.urlopen(probe.report("viewer")["address"], timeout=30) as answer:
+    with urllib.request.urlopen(probe.report("viewer")["address"], timeout=LONG) as answer:
         return answer.read().decode()
 
 

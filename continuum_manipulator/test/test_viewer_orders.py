@@ -228,7 +228,7 @@ def test_who_and_what_is_refused_is_on_diagnostics_and_the_viewer_lives(bench):
         bench.wait(lambda: bench.probe.count("viewer", "dropped: message of a browser") == 21, "messages dropped")
         visitor.put(LEAD, "the target")
         bench.wait(lambda: bench.targets, "a target")
-    assert len([line for line in bench.node.stderr.splitlines() if "message of a browser" in line]) <= 4
+    assert len([line for line in bench.node.stderr.splitlines() if "message of a browser" in line]) < 10
 
 
 def test_what_is_drawn_no_more_ends_the_node(domain):

@@ -9,7 +9,10 @@ from typing import Any
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rcl_interfaces.srv import GetParameters
+from rclpy.client import Client
 from rclpy.context import Context
+from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
@@ -36,6 +39,7 @@ class Probe:
         self._executor.add_node(self.node)
         self._received: list[list[Any]] = []
         self._reports: dict[str, dict[str, str]] = {}
+        self._clients: dict[str, Client] = {}
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, REPORT)
 
     def __enter__(self) -> Probe:
@@ -87,9 +91,39 @@ class Probe:
             again = time.monotonic() + 0.5
             while not all(received) and time.monotonic() < again:
                 self._executor.spin_once(timeout_sec=0.05)
-        self.listen_until_quiet()
+        self.settle()
         for messages in received:
             messages.clear()
+
+    def settle(self) -> None:
+        """Listen until all that was said is answered, however busy the machine is.
+
+        A node takes messages and requests in the order of their arrival: once it has answered a request, it has
+        answered the messages that arrived before. Where nodes hear each other, this is repeated until nothing comes.
+        """
+        for publisher in self.node.publishers:
+            assert publisher.wait_for_all_acked(Duration(seconds=LONG))
+        before = -1
+        while before != (before := sum(map(len, self._received))):
+            for name, namespace in self.node.get_node_names_and_namespaces():
+                if name != self.node.get_name():
+                    self._ask(f"{namespace.rstrip('/')}/{name}/get_parameters")
+            for _ in range(20 + sum(map(len, self._received)) - before):  # what has come but is not taken yet
+                self._executor.spin_once(timeout_sec=0.0)
+
+    def _ask(self, service: str) -> None:
+        """Ask a node for the values of no parameters; one that has ended does not answer."""
+        if service not in self._clients:
+            self._clients[service] = self.node.create_client(GetParameters, service)
+        client = self._clients[service]
+        self.wait_until(lambda: client.service_is_ready() or not self._runs(service), service)
+        if client.service_is_ready():
+            answer = client.call_async(GetParameters.Request())
+            self.wait_until(lambda: answer.done() or not client.service_is_ready(), f"an answer of {service}")
+
+    def _runs(self, service: str) -> bool:
+        names = self.node.get_node_names_and_namespaces()
+        return any(f"{namespace.rstrip('/')}/{name}/get_parameters" == service for name, namespace in names)
 
     def listen_until_quiet(self, quiet: float = 0.3) -> None:
         """Listen until the topics have been silent for ``quiet`` [s]."""

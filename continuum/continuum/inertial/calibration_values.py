@@ -70,6 +70,25 @@ class Calibration:
         """Reading of each accelerometer at rest, (n,) [m/s2]."""
         return np.asarray(np.linalg.norm(self.zero, axis=1))
 
+    def mountings(self, hang_angle: float) -> Array:
+        """Return the rotations (n, 3, 3) that turn vectors in the sensors' axes to those of their links.
+
+        In a link's axes, z runs along the link and y along the axis of positive turns.
+
+        Args:
+            hang_angle: from the direction of gravity to the straight arm, positive towards positive angles [rad].
+        """
+        force = np.array([np.sin(hang_angle), 0.0, -np.cos(hang_angle)])
+        of_links, of_sensors = _axes(np.array([0.0, 1.0, 0.0]), force), _axes(self.axis, self.zero)
+        return np.asarray(of_links.T @ of_sensors)
+
+
+def _axes(axis: Array, zero: Array) -> Array:
+    """Return orthogonal unit vectors, (..., 3, 3) by rows: the axis, the force across it, and across both."""
+    across = across_axis(zero, axis)
+    across = across / np.linalg.norm(across, axis=-1, keepdims=True)
+    return np.stack([axis, across, np.cross(axis, across)], axis=-2)
+
 
 def _check_one(sensor: str, bias: Array, axis: Array, zero: Array) -> None:
     if np.abs(bias).max() > _LARGEST_BIAS:

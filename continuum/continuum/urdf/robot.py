@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import glob
+from collections.abc import Iterable
 from importlib.resources import as_file, files
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import xacro
+from scipy.spatial.transform import Rotation
 
 from continuum.arm import Arm
+from continuum.arrays import Array
 from continuum.urdf.segment import segment_call
 
 BASE_LINK = "base_link"
@@ -16,6 +20,20 @@ BASE_LINK = "base_link"
 
 _MACROS = "segment.urdf.xacro"
 _PORTABLE_MACROS = f"$(find continuum_description)/urdf/{_MACROS}"
+
+
+class Sensor(NamedTuple):
+    """A sensor in the origin of a link.
+
+    Attributes:
+        frame: name of its frame, in whose axes it measures.
+        link: name of the link.
+        rotation: turns vectors in its axes to those of the link, (3, 3).
+    """
+
+    frame: str
+    link: str
+    rotation: Array
 
 
 def robot_xacro(
@@ -47,8 +65,8 @@ def robot_xacro(
     return robot
 
 
-def robot_urdf(arm: Arm, base_link: str = BASE_LINK) -> ElementTree.Element:
-    """The arm as URDF: the macros of :func:`robot_xacro`, expanded.
+def robot_urdf(arm: Arm, base_link: str = BASE_LINK, sensors: Iterable[Sensor] = ()) -> ElementTree.Element:
+    """The arm as URDF: the macros of :func:`robot_xacro`, expanded; every sensor is a fixed link without a body.
 
     Raises:
         InvalidValueError: a section or the base link has a name that links cannot have.
@@ -59,16 +77,23 @@ def robot_urdf(arm: Arm, base_link: str = BASE_LINK) -> ElementTree.Element:
     robot = ElementTree.fromstring(document.toxml())
     for element in robot.iter():
         element.text = None
+    for sensor in sensors:
+        joint = ElementTree.SubElement(robot, "joint", name=f"{sensor.frame}_joint", type="fixed")
+        ElementTree.SubElement(joint, "parent", link=sensor.link)
+        ElementTree.SubElement(joint, "child", link=sensor.frame)
+        turns = Rotation.from_matrix(sensor.rotation).as_euler("xyz").tolist()
+        ElementTree.SubElement(joint, "origin", xyz="0 0 0", rpy=" ".join(map(repr, turns)))
+        ElementTree.SubElement(robot, "link", name=sensor.frame)
     return robot
 
 
-def urdf_text(arm: Arm) -> str:
-    """The arm as the text of a URDF.
+def urdf_text(arm: Arm, sensors: Iterable[Sensor] = ()) -> str:
+    """The arm, with its sensors, as the text of a URDF.
 
     Raises:
         InvalidValueError: a section has a name that links cannot have.
     """
-    return to_text(robot_urdf(arm))
+    return to_text(robot_urdf(arm, sensors=sensors))
 
 
 def to_text(robot: ElementTree.Element) -> str:

@@ -1,4 +1,4 @@
-"""The arm that a model describes, for drawing a recording of it."""
+"""The arm that a model describes, for drawing it and for its description."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from continuum import joint_names
 from continuum.arm import Arm, Section, load_arm
 from continuum.dynamics.model_file import load_named_model
 from continuum.dynamics.parameters import Parameters
@@ -17,13 +18,13 @@ _AZIMUTHS = (0.0, np.pi, np.pi / 2, 3 * np.pi / 2)
 """Azimuths of cables [rad]: 1 and 2 bend the model, as in `planar_prototype.yaml`; the others stay slack."""
 
 
-def arm_of_model(path: str | Path, section: str | None, name: str) -> Arm:
+def arm_of_model(path: str | Path, section: str | None, name: str | None = None) -> Arm:
     """Return an arm of one section: the one in an arm file, or a planar one with the dimensions of a model file.
 
     Args:
         path: a model file, or an arm file with a block `dynamics`; or the name of one of the library's.
         section: section of an arm file; None if there is only one.
-        name: name of the section in the recording, which the returned section has.
+        name: name of the returned section, as in a recording; None for that in the arm file, or else ``section_1``.
 
     Raises:
         FileError: the file cannot be read or describes no model.
@@ -32,8 +33,8 @@ def arm_of_model(path: str | Path, section: str | None, name: str) -> Arm:
     model, modelled = load_named_model(path, section)
     if modelled is not None:
         (found,) = (one for one in load_arm(find_file(path, MODELS)).sections if one.name == modelled)
-        return Arm((replace(found, name=name),))
-    return Arm((planar_section(name, model.parameters),))
+        return Arm((replace(found, name=name or found.name),))
+    return Arm((planar_section(name or joint_names.DEFAULT_SECTION, model.parameters),))
 
 
 def is_approximate(p: Parameters) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import shlex
 import time
@@ -36,6 +37,10 @@ from continuum_manipulator.nodekit.parameters import (
 )
 from continuum_manipulator.nodekit.qos import STREAM
 from continuum_manipulator.nodekit.qos_overrides import check_overrides, refuse_unknown_overrides
+
+_WITH_INFO = inspect.signature(lambda _message, _info: None)
+"""What tells rclpy that a callback takes the stamps of a message too. The EventsExecutor of rclpy 7.1 then hands both
+over as one tuple, every other executor as two arguments."""
 
 FAREWELL = 1.0
 """Longest time that an ending node waits for its messages to be received [s]."""
@@ -96,8 +101,9 @@ class CheckedNode(Node):
         refuse_unknown(given, specs, self.HAS_ARM)
         if self.HAS_ARM:
             self.arm = declare_arm(self, given, self.default_arm())
-        self.values: dict[str, Value] = declare_parameters(self, specs, given)
+        self.values: dict[str, Value] = declare_parameters(self, specs, self.completed(given))
         self.finished = False
+        self._received_at = 0
         self.diagnostics = Diagnostics(self)
 
     def declare_parameters(
@@ -129,6 +135,10 @@ class CheckedNode(Node):
         """Return the node's parameters; override this if some depend on the given values."""
         return cls.PARAMETERS
 
+    def completed(self, given: Mapping[str, object]) -> Mapping[str, object]:
+        """Return the given parameters; override this to add values that depend on the arm."""
+        return given
+
     @classmethod
     def default_arm(cls) -> Arm | None:
         """Return the arm if no parameter defines one; override this in nodes that do not require an arm."""
@@ -147,9 +157,13 @@ class CheckedNode(Node):
         received[topic] = 0
         checked = self.checked(topic, handle)
 
-        def on_message(message: object) -> None:
+        def on_message(*given: Any) -> None:
+            message, info = given if len(given) == 2 else given[0]
             received[topic] += 1
+            self._received_at = info["received_timestamp"]
             checked(message)
+
+        on_message.__signature__ = _WITH_INFO  # type: ignore[attr-defined]
 
         def on_loss(event: Any) -> None:
             cause, now = "messages lost on the way", event.total_count_change
@@ -163,6 +177,16 @@ class CheckedNode(Node):
             event_callbacks=SubscriptionEventCallbacks(message_lost=on_loss),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
+
+    def arrival(self) -> int:
+        """Return the ROS time [ns] at which the message under handling arrived, however late the node handles it.
+
+        The middleware notes the arrival by the machine's clock in a thread of its own. A middleware that does not (it
+        gives 0) leaves the present. In simulated time, the wait within the node is taken as long as by the machine's
+        clock.
+        """
+        waited = max(0, time.time_ns() - self._received_at) if self._received_at else 0
+        return int(self.get_clock().now().nanoseconds) - waited
 
     def checked(self, topic: str, handle: Callable[[Any], None]) -> Callable[[Any], None]:
         """Wrap ``handle`` so that message faults of ``topic`` are counted and logged."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
 
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.did_you_mean import did_you_mean
 from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_manipulator.nodekit.stamps import Stamp, nanoseconds
 
@@ -87,7 +89,8 @@ def indices_of(wanted: Sequence[str], names: Sequence[str]) -> list[int]:
     index = positions_by_name(names)
     missing = [name for name in wanted if name not in index]
     if missing:
-        raise MessageFault(MISSING_NAME, f"{', '.join(missing)} not in the message")
+        strangers = [name for name in names if name not in wanted]
+        raise MessageFault(MISSING_NAME, f"{', '.join(missing)} not in the message{misspelt(strangers, missing)}")
     return [index[name] for name in wanted]
 
 
@@ -95,7 +98,29 @@ def no_others(known: Sequence[str], names: Sequence[str]) -> None:
     """Check that all names are ``known``."""
     unknown = [name for name in names if name not in known]
     if unknown:
-        raise MessageFault(UNKNOWN_NAME, f"{', '.join(unknown)}; known: {', '.join(known)}")
+        hint = nearest(unknown[0], tuple(known)) or f"; known: {', '.join(known)}"
+        raise MessageFault(UNKNOWN_NAME, f"{', '.join(unknown)}{hint}")
+
+
+def nothing_known(kind: str, names: Sequence[str], known: Iterable[str]) -> MessageFault:
+    """Return the fault of a message that names only strangers; ``kind`` says of what (joint, cable)."""
+    hint = nearest(names[0], tuple(known)) if len(names) else ""
+    text = f"no {kind} of this arm is in the message"
+    return MessageFault(MISSING_NAME, f"{text}, which has {names[0]}{hint}" if hint else text)
+
+
+def misspelt(strangers: Iterable[str], missing: Sequence[str]) -> str:
+    """Return a hint at the first name among ``strangers`` that is near to a ``missing`` one; empty if there is none."""
+    for name in strangers:
+        if hint := nearest(name, tuple(missing)):
+            return f"; it has {name}{hint}"
+    return ""
+
+
+@lru_cache(maxsize=1000)
+def nearest(name: str, known: tuple[str, ...]) -> str:
+    """As `did_you_mean`; remembered, because who misspells a name does so in every message."""
+    return did_you_mean(name, known)
 
 
 def frame(field: str, frame_id: str, allowed: str) -> None:

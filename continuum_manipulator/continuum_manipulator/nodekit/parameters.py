@@ -11,6 +11,7 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.node import Node
 
 from continuum.arm import DYNAMICS, SECTION_PARAMETERS, Arm, arm_from_mapping, arm_to_mapping
+from continuum.did_you_mean import did_you_mean
 from continuum.errors import ContinuumError, InvalidValueError
 from continuum.parameter_spec import ParameterSpec, Value
 
@@ -28,7 +29,8 @@ class UnknownParameterError(ContinuumError):
     """A given parameter is unknown to the node."""
 
     def __init__(self, name: str, known: Iterable[str]) -> None:
-        super().__init__(f"unknown parameter {name!r}; known: {', '.join(known)}")
+        names = list(known)
+        super().__init__(f"unknown parameter {name!r}{did_you_mean(name, names) or f'; known: {", ".join(names)}'}")
 
 
 def given_parameters(node: Node) -> dict[str, object]:

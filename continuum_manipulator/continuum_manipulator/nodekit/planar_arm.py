@@ -15,12 +15,9 @@ from continuum.dynamics.planar.cable_lengths import SIDES, cable_lengths, cable_
 from continuum.parameter_spec import ParameterSpec, Value
 from continuum_msgs.msg import CableStates
 
-DEFAULT_SECTION = "section_1"
-"""Name of the section of a model file, which names none."""
-
 SECTION = ParameterSpec(
     "section", str, "name of the section, the prefix of the names of joints and cables; empty for the only section of "
-    f"an arm file, and for {DEFAULT_SECTION} with a model file", default="",
+    f"an arm file, and for {joint_names.DEFAULT_SECTION} with a model file", default="",
 )  # fmt: skip
 
 
@@ -60,7 +57,7 @@ class PlanarArm:
         """
         given = str(values["section"])
         model, section = load_named_model(str(values["model"]), given or None)
-        return cls(section or given or DEFAULT_SECTION, model)
+        return cls(section or given or joint_names.DEFAULT_SECTION, model)
 
     def joint_state(self, stamp: Time, angles: Array, rates: Array) -> JointState:
         """Return the message of joint angles (n,) [rad] and rates [rad/s]; joints have no motors, hence no efforts."""

@@ -30,6 +30,14 @@ REPORT = QoSProfile(
 )
 """ROS's default setting, for diagnostics and markers: only the latest messages matter."""
 
+LATCHED = QoSProfile(
+    reliability=QoSReliabilityPolicy.RELIABLE,
+    durability=QoSDurabilityPolicy.TRANSIENT_LOCAL,
+    history=QoSHistoryPolicy.KEEP_LAST,
+    depth=1,
+)
+"""For what is said once, and later subscribers receive too: ``robot_description``, ``/tf_static``."""
+
 TRANSFORMS = QoSProfile(
     reliability=QoSReliabilityPolicy.RELIABLE,
     durability=QoSDurabilityPolicy.VOLATILE,

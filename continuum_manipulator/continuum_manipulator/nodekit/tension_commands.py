@@ -20,14 +20,17 @@ from continuum_msgs.msg import CableStates
 STALE = "stale stamp"
 
 
-def read_tensions(message: CableStates, cables: Sequence[str], now: int, patience: float) -> Array:
+def read_tensions(message: CableStates, cables: Sequence[str], arrival: int, patience: float) -> Array:
     """Return the commanded tension of each cable, (n_cables,) [N], finite and not negative.
+
+    A command is as old as it was on its arrival: a node that handles it late does not blame the sender. It then holds
+    no longer for that: whoever pulls counts the command's time-out from its stamp.
 
     Args:
         message: the command.
         cables: names of the cables; the command must contain each of them once, and no others.
-        now: ROS time [ns].
-        patience: largest difference between the stamp and now [s].
+        arrival: ROS time of its arrival [ns], as `CheckedNode.arrival` returns it.
+        patience: largest difference between the stamp and the arrival [s].
 
     Raises:
         MessageFault: the command is invalid or stale.
@@ -41,8 +44,8 @@ def read_tensions(message: CableStates, cables: Sequence[str], now: int, patienc
     if np.any(tensions < 0):
         i = int(np.argmin(tensions))
         raise MessageFault(messages.REFUSED, f"effort of {cables[i]} is {tensions[i]}; a cable pulls: >= 0 N")
-    age = (now - nanoseconds(message.header.stamp)) / NANOSECONDS
+    age = (arrival - nanoseconds(message.header.stamp)) / NANOSECONDS
     if abs(age) > patience:
         where = f"{age:.3f} s old" if age > 0 else f"{-age:.3f} s in the future"
-        raise MessageFault(STALE, f"{where} at {seconds(now)}; allowed: {patience:g} s")
+        raise MessageFault(STALE, f"{where} on arrival at {seconds(max(0, arrival))}; allowed: {patience:g} s")
     return tensions
