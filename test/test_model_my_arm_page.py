@@ -32,7 +32,7 @@ WAYS = {
     "ros2 launch trajectory_generator arm.launch.py": Run(stays=True, nodes=NODES),
     "ros2 run continuum_manipulator viewer": Run(stays=True, nodes=("viewer",), serves=True, also="-p port:=0"),
     "continuum simulate": Run(says=("complete",), leaves=("out/my_release.csv", "out/my_release.png")),
-    "ros2 launch continuum_manipulator dynamics.launch.xml": Run(
+    "ros2 launch continuum_manipulator dynamics.launch.py": Run(
         stays=True, nodes=("dynamics",), hears=(("/joint_states", 10),)
     ),
 }

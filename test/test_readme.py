@@ -54,7 +54,7 @@ WAYS: dict[str, Way] = {
     ),
     "continuum solve": Run(says=("section_1",)),
     "continuum simulate --release 90 --pulled": Run(leaves=("out/release.csv", "out/release.png")),
-    "ros2 launch continuum_manipulator dynamics.launch.xml": Run(
+    "ros2 launch continuum_manipulator dynamics.launch.py": Run(
         stays=True, nodes=("dynamics",), hears=(("/joint_states", 10),)
     ),
     "ros2 topic pub -r 20 /cable_tension_cmd": Run(stays=True, says=("publishing #20:",)),
@@ -65,7 +65,7 @@ WAYS: dict[str, Way] = {
         leaves=("out/diagnosis.html", "out/better.yaml"),
     ),
     "continuum identify": Run(says=("Stiffness K",), leaves=("out/identified.yaml",)),
-    "ros2 launch continuum_hw_imu bench.launch.xml": Run(
+    "ros2 launch continuum_hw_imu bench.launch.py": Run(
         stays=True, nodes=("bench_bridge",), also="emulator_link:={folder}/port emulator_control:={folder}/control"
     ),
     "ros2 topic echo --once /diagnostics": Run(says=("level:",)),

@@ -1,7 +1,6 @@
 """The shipped arms, the launch file and RViz's configuration."""
 
-import re
-import shlex
+import os
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +9,6 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 import yaml
-from ament_index_python.packages import get_package_prefix
 
 from continuum.arm import SECTION_PARAMETERS, load_arm
 from continuum.dynamics.model_file import load_model
@@ -45,43 +43,55 @@ def test_planar_prototype_has_the_two_cables_of_the_dynamic_model() -> None:
         np.testing.assert_allclose(cable_lengths(allen_from_jones(0.0, bend), section)[:2], planar, rtol=1e-12)
 
 
-def launch_root() -> ElementTree.Element:
-    return ElementTree.parse(SHARE / "launch" / "display.launch.xml").getroot()
+@pytest.fixture
+def desktop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Stand-ins for packages that no wheel has, whose programs show their parameter files and end."""
+    for package in ("robot_state_publisher", "joint_state_publisher_gui", "rviz2"):
+        marker = tmp_path / "share" / "ament_index" / "resource_index" / "packages" / package
+        program = tmp_path / "lib" / package / package
+        for path in (marker, program):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.touch(0o755)
+        program.write_text('#!/bin/sh\nfor word; do case "$word" in *.yaml) echo ---; cat "$word";; esac; done\n')
+    monkeypatch.setenv("AMENT_PREFIX_PATH", os.pathsep.join([str(tmp_path), os.environ["AMENT_PREFIX_PATH"]]))
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
 
 
-def performed(text: str, arm: Path, prefix: Path) -> str:
-    """The launch substitutions of the file, performed as launch does: text put in place, nothing quoted."""
-    return re.sub(r"\$\(exec-in-pkg (\w+) (\w+)\)", rf"{prefix}/lib/\2/\1", text).replace("$(var arm)", str(arm))
+def launch(*words: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        ["ros2", "launch", SHARE / "launch" / "display.launch.py", *words], capture_output=True, text=True, check=False
+    )
 
 
+@pytest.mark.usefixtures("desktop")
 @pytest.mark.parametrize("rename", [{}, {" b:": " half_spacing:", " a:": " hole_radius:"}], ids=["short", "long"])
 def test_launch_file_describes_the_arm_it_is_given_where_paths_have_spaces(tmp_path: Path, rename: dict) -> None:
-    prefix = tmp_path / "an install"
-    prefix.symlink_to(get_package_prefix("continuum_description"))
+    """And it ends with an exit code of its own when the publisher ends."""
     arm = tmp_path / "an arm.yaml"
     content = (SHARE / "config" / "published_sections.yaml").read_text()
     for short, long in rename.items():
         content = content.replace(short, long)
     arm.write_text(content)
-    parameter = launch_root().find("node[@exec='robot_state_publisher']/param[@name='robot_description']")
-    command, on_stderr = re.fullmatch(r"\$\(command '(.*)' '(\w+)'\)", parameter.get("value")).groups()
-    assert on_stderr == "warn"  # by default, a line there ends the launch
-    result = subprocess.run(
-        shlex.split(performed(command, arm, prefix)), capture_output=True, text=True, timeout=120, check=False
-    )
-    assert result.returncode == 0
+    result = launch(f"arm:={arm}", "gui:=false", "rviz:=false")
+    assert result.returncode == 1
+    assert "robot_state_publisher ended with exit code 0; the launch requires it" in result.stdout
     assert result.stderr.count("warning: ") == len(result.stderr.splitlines()) == 2  # mass and inertia are left out
-    links = {link.get("name") for link in ElementTree.fromstring(result.stdout).iter("link")}
+    said = [line for line in result.stdout.splitlines() if line.startswith("[robot_state_publisher-1]")]
+    files = yaml.safe_load_all("\n".join(line.partition("] ")[2] for line in said))
+    given = [entry["ros__parameters"] for file in files for entry in file.values()]
+    (description,) = (one["robot_description"] for one in given if "robot_description" in one)
+    links = {link.get("name") for link in ElementTree.fromstring(description).iter("link")}
     assert {BASE_LINK, "section_3_tip", "section_3_disc_4"} <= links
 
 
-def test_launch_file_names_arguments_it_has_and_files_that_exist() -> None:
-    root = launch_root()
-    declared = {argument.get("name") for argument in root.iter("arg")}
-    text = (SHARE / "launch" / "display.launch.xml").read_text()
-    assert declared == set(re.findall(r"\$\(var (\w+)\)", text)) == {"arm", "gui", "rviz", "use_sim_time"}
-    named = re.findall(r"\$\(find-pkg-share continuum_description\)/([\w./]+)", text)
-    assert [file for file in named if (SHARE / file).is_file()] == named != []
+@pytest.mark.usefixtures("desktop")
+def test_launch_file_starts_sliders_and_rviz_with_its_configuration() -> None:
+    lines = launch("--print").stdout.splitlines()
+    assert [line.partition(":")[0] for line in lines] == [
+        "robot_state_publisher", "joint_state_publisher_gui", "rviz2",
+    ]  # fmt: skip
+    (config,) = (word for word in lines[-1].split() if word.endswith(".rviz"))
+    assert Path(config).is_file()
 
 
 def test_rviz_shows_the_topics_of_the_nodes() -> None:

@@ -1,4 +1,4 @@
-"""The launch file of arms as a process, for tests."""
+"""A launch as a process, by default that of arms, for tests."""
 
 import os
 import signal
@@ -15,16 +15,17 @@ from harness.waiting import LONG, wait_until
 from continuum.arm import Arm, Section, arm_to_mapping
 
 LAUNCH = Path(__file__).resolve().parents[1] / "launch" / "arm.launch.py"
+ARM = (str(LAUNCH), "markers:=false")
 
 
-class ArmLaunch:
-    """A launch of `arm.launch.py`, with what it says."""
+class Launch:
+    """A launch, with what it says."""
 
     def __init__(self, domain: int, folder: Path, mark: Mark, arguments: tuple[str, ...]) -> None:
         self._said = tempfile.TemporaryFile()  # noqa: SIM115  (closed by close)
         self.mark = mark
         self.process = subprocess.Popen(
-            ["ros2", "launch", str(LAUNCH), "markers:=false", *arguments],
+            ["ros2", "launch", *arguments],
             env=os.environ | mark.environment | {"ROS_DOMAIN_ID": str(domain), "ROS_LOG_DIR": str(folder / "log")},
             stdout=self._said,
             stderr=subprocess.STDOUT,
@@ -54,9 +55,9 @@ class ArmLaunch:
 
 
 @contextmanager
-def launched(domain: int, folder: Path, *arguments: str) -> Iterator[ArmLaunch]:
-    """A launch with these arguments, none of whose processes outlives the block."""
-    launch = ArmLaunch(domain, folder, Mark(), arguments)
+def launched(domain: int, folder: Path, *arguments: str, file: tuple[str, ...] = ARM) -> Iterator[Launch]:
+    """A launch of a file with these arguments, none of whose processes outlives the block."""
+    launch = Launch(domain, folder, Mark(), (*file, *arguments))
     try:
         yield launch
     finally:

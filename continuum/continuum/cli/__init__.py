@@ -38,7 +38,7 @@ what you can do next:
   ros2 launch trajectory_generator arm.launch.py       start the nodes of an arm
   ros2 launch trajectory_generator arm.launch.py trajectory:=helix.yaml
                                           the same, along the thesis's helix
-  ros2 launch continuum_manipulator dynamics.launch.xml
+  ros2 launch continuum_manipulator dynamics.launch.py
                                           simulate an arm that tensions pull
   ros2 bag record /cable_states           record the states of cables
 

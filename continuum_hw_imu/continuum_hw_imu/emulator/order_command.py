@@ -50,6 +50,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("orders", nargs="+", metavar="ORDER", help='for example "unplug for=2"')
     parser.add_argument(
         "--control", type=Path, default=_CONTROL, metavar="PATH",
-        help="the emulator's socket; default %(default)s, that of bench.launch.xml",
+        help="the emulator's socket; default %(default)s, that of bench.launch.py",
     )  # fmt: skip
     return parser

@@ -15,7 +15,7 @@ from ros2_standin.errors import UserError
 
 NOTE = (
     "This is not the stock ros2, but a small stand-in that this workspace's set-up provides for machines without a "
-    "ROS 2 installation. It covers run, launch (XML, in part Python), topic, node, param, service, lifecycle, "
+    "ROS 2 installation. It covers run, launch (in part), topic, node, param, service, lifecycle, "
     "interface, bag (rosbag2, MCAP) and pkg, in the stock grammar. A stock ros2 on the PATH has precedence."
 )
 

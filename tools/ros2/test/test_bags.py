@@ -73,9 +73,9 @@ def test_played_messages_are_those_recorded(ros2, bag: Path, tmp_path: Path) -> 
     """Play over and over, record that, and find the numbers in turn, nothing missing between them."""
     player = ros2.start("bag", "play", bag, "--loop", "--rate", "2", "--clock", "50", "--remap", "/numbers:=/again")
     recorder = ros2.start("bag", "record", "/again", "-o", tmp_path / "copy")
-    clock = ros2("topic", "echo", "--once", "/clock", "--field", "clock.sec", "--spin-time", "30")
+    clock = ros2("topic", "echo", "--once", "/clock", "--field", "clock.sec", "--spin-time", "120")
     assert clock.stdout == "1700000000\n---\n"
-    received = ros2.start("topic", "echo", "/again", "--field", "data", "--spin-time", "30")
+    received = ros2.start("topic", "echo", "/again", "--field", "data", "--spin-time", "120")
     received.wait_for("---\n", count=2 * COUNT)
     assert recorder.stop() == 0
     assert player.stop() == 2

@@ -37,21 +37,21 @@ def test_publish_and_echo(ros2) -> None:
     values = "{header: {frame_id: base, stamp: now}, name: [a, b], position: [1, 2.5]}"
     publisher = ros2.start("topic", "pub", "-r", "20", "/joints", "sensor_msgs/msg/JointState", values)
     publisher.wait_for("publishing #1")
-    echoed = ros2("topic", "echo", "/joints", "--once", "--spin-time", "30").stdout
+    echoed = ros2("topic", "echo", "/joints", "--once", "--spin-time", "120").stdout
     assert echoed.endswith("---\n")
     message = yaml.safe_load(echoed.removesuffix("---\n"))
     assert message["name"] == ["a", "b"]
     assert message["position"] == [1.0, 2.5]
     assert message["header"]["frame_id"] == "base"
     assert message["header"]["stamp"]["sec"] > 1_000_000_000
-    line = ros2("topic", "echo", "joints", "--once", "--csv", "--field", "position", "--spin-time", "30").stdout
+    line = ros2("topic", "echo", "joints", "--once", "--csv", "--field", "position", "--spin-time", "120").stdout
     assert line == "1.0,2.5\n"
-    assert ros2("topic", "type", "/joints", "--spin-time", "30").stdout == "sensor_msgs/msg/JointState\n"
-    info = ros2("topic", "info", "/joints", "--spin-time", "30").stdout
+    assert ros2("topic", "type", "/joints", "--spin-time", "120").stdout == "sensor_msgs/msg/JointState\n"
+    info = ros2("topic", "info", "/joints", "--spin-time", "120").stdout
     assert info == "Type: sensor_msgs/msg/JointState\nPublisher count: 1\nSubscription count: 0\n"
-    assert "/joints [sensor_msgs/msg/JointState]\n" in ros2("topic", "list", "-t", "--spin-time", "30").stdout
-    assert ros2("topic", "find", "sensor_msgs/msg/JointState", "--spin-time", "30").stdout == "/joints\n"
-    assert "no 'nix' in" in ros2("topic", "echo", "/joints", "--field", "nix", "--spin-time", "30", code=1).stderr
+    assert "/joints [sensor_msgs/msg/JointState]\n" in ros2("topic", "list", "-t", "--spin-time", "120").stdout
+    assert ros2("topic", "find", "sensor_msgs/msg/JointState", "--spin-time", "120").stdout == "/joints\n"
+    assert "no 'nix' in" in ros2("topic", "echo", "/joints", "--field", "nix", "--spin-time", "120", code=1).stderr
     rate = ros2.start("topic", "hz", "/joints")
     rate.wait_for("average rate: ")
     assert rate.stop() == 2
@@ -81,14 +81,18 @@ def test_what_is_not_there(ros2) -> None:
 
 def test_parameters_of_a_launched_node(ros2, program, tmp_path) -> None:
     program("plant", NODE)
-    file = tmp_path / "test.launch.xml"
-    file.write_text(
-        '<launch><node pkg="demo" exec="plant" name="plant" namespace="lab" output="screen">'
-        '<param name="gain" value="2.5"/></node></launch>'
-    )
+    file = tmp_path / "test.launch.py"
+    file.write_text("""
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription([Node(package="demo", executable="plant", name="plant", namespace="lab", output="screen",
+                                   parameters=[{"gain": 2.5}])])
+""")
     launch = ros2.start("launch", file)
     launch.wait_for("[plant-1] ready")
-    node, wait = "/lab/plant", ("--spin-time", "30")
+    node, wait = "/lab/plant", ("--spin-time", "120")
     assert ros2("param", "get", node, "gain", *wait).stdout == "Double value is: 2.5\n"
     assert ros2("param", "set", node, "gain", "3.5", *wait).stdout == "Set parameter successful\n"
     assert ros2("param", "get", node, "gain", "--hide-type", *wait).stdout == "3.5\n"
@@ -128,7 +132,7 @@ def test_a_managed_node_goes_through_its_states(ros2, program) -> None:
     program("managed", MANAGED)
     node = ros2.start("run", "demo", "managed")
     node.wait_for("ready")
-    wait = ("--spin-time", "30")
+    wait = ("--spin-time", "120")
     assert ros2("lifecycle", "nodes", *wait).stdout == "/managed\n"
     assert ros2("lifecycle", "get", "managed", *wait).stdout == "unconfigured [1]\n"
     assert "allows: configure [1]" in ros2("lifecycle", "set", "managed", "activate", *wait, code=1).stderr

@@ -63,7 +63,7 @@ def test_a_function_of_an_equation_is_used_by_one_of_its_tests(row: Row) -> None
         "continuum model new",
         "make demo",
         "ros2 run continuum_manipulator forward_kinematics",
-        "ros2 launch continuum_manipulator dynamics.launch.xml",
+        "ros2 launch continuum_manipulator dynamics.launch.py",
         "docs/errata.md",
     ],
 )
@@ -87,7 +87,7 @@ def test_what_is_there_is_found(name: str) -> None:
         "ros2 run continuum_manipulator backward_kinematics",
         "ros2 run continuum_manipulation forward_kinematics",
         "ros2 run continuum urdf",  # an entry point of another kind
-        "ros2 launch continuum_manipulator statics.launch.xml",
+        "ros2 launch continuum_manipulator statics.launch.py",
         "docs/error.md",
         "docs/pictures",
         "something like it",

@@ -47,13 +47,13 @@ async def _end_of(process: subprocess.Popen[bytes]) -> None:
 
 
 class Child:
-    """A process, started again where its launch file says so.
+    """A process.
 
     Args:
         label: its name with its number in the launch.
 
     Attributes:
-        returncode: of its last end, negative after a signal.
+        returncode: negative after a signal.
     """
 
     def __init__(self, spec: ProcessSpec, label: str, screen: Screen) -> None:
@@ -65,26 +65,14 @@ class Child:
         self._stopping = asyncio.Event()
 
     async def run(self) -> None:
-        """Start the process and stay with it to its last end.
+        """Start the process and stay with it to its end.
 
         Raises:
             OSError: it cannot be started.
         """
-        starts = 0
-        while not self._stopping.is_set():
-            await self._run_once()
-            starts += 1
-            if not self.spec.respawn or 0 <= self.spec.respawn_limit < starts:
-                break
-            with contextlib.suppress(TimeoutError):
-                await asyncio.wait_for(self._stopping.wait(), self.spec.respawn_delay)
-
-    async def _run_once(self) -> None:
         # Not asyncio's own subprocess: in Python 3.12 it takes a process for alive while a helper holds its pipes.
         process = subprocess.Popen(
             self.spec.command,
-            env=self.spec.environment,
-            cwd=self.spec.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             # A session of its own: a terminal's Ctrl-C reaches it through us alone, once.

@@ -7,11 +7,10 @@ import asyncio
 import dataclasses
 from pathlib import Path
 
+from continuum.did_you_mean import did_you_mean
 from ros2_standin.errors import UserError
-from ros2_standin.launch.argument import Argument
-from ros2_standin.launch.interpreter import Interpreter
-from ros2_standin.launch.parameter_values import ParameterFiles
-from ros2_standin.launch.processes import LogLine
+from ros2_standin.launch.launch_file import LaunchFile, ParameterFiles
+from ros2_standin.launch.python_api import DeclareLaunchArgument
 from ros2_standin.launch.supervisor import supervise
 from ros2_standin.packages import package_share
 
@@ -52,21 +51,22 @@ def launch_verb(args: argparse.Namespace) -> int:
     file, words = find_launch_file(args.package_name, args.words)
     given = given_arguments(words)
     with ParameterFiles() as files:
-        interpreter = Interpreter(files, given, only_arguments=args.show_args)
-        interpreter.run(file)
+        launch = LaunchFile(files, given, only_arguments=args.show_args)
+        launch.read(file)
         if args.show_args:
-            print(arguments_text(list(interpreter.arguments.values())))
+            print(arguments_text(list(launch.arguments.values())))
             return 0
-        steps = interpreter.steps
+        for name in given.keys() - launch.arguments.keys():
+            raise UserError(f"the launch file has no argument '{name}'{did_you_mean(name, launch.arguments)}")
+        processes = launch.processes
         if args.show_all_subprocesses_output:
-            shown = {"stdout_to_screen": True, "stderr_to_screen": True}
-            steps = [step if isinstance(step, LogLine) else dataclasses.replace(step, **shown) for step in steps]
+            processes = [
+                dataclasses.replace(process, stdout_to_screen=True, stderr_to_screen=True) for process in processes
+            ]
         if args.print:
-            print("\n".join(step.text if isinstance(step, LogLine) else f"{step.name}: {step.line}" for step in steps))
+            print("\n".join(f"{process.name}: {process.line}" for process in processes))
             return 0
-        for name in given.keys() - interpreter.arguments.keys():
-            steps.insert(0, LogLine("warning", f"the launch file has no argument '{name}'"))
-        return asyncio.run(supervise(steps, interpreter.exit_handlers))
+        return asyncio.run(supervise(processes, launch.exit_handlers))
 
 
 def find_launch_file(first: str, words: list[str]) -> tuple[Path, list[str]]:
@@ -81,18 +81,18 @@ def find_launch_file(first: str, words: list[str]) -> tuple[Path, list[str]]:
     """
     if Path(first).is_file():
         return Path(first), words
-    if "/" in first or first.endswith((".xml", ".py")):
+    if "/" in first or first.endswith(".py"):
         raise UserError(f"No launch file '{first}'")
     share = package_share(first)
     if not words or ":=" in words[0]:
-        files = [path.name for path in share.rglob("*.launch.*") if path.suffix in (".xml", ".py")]
-        names = ", ".join(sorted(files)) or "none"
+        names = ", ".join(sorted(path.name for path in share.rglob("*.launch.py"))) or "none"
         raise UserError(f"A launch file name is required after the package; '{first}' has: {names}")
     found = sorted(path for path in share.rglob(words[0]) if path.is_file())
     if len(found) != 1:
         problem = "was not found" if not found else "is there more than once"
+        near = did_you_mean(words[0], [path.name for path in share.rglob("*.launch.py")])
         raise UserError(
-            f"file '{words[0]}' {problem} in the share directory of package '{first}' which is at '{share}'"
+            f"file '{words[0]}' {problem} in the share directory of package '{first}' which is at '{share}'{near}"
         )
     return found[0], words[1:]
 
@@ -112,15 +112,15 @@ def given_arguments(words: list[str]) -> dict[str, str]:
     return given
 
 
-def arguments_text(arguments: list[Argument]) -> str:
+def arguments_text(arguments: list[DeclareLaunchArgument]) -> str:
     """The arguments of a launch file as ``--show-args`` tells them."""
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
     for argument in arguments:
         lines += ["", f"    '{argument.name}':", f"        {argument.description or 'no description given'}"]
         if argument.choices:
             lines.append(f"        one of: {', '.join(argument.choices)}")
-        if argument.default is not None:
-            lines.append(f"        (default: '{argument.default}')")
+        if argument.default_value is not None:
+            lines.append(f"        (default: '{argument.default_value}')")
     if not arguments:
         lines += ["", "    No arguments."]
     return "\n".join(lines)

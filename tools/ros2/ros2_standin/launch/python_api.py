@@ -1,7 +1,7 @@
-"""What Python launch files import, as far as it is covered: a part of the stock ``launch`` and ``launch_ros``.
+"""What launch files import, as far as it is covered: a part of the stock ``launch`` and ``launch_ros``.
 
 Names and keywords are those of ROS 2 Jazzy, and no others are taken. These classes only hold what a file says;
-`ros2_standin.launch.python_file` reads them.
+`ros2_standin.launch.launch_file` reads them.
 """
 
 from __future__ import annotations
@@ -69,20 +69,15 @@ class RegisterEventHandler:
     event_handler: OnProcessExit
 
 
-@dataclass
-class AnyLaunchDescriptionSource:
-    """A launch file of any covered kind."""
+@dataclass(kw_only=True)
+class ExecuteProcess:
+    """A program; times are texts in s."""
 
-    launch_file_path: str | Path
-
-
-@dataclass
-class IncludeLaunchDescription:
-    """Another launch file, with values for its arguments."""
-
-    launch_description_source: AnyLaunchDescriptionSource
-    _: KW_ONLY
-    launch_arguments: Iterable[tuple[str, str]] = ()
+    cmd: Sequence[str]
+    name: str | None = None
+    output: str = "log"
+    sigterm_timeout: str = "5"
+    sigkill_timeout: str = "5"
 
 
 @dataclass
@@ -96,25 +91,26 @@ class ParameterValue:
 
 @dataclass(kw_only=True)
 class Node:
-    """A node; its parameters are names of files, or mappings of values."""
+    """A node; its parameters are names of files, or mappings of values, which may hold mappings."""
 
     package: str
     executable: str
     name: str | None = None
+    namespace: str | None = None
     exec_name: str | None = None
     output: str = "log"
     parameters: Sequence[str | Path | dict[str, object]] = ()
     remappings: Iterable[tuple[str, str]] = ()
+    arguments: Sequence[str] = ()
 
 
 MODULES: MappingProxyType[str, tuple[type, ...]] = MappingProxyType(
     {
         "launch": (LaunchContext, LaunchDescription),
-        "launch.actions": (DeclareLaunchArgument, IncludeLaunchDescription, OpaqueFunction, RegisterEventHandler),
+        "launch.actions": (DeclareLaunchArgument, ExecuteProcess, OpaqueFunction, RegisterEventHandler),
         "launch.event_handlers": (OnProcessExit,),
         "launch.events": (),
         "launch.events.process": (ProcessExited,),
-        "launch.launch_description_sources": (AnyLaunchDescriptionSource,),
         "launch_ros": (),
         "launch_ros.actions": (Node,),
         "launch_ros.parameter_descriptions": (ParameterValue,),

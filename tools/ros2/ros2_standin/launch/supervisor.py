@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterable
 
 from ros2_standin.errors import UserError
 from ros2_standin.launch.child import Child
-from ros2_standin.launch.processes import LogLine, ProcessSpec
+from ros2_standin.launch.launch_file import errors_in_one_line
+from ros2_standin.launch.processes import ProcessSpec
 from ros2_standin.launch.python_api import LaunchContext, ProcessExited
-from ros2_standin.launch.python_file import errors_in_one_line
 from ros2_standin.launch.screen import Screen
 
 _SIGNALS = {
@@ -23,14 +23,14 @@ _SIGNALS = {
 ExitHandler = Callable[[ProcessExited, LaunchContext], object]
 
 
-async def supervise(steps: list[ProcessSpec | LogLine], exit_handlers: Iterable[ExitHandler] = ()) -> int:
+async def supervise(processes: list[ProcessSpec], exit_handlers: Iterable[ExitHandler] = ()) -> int:
     """Start everything, pass its lines on, and end when the last process ends, or all of them when asked to.
 
     Returns:
         0, also after an interrupt or the death of a process, as the stock launch; 1 if a process could not be started,
         or a handler raised something, which ends the launch.
     """
-    return await _Supervisor(exit_handlers).run(steps)
+    return await _Supervisor(exit_handlers).run(processes)
 
 
 class _Supervisor:
@@ -40,19 +40,14 @@ class _Supervisor:
         self._screen = Screen(on_broken=self._ending.set)
         self._failed = False
 
-    async def run(self, steps: list[ProcessSpec | LogLine]) -> int:
+    async def run(self, processes: list[ProcessSpec]) -> int:
         loop = asyncio.get_running_loop()
         for number in _SIGNALS:
             if signal.getsignal(number) is not signal.SIG_IGN:
                 loop.add_signal_handler(number, self._signalled, number)
         self._screen.say("info", "launch", f"All log files can be found below {self._screen.folder}")
-        tasks: list[asyncio.Task] = []
-        for step in steps:
-            if isinstance(step, LogLine):
-                self._screen.say(step.level, "launch.user", step.text)
-            else:
-                child = Child(step, f"{step.name}-{len(tasks) + 1}", self._screen)
-                tasks.append(asyncio.create_task(self._attend(child)))
+        children = [Child(process, f"{process.name}-{i}", self._screen) for i, process in enumerate(processes, start=1)]
+        tasks = [asyncio.create_task(self._attend(child)) for child in children]
         if tasks:
             await asyncio.wait(tasks)
         self._screen.close()
@@ -83,9 +78,6 @@ class _Supervisor:
         except UserError as error:
             self._failed = True
             self._screen.say("error", "launch", str(error))
-            self._ending.set()
-        if child.spec.ends_launch and not self._ending.is_set():
-            self._screen.say("info", "launch", f"process[{child.label}] was required: shutting down launched system")
             self._ending.set()
 
     def _report_exit(self, child: Child) -> None:
