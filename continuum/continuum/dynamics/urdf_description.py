@@ -27,6 +27,11 @@ _UNREADABLE = (
 )
 """Exceptions of yourdfpy on a damaged description."""
 
+_EXPAND = "expand it first: xacro ARM.urdf.xacro > ARM.urdf"
+_XACRO_MARKS = (b"${", b"xacro:")
+_XACRO_DEFINITIONS = ("property", "arg", "macro")
+"""Elements of xacro that alone put nothing into a description."""
+
 
 @dataclass(frozen=True)
 class Body:
@@ -66,11 +71,14 @@ class Description:
             raise FileError(path, "has a document type declaration, which descriptions must not have")
         try:
             root = ElementTree.fromstring(data)
+            _without_namespaces(path, root)
             robot = yourdfpy.URDF.load(
-                io.BytesIO(data), build_scene_graph=False, load_meshes=False, build_collision_scene_graph=False
-            ).robot
+                io.BytesIO(ElementTree.tostring(root)),
+                build_scene_graph=False, load_meshes=False, build_collision_scene_graph=False,
+            ).robot  # fmt: skip
         except _UNREADABLE as error:
-            raise FileError(path, f"cannot be read as a URDF ({type(error).__name__}: {error})") from error
+            hint = f"; {_EXPAND}" if any(mark in data for mark in _XACRO_MARKS) else ""
+            raise FileError(path, f"cannot be read as a URDF ({type(error).__name__}: {error}){hint}") from error
         _check_text(path, root)
         self._links = {link.name: link for link in robot.links}
         self._beyond: dict[str, list[yourdfpy.urdf.Joint]] = {name: [] for name in self._links}
@@ -122,6 +130,31 @@ class Description:
                     allowed = ", ".join((*_TURNING, "fixed"))
                     raise FileError(self._path, f"has the joint {joint.name}, which is {kind}; allowed: {allowed}")
         return group
+
+
+def _without_namespaces(path: Path, root: ElementTree.Element) -> None:
+    """Rename elements to their names without namespace, as a namespace does not change what a URDF says.
+
+    Definitions of xacro that were left over are taken out; what xacro would put in the place of others is missing.
+
+    Raises:
+        FileError: the root is no ``robot``, or has elements that xacro has not replaced.
+    """
+    for element in list(root):
+        if _of_xacro(element) in _XACRO_DEFINITIONS:
+            root.remove(element)
+    for element in root.iter():
+        if name := _of_xacro(element):
+            raise FileError(path, f"has the element xacro:{name}; {_EXPAND}")
+        element.tag = str(element.tag).rpartition("}")[2]
+    if root.tag != "robot":
+        raise FileError(path, f"is not a URDF: its root element is {root.tag}, not robot")
+
+
+def _of_xacro(element: ElementTree.Element) -> str:
+    """Return the name of an element of xacro; empty if it is another one."""
+    space, _, name = str(element.tag).rpartition("}")
+    return name if space.rstrip("/").endswith("xacro") else ""
 
 
 def _check_text(path: Path, root: ElementTree.Element) -> None:
