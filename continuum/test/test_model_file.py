@@ -110,6 +110,14 @@ def test_defaults_sources_and_one_number_for_all_joints() -> None:
     assert model_from_mapping({key: block[key] for key in ("n_joints", "parameters")}).effects == ()
 
 
+def test_zeros_of_joints_may_be_in_degrees() -> None:
+    block = content(2)
+    block["joints"] = ["hip", {"name": "knee", "sign": -1, "zero": {"value": 90, "unit": "deg"}}]
+    hip, knee = model_from_mapping(block).joints
+    assert (hip.name, hip.sign, hip.zero) == ("hip", 1, 0)
+    assert (knee.name, knee.sign, knee.zero) == ("knee", -1, pytest.approx(np.pi / 2))
+
+
 Change = Callable[[dict], object]  # type: ignore[type-arg]
 BAD: dict[str, tuple[Change, str]] = {
     "unknown block": (lambda b: b.update(parameter={}), "parameter"),
@@ -129,6 +137,20 @@ BAD: dict[str, tuple[Change, str]] = {
     ),
     "no joints": (lambda b: b.pop("n_joints"), "n_joints"),
     "too many joints": (lambda b: b.update(n_joints=1001), "n_joints"),
+    "joints without names": (lambda b: b.update(joints=3), "joints"),
+    "fewer names than joints": (lambda b: b.update(joints=["hip", "knee"]), "joints"),
+    "one name twice": (lambda b: b.update(joints=["hip", "knee", "hip"]), "joints"),
+    "number for a name": (lambda b: b.update(joints=[1, 2, 3]), "joints"),
+    "sign that is none": (lambda b: b.update(joints=["a", "b", {"name": "c", "sign": 2}]), "joints"),
+    "zero in metres": (
+        lambda b: b.update(joints=["a", {"name": "b", "zero": {"value": 1, "unit": "m"}}, "c"]),
+        "joints[2].zero.unit",
+    ),
+    "zero that is text": (
+        lambda b: b.update(joints=["a", {"name": "b", "zero": {"value": "x"}}, "c"]),
+        "joints[2].zero.value",
+    ),
+    "unknown key of a joint": (lambda b: b.update(joints=["a", {"names": "b"}, "c"]), "joints[2].names"),
     "unknown effect": (lambda b: b.update(effects={"ghost": {}}), "ghost"),
     "effects that are a list": (lambda b: b.update(effects=["wind"]), "effects"),
     "unknown parameter of an effect": (

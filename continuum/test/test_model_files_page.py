@@ -37,3 +37,6 @@ def test_the_example_is_a_model() -> None:
     (example,) = re.findall(r"```yaml\n(.*?)```", PAGE, re.DOTALL)
     model = model_from_mapping(yaml.safe_load(example))
     assert (model.n_joints, model.inputs) == (2, InputKind.JOINT_TORQUES)
+    (entry,) = re.findall(r"`(\{name: .*?\}\})`", PAGE, re.DOTALL)
+    (joint,) = model_from_mapping({**yaml.safe_load(example), "joints": ["shoulder", yaml.safe_load(entry)]}).joints[1:]
+    assert (joint.name, joint.sign) == ("elbow", -1)

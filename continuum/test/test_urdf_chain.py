@@ -1,5 +1,7 @@
 """Models from URDFs move as MuJoCo says that the same URDF does; what is no planar chain is refused."""
 
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -9,7 +11,8 @@ import pytest
 from continuum.cli import main
 from continuum.dynamics.balance import balance
 from continuum.dynamics.commented_model import commented_model
-from continuum.dynamics.model_file import load_model
+from continuum.dynamics.model import NamedJoint
+from continuum.dynamics.model_file import load_model, save_model
 from continuum.dynamics.urdf_chain import UrdfChain, chain_from_urdf
 from continuum.errors import FileError
 
@@ -80,11 +83,63 @@ def test_torques_are_those_of_mujoco(n: int, seed: int, tmp_path: Path) -> None:
     assert chain.tip == "tip"
 
 
+NAMESPACES = {
+    "default": lambda text: text.replace("<robot", '<robot xmlns="https://sim.example.org/urdf"', 1),
+    "of every link": lambda text: text.replace("<link", '<link xmlns="https://sim.example.org/urdf"'),
+    "prefixed": lambda text: re.sub(r"<(/?)(?=\w)", r"<\1u:", text).replace("<u:robot", '<u:robot xmlns:u="urn:u"', 1),
+    "declared for xacro": lambda text: text.replace("<robot", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"', 1),
+    "both": lambda text: text.replace(
+        "<robot", '<robot xmlns="https://sim.example.org/urdf" xmlns:xacro="http://ros.org/wiki/xacro"', 1
+    ),
+    "of extensions": lambda text: text.replace("<robot", '<robot xmlns:drake="http://drake.mit.edu"', 1).replace(
+        "</robot>", '<gazebo><drake:plugin name="x"/></gazebo></robot>'
+    ),
+    "definitions left by xacro": lambda text: text.replace(
+        "<robot", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"', 1
+    ).replace(
+        "</robot>",
+        '<xacro:property name="length" value="0.3"/><xacro:macro name="leg" params="*origin"><link name="leg">'
+        '<xacro:insert_block name="origin"/></link></xacro:macro></robot>',
+    ),
+}
+
+
+@pytest.mark.parametrize("namespace", NAMESPACES)
+def test_namespaces_change_nothing(namespace: str, tmp_path: Path) -> None:
+    text = planar_arm(3, 2)
+    changed = NAMESPACES[namespace](text)
+    assert changed != text
+    plain, found = read(text, tmp_path), read(changed, tmp_path)
+    assert (found.model.joints, found.tip) == (plain.model.joints, plain.tip)
+    for name, value in plain.model.parameters.named().items():
+        np.testing.assert_array_equal(found.model.parameters.named()[name], value, err_msg=name)
+
+
+@pytest.mark.parametrize(
+    ("change", "what"),
+    [
+        (("</robot>", '<xacro:include filename="leg.xacro"/></robot>'), "xacro:include; expand"),
+        (('<link name="base"/>', '<xacro:if value="1"><link name="base"/></xacro:if>'), "xacro:if; expand"),
+        (('<mass value="', '<mass value="${m} '), "expand it first"),
+        (("<robot", "<sdf"), "root element is sdf"),
+    ],
+)
+def test_what_xacro_has_not_replaced_is_refused_with_the_remedy(
+    change: tuple[str, str], what: str, tmp_path: Path
+) -> None:
+    text = planar_arm(2, 1).replace("<robot", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"', 1)
+    assert change[0] in text
+    text = text.replace(change[0], change[1], 1)
+    with pytest.raises(FileError, match=what):
+        read(text.replace("</robot>", "</sdf>") if "<sdf" in text else text, tmp_path)
+
+
 def test_the_command_writes_the_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     chain, out = read(planar_arm(3, 5), tmp_path), tmp_path / "model.yaml"
     assert main(["model", "from-urdf", str(tmp_path / "arm.urdf"), "--out", str(out)]) == 0
     for name, value in load_model(out).parameters.named().items():
         np.testing.assert_array_equal(value, getattr(chain.model.parameters, name), err_msg=name)
+    assert load_model(out).joints == chain.model.joints
     *lines, driven, written = capsys.readouterr().out.splitlines()
     assert (driven, written) == ("3 joints, driven by joint torques", f"written: {out}")
     for line in lines:
@@ -135,11 +190,16 @@ def test_a_model_of_values_is_the_one_that_was_given(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["lamecc_prototype.yaml", "double_pendulum.yaml"])
-def test_a_commented_file_gives_its_model_back(name: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("named", [False, True])
+def test_a_commented_file_gives_its_model_back(name: str, named: bool, tmp_path: Path) -> None:
     model, out = load_model(name), tmp_path / "model.yaml"
+    names = [f"j: {number}, #" for number in range(model.n_joints)] if named else []
+    model = replace(model, joints=tuple(NamedJoint(one, -1 if "1" in one else 1, 0.1) for one in names))
     out.write_text(commented_model(model, ["a joint named\nn_joints: 7"]), encoding="utf-8")
     found = load_model(out)
-    assert (found.inputs, found.sources) == (model.inputs, model.sources)
+    assert (found.inputs, found.sources, found.joints) == (model.inputs, model.sources, model.joints)
+    save_model(model, out)
+    assert load_model(out).joints == model.joints
     for key, value in model.values().items():
         np.testing.assert_array_equal(found.values()[key], value)
 

@@ -14,7 +14,7 @@ import numpy as np
 from continuum.cli.language_option import add_language_option
 from continuum.cli.models import add_model_option, read_model
 from continuum.cli.outputs import announce, check_outputs, write
-from continuum.cli.recordings import read_recordings
+from continuum.cli.recordings import add_recordings, read_recordings
 from continuum.cli.tables import print_table, print_text
 from continuum.errors import InvalidValueError
 from continuum.identification.estimate import Z_95
@@ -37,9 +37,7 @@ def add_to(commands: Any) -> None:
         "curvature", help="compare the bend of an arm at rest with two models", description=__doc__,
         epilog="Thesis chapter 4.3, Fig. 10. Exit codes: 0 done, 2 wrong usage, file or value.",
     )  # fmt: skip
-    parser.add_argument(
-        "data", metavar="RECORDING", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
-    )
+    add_recordings(parser)
     add_model_option(parser, "model file of an arm with cables")
     parser.add_argument(
         "--hold",
@@ -68,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
     model = read_model(options.model, options.section)
     model.require_cables("continuum curvature")
     tr = translator(options.lang)
-    recordings = read_recordings(options.data, tr)
+    recordings = read_recordings(options, model, tr)
     # Here, so that files that are refused need not wait for numba.
     from continuum.curvature.answer import answer, holds_of
     from continuum.curvature.table import write_csv, write_json

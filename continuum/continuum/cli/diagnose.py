@@ -15,7 +15,7 @@ from continuum.cli.completion import completes
 from continuum.cli.language_option import add_language_option
 from continuum.cli.models import add_model_option, read_model
 from continuum.cli.outputs import announce, check_outputs, write
-from continuum.cli.recordings import read_recordings
+from continuum.cli.recordings import add_recordings, bag_words, read_recordings
 from continuum.cli.tables import print_pairs, print_text
 from continuum.did_you_mean import did_you_mean
 from continuum.dynamics.effect_lookup import effect_names
@@ -41,9 +41,7 @@ def add_to(commands: Any) -> None:
         "diagnose", help="find what a simulation gets wrong about recordings, and why", description=__doc__,
         epilog="Exit codes: 0 adequate, 3 a cause is named, 4 ambiguous, 5 unknown; 2 wrong usage or data, 130 Ctrl-C.",
     )  # fmt: skip
-    parser.add_argument(
-        "data", metavar="RECORDING", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
-    )
+    add_recordings(parser)
     add_model_option(parser)
     parser.add_argument("--json", metavar="OUT.json", help="write verdict, parameters and scores for machines")
     parser.add_argument("--report", metavar="OUT.html", help="write a self-contained page with charts")
@@ -82,7 +80,8 @@ def run(options: argparse.Namespace) -> int:
     _check_effects(options)
     check_outputs((*options.data, options.model), [options.json, options.extended], pages=[options.report])
     tr = translator(options.lang)
-    model, recordings = read_model(options.model, options.section), read_recordings(options.data, tr)
+    model = read_model(options.model, options.section)
+    recordings = read_recordings(options, model, tr)
     for recording in recordings:
         if recording.n_joints != model.n_joints:
             allowed = f"{model.n_joints}, as {options.model} has; --model names another"
@@ -111,7 +110,9 @@ def run(options: argparse.Namespace) -> int:
     print(tr("Recordings: {recordings}. Model: {model}.", **_inputs(options)))
     announce([options.json, options.report, options.extended], tr=tr)
     if options.extended is not None:
-        shown = before_after_command(options.data[0], options.model, options.section, options.extended)
+        shown = before_after_command(
+            options.data[0], options.model, options.section, options.extended, bag_words(options)
+        )
         print(tr("see before and after: {command}", command=printable(shown)))
     return EXIT_CODES[result.verdict.kind.value]
 

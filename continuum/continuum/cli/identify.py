@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from continuum.cli.language_option import add_language_option
 from continuum.cli.models import add_model_option, read_model
 from continuum.cli.outputs import announce, check_outputs, write
-from continuum.cli.recordings import read_recordings
+from continuum.cli.recordings import add_recordings, read_recordings
 from continuum.cli.tables import print_pairs, print_table, print_text
 from continuum.errors import InvalidValueError
 from continuum.languages import ENGLISH, Translator, translator
@@ -31,9 +31,7 @@ def add_to(commands: Any) -> None:
         epilog="Thesis chapters 3.3 and 4.2: Table 3 (values), Table 4 (NRMSE of every recording, Eq. 19), Fig. 9 "
         "(--report). Exit codes: 0 done, 2 wrong usage, file or value.",
     )  # fmt: skip
-    parser.add_argument(
-        "data", metavar="RECORDING", nargs="+", help="recordings: CSV files (t_s,q1_deg,..) or rosbag2 folders"
-    )
+    add_recordings(parser)
     add_model_option(parser, "model file with masses, lengths and start values")
     parser.add_argument(
         "--method", choices=("fit", "swarm"), default="fit",
@@ -73,7 +71,8 @@ def run(options: argparse.Namespace) -> int:
         raise InvalidValueError("--seed", options.seed, "a whole number >= 0")
     fitted = chosen_runs(options.identify, options.validate, len(options.data))
     tr = translator(options.lang)
-    model, recordings = read_model(options.model, options.section), read_recordings(options.data, tr)
+    model = read_model(options.model, options.section)
+    recordings = read_recordings(options, model, tr)
     from continuum.discovery.refit import check_recordings  # here, so that what is refused need not wait for numba
 
     check_recordings(recordings, model)

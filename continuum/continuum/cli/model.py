@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 from continuum.cli.outputs import announce, check_outputs, write
 from continuum.dynamics.parameters import PARAMETERS, Parameter
 from continuum.errors import ContinuumError, InvalidValueError
 from continuum.printable import one_line
 from continuum.whole_file import write_whole
+
+if TYPE_CHECKING:
+    from continuum.dynamics.model import NamedJoint
 
 _GIVEN = "given to continuum model new"
 _MOST_JOINTS = 1000
@@ -104,21 +107,20 @@ def _from_urdf(options: argparse.Namespace) -> int:
     named = chain.model.parameters.named()
     values = {name: [float(one) for one in named[name]] for name in _FROM_URDF}
     tip = f"the frame of {chain.tip}" if chain.tip else "twice as far as the last centre of mass: the URDF has no tip"
-    lines = [f"tip: {tip}", *_angles(chain.joints, chain.signs.tolist(), chain.zeros.tolist())]
-    return _write(options.out, chain.model.n_joints, "joint_torques", values, str(options.urdf), lines)
-
-
-def _angles(names: Sequence[str], signs: Sequence[float], zeros: Sequence[float]) -> list[str]:
-    """Return the model's angles as functions of those of the description."""
-    lines = []
-    for number, (name, sign, zero) in enumerate(zip(names, signs, zeros, strict=True), 1):
-        offset = f" {'-' if zero < 0 else '+'} {abs(math.degrees(zero)):.6g} deg" if abs(zero) > 1e-9 else ""
-        lines.append(f"q{number} = {'-' if sign < 0 else ''}{name}{offset}")
-    return lines
+    lines = [f"tip: {tip}", *(one.in_words(number) for number, one in enumerate(chain.model.joints, 1))]
+    return _write(
+        options.out, chain.model.n_joints, "joint_torques", values, str(options.urdf), lines, chain.model.joints
+    )
 
 
 def _write(
-    path: str, n_joints: int, inputs: str, values: Mapping[str, list[float]], source: str, lines: Sequence[str] = ()
+    path: str,
+    n_joints: int,
+    inputs: str,
+    values: Mapping[str, list[float]],
+    source: str,
+    lines: Sequence[str] = (),
+    joints: tuple[NamedJoint, ...] = (),
 ) -> int:
     """Write the checked model with comment lines, and print these lines."""
     from continuum.dynamics.commented_model import commented_model
@@ -128,11 +130,12 @@ def _write(
         name: {"value": value, "unit": PARAMETERS[name].unit, "source": source} for name, value in values.items()
     }
     model = model_from_mapping({"n_joints": n_joints, "inputs": inputs, "parameters": parameters})
+    model = replace(model, joints=joints)
     write(path, lambda file: write_whole(file, commented_model(model, lines)))
     for line in lines:
         print(one_line(line))
-    joints = "1 joint" if n_joints == 1 else f"{n_joints} joints"
-    print(f"{joints}, driven by {inputs.replace('_', ' ')}")
+    how_many = "1 joint" if n_joints == 1 else f"{n_joints} joints"
+    print(f"{how_many}, driven by {inputs.replace('_', ' ')}")
     announce([path])
     return 0
 

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 from continuum.arm import Arm, load_arm
 from continuum.cli.browser_window import open_window
 from continuum.cli.completion import completes_files
+from continuum.cli.recordings import add_bag_options, named_joints
 from continuum.cli.viewed_files import check_kinds, check_same_joints, is_arm, labels, load_viewed_arm
-from continuum.errors import InvalidValueError
+from continuum.errors import FileError, InvalidValueError
 from continuum.joint_names import bending_joints
 from continuum.shipped_files import ARMS, MODELS
 from continuum.viewer.address import HOST, PORT
@@ -45,6 +46,7 @@ def add_to(commands: Any) -> None:
         help="draw the open-loop simulation of the recording by this model over it; may be repeated",
     )  # fmt: skip
     parser.add_argument("--section", metavar="NAME", help="section of --model, if the file has several sections")
+    add_bag_options(parser)
     completes_files(what, ARMS, "csv")
     completes_files(arm, ARMS)
     completes_files(model, MODELS)
@@ -98,8 +100,9 @@ def _arm(options: argparse.Namespace) -> _Shown:
         raise InvalidValueError("ARM.yaml", ", ".join(options.what), "one arm; several recordings can be compared")
     file = options.what[0] if options.what else options.arm
     arm = default_arm() if file is None else load_viewed_arm(file)
-    for option, value in (("--arm", options.arm), ("--model", ", ".join(options.model))):
-        if value and (options.what or option == "--model"):
+    others = {"--model": ", ".join(options.model), "--joints": options.joints, "--topic": options.topic}
+    for option, value in {"--arm": options.arm, **others}.items():
+        if value and (options.what or option in others):
             raise InvalidValueError(option, value, "only beside a recording")
     return _Shown(arm, ManualSource(arm))
 
@@ -112,22 +115,32 @@ def _print_notes(path: str, notes: Iterable[str]) -> None:
 def _recordings(options: argparse.Namespace) -> _Shown:
     """Recordings to play; the first is solid, the others and simulations are ghosts."""
     from continuum.cli.models import read_model
+    from continuum.recordings.bag import is_bag
+    from continuum.recordings.read_recording import read_recording
     from continuum.recordings.recorded_arm import check_joints
+    from continuum.recordings.recording import Recording
     from continuum.viewer.default_arm import arm_of_joints
     from continuum.viewer.model_arm import arm_of_model, is_approximate
     from continuum.viewer.playback import Playback
-    from continuum.viewer.tracks import Tracks, read_tracks
-
-    def read(path: str) -> Tracks:
-        if sys.stdout.isatty():  # a refusal is one line, elsewhere
-            print(f"reading {path} ...", flush=True)
-        tracks = read_tracks(path)
-        _print_notes(path, tracks.notes)
-        return tracks
+    from continuum.viewer.tracks import Tracks, read_tracks, tracks_of
 
     if options.model and len(options.what) > 1:
         raise InvalidValueError("--model", ", ".join(options.model), "only beside one recording")
     models = [read_model(one, options.section) for one in options.model]
+    model = models[0] if models else None
+    joints = named_joints(options, options.what, model)
+    has_own_names = bool(joints or options.topic or (model is not None and model.joints))
+
+    def run_of(path: str) -> Recording:
+        return read_recording(path, model, joints, options.topic)
+
+    def read(path: str) -> Tracks:
+        if sys.stdout.isatty():  # a refusal is one line, elsewhere
+            print(f"reading {path} ...", flush=True)
+        tracks = tracks_of(run_of(path)) if is_bag(path) and has_own_names else read_tracks(path)
+        _print_notes(path, tracks.notes)
+        return tracks
+
     first, *others = (read(path) for path in options.what)
     if options.arm is not None:
         arm = load_arm(options.arm)
@@ -137,6 +150,12 @@ def _recordings(options: argparse.Namespace) -> _Shown:
         if is_approximate(models[0].parameters):
             note = "dimensions vary along the arm; the arm and its cables are drawn with their means"
             _print_notes(options.model[0], [note])
+    elif not bending_joints(first.joints.names):
+        found = first.joints.names
+        raise FileError(
+            options.what[0],
+            f"has the joints {', '.join(found)}; name those of the arm from base to tip, as --joints {','.join(found)}",
+        )
     else:
         arm = arm_of_joints(first.joints.names)
     for path, tracks in zip(options.what[1:], others, strict=True):
@@ -145,12 +164,11 @@ def _recordings(options: argparse.Namespace) -> _Shown:
     overlays = [tracks.joints for tracks in others]
     hanging = False
     if models:
-        from continuum.recordings.read_recording import read_recording
         from continuum.viewer.open_loop import hangs, open_loop_track
 
         if sys.stdout.isatty():
             print("simulating ...", flush=True)
-        recording, hanging = read_recording(options.what[0]), hangs(models[0])
+        recording, hanging = run_of(options.what[0]), hangs(models[0])
         _print_notes(options.what[0], [note for note in recording.notes if note not in first.notes])
         overlays = [
             open_loop_track(recording, first.joints, model, one, first.origin)

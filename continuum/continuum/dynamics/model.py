@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
@@ -38,6 +39,44 @@ class ActiveEffect:
 
 
 @dataclass(frozen=True)
+class NamedJoint:
+    """A joint as recordings of messages and descriptions have it: theta = sign reading + zero.
+
+    Attributes:
+        name: its name there.
+        sign: 1 if the model's angle grows with the reading, otherwise -1; rates and torques change their sign too.
+        zero: angle of the model at the reading 0 [rad].
+    """
+
+    name: str
+    sign: float = 1.0
+    zero: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not self.name.strip():
+            raise InvalidValueError("joints: name", self.name, "the name of a joint in recordings")
+        if self.sign not in (1, -1):
+            raise InvalidValueError(f"joints: sign of {self.name}", self.sign, "1 or -1")
+        if not abs(self.zero) <= math.tau:
+            raise InvalidValueError(f"joints: zero of {self.name}", self.zero, "an angle of at most a turn [rad]")
+
+    def in_words(self, number: int) -> str:
+        """Return the angle of the model's joint of a number, from 1, as a function of the reading."""
+        offset = f" {'-' if self.zero < 0 else '+'} {abs(math.degrees(self.zero)):.6g} deg" if self.zero else ""
+        return f"q{number} = {'-' if self.sign < 0 else ''}{self.name}{offset}"
+
+
+def check_names(joints: Sequence[str], n_joints: int, name: str) -> None:
+    """Check that each joint has a name of its own.
+
+    Raises:
+        InvalidValueError: their number is not ``n_joints``, or one occurs twice; ``name`` says where they stand.
+    """
+    if len(set(joints)) != n_joints or len(joints) != n_joints:
+        raise InvalidValueError(name, ",".join(joints), f"{n_joints} different names, of the joints from base to tip")
+
+
+@dataclass(frozen=True)
 class Model:
     """Dynamic model of one planar arm.
 
@@ -46,18 +85,22 @@ class Model:
         effects: effects beyond Eq. 12, in the order in which they are applied.
         sources: source of each parameter's value, by its name.
         inputs: inputs that drive the arm. If torques drive it, cables that it may have are slack.
+        joints: the joints in recordings of messages, from base to tip; empty if their names are not known.
 
     Raises:
-        InvalidValueError: an arm driven by cables has none, or an effect acts on the cables of an arm that torques
-            drive.
+        InvalidValueError: an arm driven by cables has none, an effect acts on the cables of an arm that torques drive,
+            or not every joint has a name of its own.
     """
 
     parameters: Parameters
     effects: tuple[ActiveEffect, ...] = ()
     sources: Mapping[str, str] = field(default_factory=dict)
     inputs: InputKind = InputKind.CABLES
+    joints: tuple[NamedJoint, ...] = ()
 
     def __post_init__(self) -> None:
+        if self.joints:
+            check_names([one.name for one in self.joints], self.n_joints, "joints")
         if self.inputs is InputKind.CABLES:
             for name in ("half_spacing", "hole_radius"):
                 if getattr(self.parameters, name) is None:

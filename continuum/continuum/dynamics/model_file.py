@@ -4,6 +4,7 @@
 
     n_joints: 5
     inputs: cables
+    joints: [hinge_1, hinge_2, hinge_3, hinge_4, hinge_5]
     parameters:
       stiffness: {value: 1.2379, unit: N m/rad, source: thesis Table 3}
     effects:
@@ -13,12 +14,16 @@
 ``inputs`` are ``cables`` or ``joint_torques``; without the line they are cables, unless the arm is told to have none: a
 chain with neither ``half_spacing`` nor ``hole_radius`` is driven by torques. ``b``, ``a``, ``link_mass`` and
 ``link_inertia``, the names of arm files, are taken too. Angles may be given in deg, lengths in mm and masses in g.
+
+``joints``, which may be left out, are the names that messages have for the joints, from base to tip. Where the angle of
+a message is not the model's, an entry gives both: ``{name: elbow, sign: -1, zero: {value: 90, unit: deg}}``.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import cast
 
 import yaml
 
@@ -26,7 +31,7 @@ from continuum.did_you_mean import did_you_mean
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.expressions import Numbers
-from continuum.dynamics.model import ActiveEffect, InputKind, Model
+from continuum.dynamics.model import ActiveEffect, InputKind, Model, NamedJoint
 from continuum.dynamics.parameters import PARAMETERS, Parameter, Parameters
 from continuum.dynamics.section_model import SectionModel, is_arm_file, section_model
 from continuum.errors import InvalidValueError
@@ -90,7 +95,7 @@ def model_from_mapping(block: Mapping[str, object]) -> Model:
     Raises:
         InvalidValueError: a name, value or unit that is not allowed, or a required parameter that is missing.
     """
-    _only(block, ("n_joints", "inputs", "parameters", "effects"), "")
+    _only(block, ("n_joints", "inputs", "joints", "parameters", "effects"), "")
     n = block.get("n_joints")
     if not isinstance(n, int) or isinstance(n, bool) or not 1 <= n <= 1000:
         raise InvalidValueError("n_joints", n, "a whole number from 1 to 1000")
@@ -109,7 +114,7 @@ def model_from_mapping(block: Mapping[str, object]) -> Model:
         sources |= {f"{name}.{key}": source for key, source in given_sources.items()}
     inputs = _inputs(block.get("inputs"), values)
     try:
-        return Model(Parameters(**values), tuple(effects), sources, inputs)
+        return Model(Parameters(**values), tuple(effects), sources, inputs, _joints(block.get("joints")))
     except InvalidValueError as error:
         where = "parameters." if error.name in PARAMETERS else ""
         raise InvalidValueError(f"{where}{error.name}", error.value, error.allowed) from None
@@ -129,8 +134,45 @@ def save_model(model: Model, path: str | Path) -> None:
         entry = {"value": number, "unit": meanings[name].unit, "source": model.sources.get(name, "not stated")}
         owner, _, key = name.rpartition(".")
         (effects[owner] if owner else parameters)[key] = entry
-    written = {"n_joints": model.n_joints, "inputs": model.inputs.value, "parameters": parameters, "effects": effects}
+    written: dict[str, object] = {"n_joints": model.n_joints, "inputs": model.inputs.value}
+    if model.joints:
+        written["joints"] = joints_block(model.joints)
+    written |= {"parameters": parameters, "effects": effects}
     write_whole(path, yaml.safe_dump(written, sort_keys=False))
+
+
+def joints_block(joints: Iterable[NamedJoint]) -> list[object]:
+    """The value of ``joints`` in a model file: a name, or more where the angle of a message is not the model's."""
+    return [
+        one.name
+        if (one.sign, one.zero) == (1, 0)
+        else {"name": one.name, "sign": int(one.sign), "zero": {"value": float(one.zero), "unit": "rad"}}
+        for one in joints
+    ]
+
+
+def _joints(given: object) -> tuple[NamedJoint, ...]:
+    if given is None:
+        return ()
+    if not isinstance(given, list):
+        raise InvalidValueError("joints", given, "a list of names, from base to tip")
+    return tuple(_joint(f"joints[{number}]", one) for number, one in enumerate(given, 1))
+
+
+def _joint(where: str, given: object) -> NamedJoint:
+    if not isinstance(given, Mapping):
+        return NamedJoint(cast("str", given))
+    _only(given, ("name", "sign", "zero"), f"{where}.")
+    zero = _mapping(given, "zero", f"{where}.", "a mapping of value and unit")
+    _only(zero, ("value", "unit"), f"{where}.zero.")
+    value, unit = zero.get("value", 0.0), zero.get("unit", "rad")
+    if convertible(unit, "rad"):
+        value = in_si(value, str(unit))
+    elif unit != "rad":
+        raise InvalidValueError(f"{where}.zero.unit", unit, " or ".join(map(repr, units_for("rad"))))
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise InvalidValueError(f"{where}.zero.value", value, "a number")
+    return NamedJoint(cast("str", given.get("name")), cast("float", given.get("sign", 1)), float(value))
 
 
 def _inputs(given: object, values: Mapping[str, Numbers]) -> InputKind:

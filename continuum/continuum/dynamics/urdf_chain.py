@@ -10,6 +10,7 @@ first link. Then
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -19,13 +20,14 @@ import numpy as np
 import yourdfpy
 
 from continuum.arrays import Array
-from continuum.dynamics.model import InputKind, Model
+from continuum.dynamics.model import InputKind, Model, NamedJoint
 from continuum.dynamics.parameters import Parameters
 from continuum.dynamics.urdf_description import Body, Description
 from continuum.errors import FileError
 
 _PARALLEL = 1e-4  # rad: rounding in descriptions
 _SHORTEST = 1e-4  # m: shortest link, as in model files
+_ROUNDING = 1e-9  # rad: of 64-bit numbers in a chain of a thousand joints
 _OFFSET = 0.01  # largest distance of a link's centre of mass from the line between joints, per length of the link
 
 
@@ -34,19 +36,28 @@ class UrdfChain:
     """A model, and the relation of its joints to those of the description.
 
     Attributes:
-        model: the model, driven by joint torques.
-        joints: names in the URDF from base to tip.
-        signs: s_i, (n_joints,).
-        zeros: angles of the model in the URDF's zero configuration, (n_joints,) [rad].
+        model: the model, driven by joint torques; its ``joints`` have this relation.
         tip: the link whose frame is the tip; None if the last link is assumed to end at twice the distance of its
             centre of mass.
     """
 
     model: Model
-    joints: tuple[str, ...]
-    signs: Array
-    zeros: Array
     tip: str | None
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names in the URDF from base to tip."""
+        return tuple(one.name for one in self.model.joints)
+
+    @property
+    def signs(self) -> Array:
+        """The s_i, (n_joints,)."""
+        return np.array([one.sign for one in self.model.joints])
+
+    @property
+    def zeros(self) -> Array:
+        """Angles of the model in the URDF's zero configuration, (n_joints,) [rad]."""
+        return np.array([one.zero for one in self.model.joints])
 
 
 def chain_from_urdf(
@@ -104,9 +115,18 @@ def chain_from_urdf(
             hang_angle=np.array([_angle(pull, directions[0], axis) if weight > 0 else 0.0]),
         ),
         inputs=InputKind.JOINT_TORQUES,
+        joints=tuple(
+            NamedJoint(joint.name, float(sign), _rounded(float(zero)))
+            for joint, sign, zero in zip(joints, np.sign(axes @ axis), zeros, strict=True)
+        ),
     )
-    names = tuple(joint.name for joint in joints)
-    return UrdfChain(model, names, np.sign(axes @ axis), (zeros + np.pi) % (2 * np.pi) - np.pi, tip)
+    return UrdfChain(model, tip)
+
+
+def _rounded(zero: float) -> float:
+    """Return an angle within half a turn; 0 for one of rounding errors."""
+    within = (zero + math.pi) % math.tau - math.pi
+    return 0.0 if abs(within) < _ROUNDING else within
 
 
 def _lumped(path: Path, name: str, bodies: Sequence[Body]) -> Body:

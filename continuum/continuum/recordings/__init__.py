@@ -2,7 +2,8 @@
 
 =====================  ===================================================================================
 recording.py           what was measured in one run; `read_recording.py` by `recording_csv.py`, `recording_bag.py`
-recording_checks.py    faults of its `samples.py`, `plausible_values.py`; `csv_layout.py`: faults of a table
+recording_checks.py    faults of its `samples.py`: `plausible_values.py`, `burst_stamps.py`, `whole_turns.py`
+csv_layout.py          faults of a table
 cable_sides.py         whether the arm bends towards the cable that pulls more
 motion_columns.py      names of columns; `motion_table.py`, `input_table.py`, `cable_table.py`: tables
 bag.py                 rosbag2 without ROS; `named_values.py`: values of a message by name

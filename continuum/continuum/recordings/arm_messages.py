@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.errors import FileError
 from continuum.joint_names import cable_names, theta_joints
 from continuum.languages import Message
@@ -22,23 +23,35 @@ _MOST = 1e3  # rad; larger values are damaged
 _MARKS = (theta_joints("", 1)[0].removesuffix("1"), cable_names("", 1)[0].removesuffix("1"))
 
 
-def of_an_arm(path: Path, topic: str, messages: Iterable[Any]) -> tuple[list[Any], tuple[str, ...]]:
+def of_an_arm(
+    path: Path, topic: str, messages: Iterable[Any], names: Collection[str] = ()
+) -> tuple[list[Any], tuple[str, ...]]:
     """Return messages with bending joints or cables in the order of their stamps, and notes on those left out.
 
     If there are none, or if other publishers use some of the arm's names, all messages are kept.
+
+    Args:
+        path: path of the recording.
+        topic: topic of the messages.
+        messages: messages with names, in the order of their arrival.
+        names: the arm's names; if empty, names of a section's bending joints and cables.
 
     Raises:
         FileError: no message has a stamp, stamps are from two runs or from a clock that was set back, or two nodes
             publish one arm.
     """
     stamped, unstamped = _with_stamp(path, topic, list(messages))
-    mine = [one for one in stamped if any(mark in name for name in one.name for mark in _MARKS)]
-    others = [one for one in stamped if not any(mark in name for name in one.name for mark in _MARKS)]
+
+    def is_mine(one: Any) -> bool:
+        return any(name in names if names else any(mark in name for mark in _MARKS) for name in one.name)
+
+    mine, others = [one for one in stamped if is_mine(one)], [one for one in stamped if not is_mine(one)]
     strangers = {name for one in others for name in one.name}
     if not mine or set(mine[0].name) & strangers:
         mine, others = stamped, []
     ordered = _in_order(path, topic, mine)
-    _refuse_two_arms(path, topic, ordered)
+    if names or any(_MARKS[0] in name for one in ordered[:1] for name in one.name):
+        _refuse_two_arms(path, topic, ordered)
     if not others:
         return ordered, unstamped
     text = (
@@ -67,15 +80,17 @@ def _with_stamp(path: Path, topic: str, messages: list[Any]) -> tuple[list[Any],
 
 
 def _refuse_two_arms(path: Path, topic: str, joints: Sequence[Any]) -> None:
-    """Refuse joints that jump back and forth between messages: two nodes publish them, say an arm and a simulation."""
+    """Refuse joints that jump back and forth between messages: two nodes publish them, say an arm and a simulation.
+
+    Angles a turn apart are one.
+    """
     if len({tuple(one.name) for one in joints}) != 1 or len({len(one.position) for one in joints}) != 1:
         return
     angles = np.array([one.position for one in joints], dtype=float)
-    if _MARKS[0] not in "".join(joints[0].name) or len(angles) < 3 or not angles.size:
+    if len(angles) < 3 or not angles.size:
         return
     angles = np.clip(np.nan_to_num(angles), -_MOST, _MOST)
-    sizes = np.max(np.abs(np.diff(angles, axis=0)), axis=1)
-    left = np.max(np.abs(angles[2:] - angles[:-2]), axis=1)
+    sizes, left = (np.max(np.abs(_within_half_a_turn(angles[k:] - angles[:-k])), axis=1) for k in (1, 2))
     jumps = np.minimum(sizes[:-1], sizes[1:]) > np.maximum(_TO_AND_FRO * left, _JUMP)
     if np.count_nonzero(jumps) > max(2, _OFTEN * len(angles)):
         at = int(np.argmax(jumps)) + 2
@@ -84,6 +99,10 @@ def _refuse_two_arms(path: Path, topic: str, joints: Sequence[Any]) -> None:
             f"message {at} on {topic}: joint angles jump back and forth, as in {np.count_nonzero(jumps)} of "
             f"{len(angles)} messages: do two nodes publish them?",
         )
+
+
+def _within_half_a_turn(angles: Array) -> Array:
+    return np.asarray((angles + np.pi) % (2 * np.pi) - np.pi)
 
 
 def _in_order(path: Path, topic: str, arrived: list[Any]) -> list[Any]:

@@ -63,6 +63,15 @@ class Bag:
         with self._readable():
             return {_absolute(topic): info.msgcount for topic, info in self._reader.topics.items()}
 
+    @property
+    def types(self) -> dict[str, str]:
+        """Type of the messages by topic, e.g. ``sensor_msgs/msg/JointState``."""
+        return {_absolute(one.topic): one.msgtype for one in self._reader.connections}
+
+    def topics_in_words(self) -> str:
+        """Return all topics with the types of their messages."""
+        return ", ".join(f"{topic} ({kind})" for topic, kind in sorted(self.types.items())) or "none"
+
     def messages(self, topic: str, message_type: str) -> Iterator[Any]:
         """Yield the messages of one topic, e.g. of type ``sensor_msgs/msg/JointState``, in the order of their arrival.
 
@@ -72,7 +81,7 @@ class Bag:
         """
         connections = self._connections(topic)
         if not connections:
-            raise FileError(self.path, f"has no topic {topic}; it has {', '.join(sorted(self.topics)) or 'none'}")
+            raise FileError(self.path, f"has no topic {topic}; it has {self.topics_in_words()}")
         for connection in connections:
             if connection.msgtype != message_type:
                 raise FileError(self.path, f"has {connection.msgtype} on {topic}, not {message_type}")

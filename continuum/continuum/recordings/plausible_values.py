@@ -30,7 +30,7 @@ _ALIKE = 0.5  # correlation of a joint's rate with the derivative of its angle a
 
 def _limited(samples: Samples) -> list[tuple[Array, float, str]]:
     """Return each measured block with the largest value for an arm of this kind, and the letter of its columns."""
-    turn = _LARGEST_ANGLE if samples.torque is None else LARGEST_TURN
+    turn = LARGEST_TURN if samples.turns else _LARGEST_ANGLE
     blocks = (
         (samples.theta, turn, ANGLE.letter),
         (samples.rate, _LARGEST_RATE, RATE.letter),
@@ -67,7 +67,7 @@ def refuse_units(samples: Samples) -> None:
     """Refuse values that are too large or small for their unit.
 
     Raises:
-        FileError: a value is, or the arm hardly moves, or a rate does not fit its angle.
+        FileError: a value is, or the arm hardly moves.
     """
     for block, limit, letter in _limited(samples):
         large = np.abs(block) > limit
@@ -87,6 +87,14 @@ def refuse_units(samples: Samples) -> None:
             f"{np.degrees(motion):.2g} degrees, hardly more than sensors err: at least {np.degrees(_LEAST_MOTION):g}"
         )
         raise FileError(samples.path, f"has joints that move by at most {description} are needed")
+
+
+def refuse_mixed_units(samples: Samples) -> None:
+    """Refuse rates that do not fit their angles, which must be continuous.
+
+    Raises:
+        FileError: a rate has another sign or size than the derivative of its angle.
+    """
     if samples.rate is not None:
         derivatives = np.gradient(samples.theta, samples.times, axis=0)
         for joint, (slope, rate) in enumerate(zip(derivatives.T, samples.rate.T, strict=True), start=1):

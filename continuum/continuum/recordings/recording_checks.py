@@ -9,8 +9,16 @@ from numpy.typing import NDArray
 
 from continuum.errors import FileError
 from continuum.languages import Message
-from continuum.recordings.plausible_values import MOST_BAD, outliers, refuse_units, without_still_rates
+from continuum.recordings.burst_stamps import refuse_bursts
+from continuum.recordings.plausible_values import (
+    MOST_BAD,
+    outliers,
+    refuse_mixed_units,
+    refuse_units,
+    without_still_rates,
+)
 from continuum.recordings.samples import MESSAGE, Samples
+from continuum.recordings.whole_turns import refuse_jumps, unwrapped
 
 _SAME_TIME = 1e-7  # s: no sensor is that fast
 _FEWEST_ROWS = 30
@@ -26,8 +34,8 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     """Return repaired samples, and a note on each repair.
 
     Raises:
-        FileError: time that runs backward, long gaps, negative tensions, too many bad rows, or units that cannot be
-            the stated ones.
+        FileError: time that runs backward or has gaps or bursts, negative tensions, too many bad rows, or units that
+            cannot be the stated ones.
     """
     notes: list[str] = []
     good, held = _without_held(samples)
@@ -45,8 +53,10 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     )
     good = leave_out(~_complete(good), Message("{rows} without a finite value in every column"))
     _refuse_backward(good)
+    refuse_bursts(good.chosen(~outliers(good)))
     good = leave_out(np.diff(good.times, prepend=-np.inf) < _SAME_TIME, same_time)
     good = leave_out(_clipped(good), Message("{rows} with a clipped rate"))
+    refuse_jumps(good)
     good = leave_out(outliers(good), Message("{rows} with a value that no arm has"))
     if good.times.size < _FEWEST_ROWS:
         summary = "; ".join(["", *notes])
@@ -61,6 +71,8 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     _refuse_gaps(good)
     good, pushing = _without_pushing(good)
     refuse_units(good)
+    good, turns = unwrapped(good)
+    refuse_mixed_units(good)
     good, unmeasured = without_still_rates(good)
     if held:
         repeats = (
@@ -69,7 +81,7 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
             else Message("{count} rows repeat the angles of the row before, as from a slower sensor; left out")
         )
         pushing.append(Message(repeats, count=held))
-    return good, (*(Message("{note}, left out", note=note) for note in notes), *pushing, *unmeasured)
+    return good, (*(Message("{note}, left out", note=note) for note in notes), *turns, *pushing, *unmeasured)
 
 
 def _without_held(samples: Samples) -> tuple[Samples, int]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from continuum.arrays import Array
 from continuum.dynamics.joint_torques import JointTorques
+from continuum.dynamics.model import InputKind, Model
 from continuum.dynamics.tensions import Tensions
 from continuum.errors import FileError
 from continuum.languages import Message
@@ -29,8 +30,8 @@ from continuum.recordings.table_file import read_table
 _NAMES = f"{TIME} [s], q1_deg .. or q1_rad .., and optionally dq1_deg_s .., u1_N, u2_N or tau1_Nm .."
 
 
-def read_recording_csv(path: str | Path) -> Recording:
-    """Read one run, named after the file without its suffix.
+def read_recording_csv(path: str | Path, model: Model | None = None) -> Recording:
+    """Read one run, named after the file without its suffix; a model says whether joints without torques turn round.
 
     Raises:
         FileError: the file cannot be read, has other columns, or is damaged beyond repair.
@@ -50,7 +51,8 @@ def read_recording_csv(path: str | Path) -> Recording:
         raise FileError(path, f"has {theta.shape[1]} joint angles but {torque.shape[1]} joint torques")
     if torque is not None and pull is not None:
         raise FileError(path, "has tensions, u1_N .., and torques, tau1_Nm ..: one or the other drives an arm")
-    good, notes = repaired(Samples(path, numbers, columns[TIME], theta, rate, pull, torque=torque))
+    turns = torque is not None or (model is not None and model.inputs is InputKind.JOINT_TORQUES)
+    good, notes = repaired(Samples(path, numbers, columns[TIME], theta, rate, pull, torque=torque, turns=turns))
     tensions = None if good.pull is None else Tensions(good.times, good.pull)
     torques = None if good.torque is None else JointTorques(good.times, good.torque)
     for quantity in QUANTITIES:

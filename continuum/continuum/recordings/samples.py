@@ -29,6 +29,7 @@ class Samples:
         pull: (rows, n_cables) [N], or None.
         row: word for a row in messages.
         torque: (rows, n_joints) [N m], or None.
+        turns: whether a joint may turn by more than half a turn, as those with drives do.
     """
 
     path: Path
@@ -39,6 +40,7 @@ class Samples:
     pull: Array | None
     row: str = "row"
     torque: Array | None = None
+    turns: bool = False
 
     @property
     def measured(self) -> list[Array]:

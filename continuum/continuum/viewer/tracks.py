@@ -18,6 +18,7 @@ from continuum.recordings.bag import Bag, is_bag, stamp_ns
 from continuum.recordings.joined_sections import joined_sections
 from continuum.recordings.named_values import named_values
 from continuum.recordings.plausible_values import LARGEST_TURN
+from continuum.recordings.recording import Recording
 from continuum.recordings.recording_csv import read_recording_csv
 
 SIMULATED = "/simulated"
@@ -83,11 +84,11 @@ def read_tracks(path: str | Path) -> Tracks:
     Raises:
         FileError: the recording cannot be read or has no joint angles.
     """
-    return _from_bag(path) if is_bag(path) else _from_table(path)
+    return _from_bag(path) if is_bag(path) else tracks_of(read_recording_csv(path))
 
 
-def _from_table(path: str | Path) -> Tracks:
-    run = read_recording_csv(path)
+def tracks_of(run: Recording) -> Tracks:
+    """Return a run as tracks of one section."""
     origin = float(run.times[0])
     times = run.times - origin
     joints = Track(times, theta_joints(_SECTION, run.n_joints), run.theta)
@@ -102,7 +103,7 @@ def _from_bag(path: str | Path) -> Tracks:
     notes: list[str] = []
     with Bag(path) as bag:
         if "/joint_states" not in bag.topics:
-            raise FileError(bag.path, f"has no topic /joint_states; it has {', '.join(sorted(bag.topics)) or 'none'}")
+            raise FileError(bag.path, f"has no topic /joint_states; it has {bag.topics_in_words()}")
         (joints,) = _read(bag, "/joint_states", ("position",), notes)
         if not joints.times.size:
             raise FileError(bag.path, "has no message on /joint_states")
