@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from command_line import Captured, refused
 from continuum_laws.strategies import LAW, arms, sections
 from hypothesis import given
 from hypothesis import strategies as st
@@ -170,7 +171,7 @@ def test_cables_that_do_not_bend_it_in_a_plane_are_refused(tmp_path: Path, azimu
     assert load_model(write(tmp_path, block)).inputs is InputKind.JOINT_TORQUES
 
 
-def test_of_several_sections_one_is_named(tmp_path: Path) -> None:
+def test_of_several_sections_one_is_named(tmp_path: Path, capsys: Captured) -> None:
     content: dict[str, object] = {"sections": ["s", "t", "u"]}
     for number, name in enumerate(("s", "t", "u"), 1):
         content[name] = {
@@ -186,3 +187,8 @@ def test_of_several_sections_one_is_named(tmp_path: Path) -> None:
             load_model(tmp_path / "arm.yaml", name)
     with pytest.raises(InvalidValueError, match=r"arm\.u\.dynamics is None"):
         load_model(tmp_path / "arm.yaml", "u")
+    for words in (["simulate"], ["diagnose", "run.csv"], ["simulate", "--section", "v"]):
+        line = refused(capsys, *words, "--model", tmp_path / "arm.yaml")
+        assert "--section" in line
+        assert "s or t or u" in line
+        assert "None" not in line

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from continuum.cli.completion import completes_files
-from continuum.errors import InvalidValueError
+from continuum.errors import FileError, InvalidValueError
 from continuum.shipped_files import MODELS
 
 if TYPE_CHECKING:
@@ -34,12 +34,19 @@ def read_model(name: str, section: str | None = None) -> Model:
         section: of an arm file; None where it has only one.
 
     Raises:
-        FileError: there is no such file or model, or it cannot be read.
+        FileError: there is no such file or model, it cannot be read, or none of its sections is named.
         InvalidValueError: a value in it is not allowed.
     """
     from continuum.dynamics.model_file import load_named_model  # here, so that help need not wait for it
 
-    model, found = load_named_model(name, section)
+    try:
+        model, found = load_named_model(name, section)
+    except InvalidValueError as error:
+        if error.name != f"{name}: section":
+            raise
+        problem = "has several sections" if section is None else f"has no section {section}"
+        sections = error.allowed.partition(";")[0]
+        raise FileError(name, f"{problem}; a simulation is of one: name it with --section, {sections}") from None
     if section is not None and found is None:
         raise InvalidValueError("--section", section, f"left out: {name} is a model file, which has no sections")
     return model
