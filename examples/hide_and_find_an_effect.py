@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from continuum.discovery import diagnose
-from continuum.discovery.words import verdict_in_words
+from continuum.discovery.words import estimate_in_words, verdict_in_words
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.measuring import as_read
 from continuum.dynamics.model import ActiveEffect
@@ -36,7 +36,8 @@ def main(out: Path) -> None:
     effect = effect_named(str(rng.choice(EFFECTS)))
     values = {name: spec.array(spec.default, n, name) for name, spec in effect.parameters.items()}  # absent
     size, spec = next(iter(effect.parameters.items()))
-    values[size][rng.integers(values[size].size)] = rng.uniform(3.0, 5.0) * spec.typical  # at one joint, if it has any
+    joint = int(rng.integers(values[size].size))
+    values[size][joint] = rng.uniform(3.0, 5.0) * spec.typical  # at one joint, if it has any
     true = replace(nominal, effects=(ActiveEffect(effect, values),))
 
     recordings = []
@@ -49,7 +50,10 @@ def main(out: Path) -> None:
     before, after = (np.degrees(one.error(0, recordings[0].theta)) for one in (result.before, result.after))
     print(f"verdict: {result.verdict.kind.value} {', '.join(cause.label for cause in result.causes)}")
     print(verdict_in_words(result))
-    print(f"truth: {effect.name}, {size} {np.round(values[size], 4)} [{spec.unit}]")  # from the base, if of each joint
+    where = f"[{joint + 1}]" if spec.per_joint else ""
+    print(f"hidden: {effect.name}.{size}{where} {values[size][joint]:.4g} {spec.unit}")
+    for one in (one for cause in result.causes for one in cause.estimates):
+        print(f"found:  {one} {estimate_in_words(one)}")
     print(f"gain: open-loop error of {recordings[0].name} {before:.2f} -> {after:.2f} degrees")
     result.plot().savefig(out / "diagnosis.png")
     save_model(result.extended_model, out / "extended.yaml")

@@ -22,7 +22,7 @@ NOTEBOOK = EXAMPLES / "find_the_hidden_effect.ipynb"
 SAYS = {  # the known answer of each
     "diagnose_your_csv": r"^cause: .*joint_stiffness\.excess\[3\] = 0\.[45]",
     "follow_helix": r"^(\d+) of \1 poses reached",
-    "hide_and_find_an_effect": r"^verdict: cause (\w+)(@\d)?$.*^truth: \1,.*^gain: ",
+    "hide_and_find_an_effect": r"^verdict: cause (\w+)(@\d)?$.*^hidden: (\1\.\S+) .*^found:  \3 .*^gain: ",
     "own_arm": r"^released at 60 degrees, swings to -\d",
     "record_and_replay": r"^([1-9]\d*) of \1 poses reached.*as recorded: True$",
     "ros_section_node": r"^90 degrees: .* residual (0e\+00|\de-1\d) m$",

@@ -10,23 +10,29 @@ only the recordings and the nominal model.
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 import time
 from pathlib import Path
 
 import numpy as np
 from blind.mujoco_plant import make_case, write_case
-from blind.mujoco_plant.case import Case
-from blind.mujoco_plant.effects import EFFECTS, LIBRARY
+from blind.mujoco_plant.case import Case, Truth
+from blind.mujoco_plant.effects import LIBRARY
+from blind.mujoco_plant.effects.cables import ElasticCable
+from blind.mujoco_plant.effects.springs import HardeningSpring
 
 from continuum.discovery import diagnose
 from continuum.discovery.decision import Kind
 from continuum.discovery.report import write_report
 from continuum.discovery.result import Diagnosis
-from continuum.discovery.words import verdict_in_words
+from continuum.discovery.words import estimate_in_words, estimate_name, verdict_in_words
+from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.model_file import load_model, save_model
+from continuum.identification.estimate import Estimate
 from continuum.recordings.recording_csv import read_recording_csv
 from continuum.whole_file import write_figure
+from tools.benchmarks.discovery.figures import SAME
 from tools.one_line import in_one_line
 
 MODEL = "lamecc_prototype.yaml"
@@ -65,22 +71,47 @@ def hidden_case(seed: int) -> Case:
 
 
 def answer(case: Case, result: Diagnosis) -> list[str]:
-    """Return verdict, truth and improvement, one line each."""
-    (hidden,) = case.truth.effects
-    place = f" at joint {hidden.joint}" if hidden.joint is not None else ""
+    """Return verdict, truth, finding and improvement, one line each."""
     named = [cause.label for cause in result.causes] if result.verdict.kind is Kind.CAUSE else []
     before, after = (
         np.degrees(np.sqrt(np.mean([loop.error(r, run.theta) ** 2 for r, run in enumerate(result.recordings)])))
         for loop in (result.before, result.after)
     )
-    unit = "" if EFFECTS[hidden.name].unit == "1" else f" {EFFECTS[hidden.name].unit}"
     lines = [
-        f"Verdict: {result.verdict.kind.value}{': ' if named else ''}{', '.join(named)}. {verdict_in_words(result)}",
-        f"Hidden was: {hidden.name}{place}, {hidden.amount:.3g}{unit}.",
+        f"Verdict: {result.verdict.kind.value}{': ' if named else ''}{', '.join(named)}. {verdict_in_words(result)}"
     ]
+    lines.append(f"Hidden was: {hidden_in_words(case.truth)}.")
+    if result.is_extended:
+        found = [one for cause in result.causes for one in cause.estimates]
+        lines.append(f"Found, with 95 % intervals: {'; '.join(map(in_words, found))}.")
     if result.is_extended:
         lines.append(f"Added to the model, it lowers the open-loop error from {before:.2f} to {after:.2f} degrees.")
     return lines
+
+
+def hidden_in_words(truth: Truth) -> str:
+    """Return the hidden values by the names and in the units in which a diagnosis states those that it finds."""
+    (hidden,) = truth.effects
+    joint = None if hidden.joint is None else hidden.joint - 1
+    values = {name: factor * hidden.amount for name, factor in SAME.get(hidden.name, {}).items()}
+    if isinstance(hidden, ElasticCable):
+        values = {"lag": hidden.amount * hidden.winch_friction, "stiffness": 1 / hidden.amount}
+    if isinstance(hidden, HardeningSpring):
+        values = {"cubic": float(np.mean(truth.parameters.stiffness)) * hidden.amount}
+    if not values:
+        place = f" at joint {hidden.joint}" if hidden.joint is not None else ""
+        return f"{hidden.name}{place}, {hidden.amount:.3g} {hidden.unit}, a measure that the library does not have"
+    specs = effect_named(hidden.name).parameters
+    none = math.nan  # the truth has no interval
+    return "; ".join(
+        in_words(Estimate(f"{hidden.name}.{name}", joint, "", value, none, none, specs[name].unit, specs[name].meaning))
+        for name, value in values.items()
+    )
+
+
+def in_words(one: Estimate) -> str:
+    """Return name, value, interval if it has one, and unit."""
+    return f"{estimate_name(one)} {estimate_in_words(one)}"
 
 
 if __name__ == "__main__":
