@@ -46,6 +46,13 @@ OPEN_TIME = 0.3
 AUTOSTART_PERIOD = 1.0
 """Time between two automatic transitions [s]."""
 
+CALIBRATE = {
+    "bias": "~/calibrate_bias (at rest)",
+    "axis": "~/find_axes (after a bend towards cable 1 and back)",
+    "zero": "~/zero (at rest and straight)",
+}
+"""Service that finds each step of the calibration."""
+
 DONE, FAILED = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
 
 Answer = Trigger.Response
@@ -54,11 +61,12 @@ Answer = Trigger.Response
 class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     """Publishes a bench's sensors as ``imu_N/data_raw``, ``joint_states`` and ``cable_states``, and forwards commands.
 
-    Commands arrive on ``cable_tension_cmd``. The configured lifecycle node has the port and publishes; only the active
-    node forwards tension. It returns to inactive, with slack cables, if the link is lost, the bench restarts, another
-    host commands it, or ``~/stop`` is called, which ``~/reset_stop`` ends. ``~/release`` drops all tension at once.
-    Joint states are published while every joint is known. This requires ``~/calibrate_bias`` (at rest), ``~/find_axes``
-    (after bending towards cable 1 and back) and ``~/zero`` (at rest, straight), or a calibration file.
+    Commands arrive on ``cable_tension_cmd``. The configured node has the port, and can be calibrated. Only the
+    active node publishes and forwards tension. It returns to inactive, with slack cables, if the link is lost, the
+    bench restarts, another host commands it, tight cables pull while angles are lost, or ``~/stop`` is called, which
+    ``~/reset_stop`` ends. ``~/release`` drops all tension at once. Joint states are published while every joint is
+    known. This requires ``~/calibrate_bias`` (at rest), ``~/find_axes`` (after bending towards cable 1 and back) and
+    ``~/zero`` (at rest, straight), or a calibration file.
     """
 
     NAME = "bench_bridge"
@@ -82,6 +90,8 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._streams = self._offered_streams()
         self._to_come = self.values["autostart"] != AUTOSTARTS[0]
         self._autostart_at = 0.0
+        self._waits_for = ""
+        self._told_lost: set[int] = set()
         self.listen(CableStates, COMMANDS, self._on_command)
         rest_time = self.values["rest_time"]
         services: dict[str, Callable[[], str]] = {
@@ -144,16 +154,18 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return self._reached("configure")
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """Become the bench's commander, with slack cables."""
-        problem = self._commander.begin()
+        """Become the bench's commander, with slack cables, and start to publish."""
+        problem = self._commander.line_problem() or self._uncalibrated() or self._commander.begin()
         if problem:
             self._refuse("activate", problem)
             return FAILED
+        self._streams.publishing = True
         return self._reached("activate")
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
-        """Release the cables."""
+        """Release the cables, and publish nothing any more."""
         self._commander.end()
+        self._streams.publishing = False
         return DONE
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
@@ -201,14 +213,27 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._streams.forget()
 
     def _autostart(self, now: float) -> None:
-        """Advance to the state of ``autostart`` once; after that, the node never activates by itself again."""
+        """Advance to the state of ``autostart`` once; after that, the node never activates by itself again.
+
+        What is not there yet, a port or a calibration, is waited for; everything else is tried again now and then.
+        """
         if not self._to_come or now < self._autostart_at:
             return
-        self._autostart_at = now + AUTOSTART_PERIOD
-        if self._state == State.PRIMARY_STATE_UNCONFIGURED:
-            self.trigger_configure()
-        elif self._state == State.PRIMARY_STATE_INACTIVE:
-            self.trigger_activate()
+        port, state = self.values["port"], self._state
+        if state == State.PRIMARY_STATE_UNCONFIGURED:
+            missing = "" if Path(port).exists() else f"{port} does not exist"
+            self._commander.refused = missing or self._commander.refused
+            go_on = self.trigger_configure
+        elif state == State.PRIMARY_STATE_INACTIVE:
+            missing, go_on = self._uncalibrated(), self.trigger_activate
+        else:
+            return
+        if missing:
+            if missing != self._waits_for:
+                self.get_logger().info(f"waiting: {missing}")
+            self._waits_for = missing
+        elif go_on() != DONE:
+            self._autostart_at = now + AUTOSTART_PERIOD
 
     def _reached(self, where: str) -> TransitionCallbackReturn:
         """Record that a transition has reached its state."""
@@ -227,9 +252,10 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         if commander.keep_up(now):
             self._to_come = False
             self.diagnostics.warnings.note("stopped", "by the bench, until ~/reset_stop")
+        self._tell_of_sensors()
         if self._state != State.PRIMARY_STATE_ACTIVE:
             return
-        problem = commander.problem()
+        problem = commander.problem() or (self._blind() if commander.gate.is_tight else "")
         if problem:
             self.diagnostics.warnings.note("fell back to inactive, cables slack", problem)
             self.trigger_deactivate()
@@ -239,13 +265,45 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         if commander.gate.abandoned and not before:
             tension_parameters.report_abandoned(self.diagnostics, self._limits)
 
+    def _blind(self) -> str:
+        """Describe why angles are lost for too long; empty if they are not, and without a calibration."""
+        streams = self._streams
+        if streams.steps.missing or streams.lost_for <= self.values["lost_angles_timeout"]:
+            return ""
+        return f"the angles are lost since {streams.lost_for:.2f} s: {streams.doubt}"
+
+    def _uncalibrated(self) -> str:
+        """Describe what is missing of the calibration that an active node needs; empty if nothing is."""
+        missing = () if self.values["allow_uncalibrated"] else self._streams.steps.missing
+        if not missing:
+            return ""
+        calls = ", ".join(CALIBRATE[step] for step in missing)
+        return f"not calibrated: no {', no '.join(missing)}; call {calls}, or set the parameter allow_uncalibrated"
+
+    def _tell_of_sensors(self) -> None:
+        """Log each loss and each return of a sensor in one line."""
+        watch = self._streams.watch
+        while watch is not None and watch.news:
+            news = watch.news.popleft()
+            if news.lost:
+                if self.diagnostics.warnings.note(
+                    f"imu {news.link} is lost", f"no data of {news.name} for {news.gap:.2f} s"
+                ):
+                    self._told_lost.add(news.link)
+            elif news.link in self._told_lost:
+                self._told_lost.remove(news.link)
+                self.get_logger().info(f"imu {news.link} is back: {news.name} was lost for {news.gap:.2f} s")
+
     def _on_command(self, message: CableStates) -> None:
         speakers = self.count_publishers(self.resolve_topic_name(COMMANDS))
         if speakers > 1:
             raise MessageFault("several commanders", f"{speakers} publishers; only one may command at a time")
         now = self.get_clock().now().nanoseconds
-        wanted = read_tensions(message, self._planar.cables, now, self.values["command_timeout"])
+        wanted = read_tensions(message, self._planar.cables, self.arrival(), self.values["command_timeout"])
         age = max(0, now - nanoseconds(message.header.stamp)) / NANOSECONDS
+        blind = self._blind() if self._commander.gate.is_open else ""
+        if blind:
+            raise MessageFault("angles lost", blind)
         if not self._commander.gate.command(wanted, time.monotonic() - age):
             raise MessageFault("not active", "a tension command arrived; activate the node first")
         tension_parameters.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
@@ -265,7 +323,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         if watch is None or problem:
             raise InvalidValueError("bench", problem or "unknown", "a matching bench that is configured and connected")
         step(watch)
-        self._streams.steps = watch.steps
+        self._streams.calibrated(watch.steps)
         calibration, file = watch.steps.complete(), self.values["calibration"]
         if calibration is None:
             return f"found; still to find: {', '.join(watch.steps.missing)}"

@@ -113,8 +113,10 @@ class BenchDiagnostics:
         if abs(clock.drift) > MOST_DRIFT:
             complaints.append((WARN, f"drifts by {1e6 * clock.drift:.0f} ppm; a quartz drifts less"))
         complaints += self._unheard()
+        error = clock.error(client.conversation.newest)
         values = {
             "drift [ppm]": f"{1e6 * clock.drift:.1f}",
+            "largest possible error of a stamp [ms]": "unknown" if np.isinf(error) else f"{1e3 * error:.2f}",
             "age of the newest sample [ms]": f"{1e3 * age:.2f}",
             "leaps": clock.leaps,
         }
@@ -160,8 +162,8 @@ class BenchDiagnostics:
             complaints.append((ERROR, f"not calibrated: no {', no '.join(watch.steps.missing)}"))
         elif estimate is None:
             complaints.append((ERROR, "no samples"))
-        elif not estimate.good.all():
-            complaints.append((ERROR, "; ".join(dict.fromkeys(filter(None, estimate.why_not)))))
+        elif streams.doubt:
+            complaints.append((ERROR, streams.doubt))
         complaints += self._unheard()
         values: dict[str, object] = {"samples withheld": streams.withheld}
         if estimate is not None:

@@ -28,6 +28,10 @@ PARAMETERS = (
                   "written when a calibration is complete; empty for no file", default=""),
     ParameterSpec("keep_bias", bool, "use the bias in the file: for a node that restarts within minutes",
                   default=False),
+    ParameterSpec("allow_uncalibrated", bool, "whether the node may be activated without a complete calibration, for "
+                  "example to bend the arm by a cable for find_axes", default=False),
+    ParameterSpec("lost_angles_timeout", float, "time without known angles after which tight cables are released and "
+                  "commands are refused", "s", 0.05, 3600.0, default=1.0),
     ParameterSpec("rest_time", float, "time at rest from which bias and zero are estimated", "s", 1.0, 15.0,
                   default=3.0),
     ParameterSpec("rate_noise", float, "noise of the angular rates, standard deviation", "rad/s", 0.0, 1.0,

@@ -1,4 +1,7 @@
-"""Publish the data of a bench as it arrives, in the thread that reads the port, so that nothing delays it."""
+"""Take the data of a bench as they arrive, and publish them while the node is active.
+
+All of it happens in the thread that reads the port, so that nothing delays it.
+"""
 
 from __future__ import annotations
 
@@ -33,11 +36,19 @@ FRESH = 0.1
 """Largest age of joint angles that are combined with a measured tension [s]."""
 
 
+RIGHT = np.radians(1.5)
+"""Error beyond which an angle is wrong [rad]."""
+
+SURE = 0.01
+"""Largest error of a stamp [s] with which joint states are published. In that time the prototype, let go from 90
+degrees, changes its rate so little that the error of an angle is that of its stamp times its rate."""
+
+
 class BenchStreams:
     """Publishes joint and cable states and the sensors' raw data.
 
-    Joint states are published only if the angles of all joints are valid. Stamps are ROS times, without the jitter of
-    the transmission.
+    Joint states are published only if the angles of all joints are right at their stamp, by the errors of estimate and
+    stamp. Stamps are ROS times, without the jitter of the transmission.
 
     Args:
         planar: the arm's names and messages.
@@ -48,11 +59,14 @@ class BenchStreams:
         imus: functions that publish the sensors' data, from base to tip.
 
     Attributes:
+        publishing: whether anything is published.
         steps: calibration of the sensors, used when the next bench identifies itself.
         watch: watch of the connected bench's sensors; None before it identifies itself, and if it does not match.
         problem: description of why the bench does not match.
         latency: latency from the last byte of a frame to its published joint states.
-        withheld: number of samples whose joint states were not published.
+        doubt: why the angles of the latest sample are not known; empty if they are.
+        lost_for: time since the latest sample with known angles, by the device's clock [s].
+        withheld: number of samples whose joint states were not published for that reason.
         age: age of the newest sample when its bytes arrived [s].
         oldest: largest such age since the last diagnostics [s].
         tension: the latest tension frame.
@@ -72,10 +86,14 @@ class BenchStreams:
         self._planar, self._sensors, self._clock = planar, sensors, clock
         self._joints, self._cables, self._imus = joints, cables, imus
         self._conversation = 0
+        self._known_at: float | None = None  # device time [s]
+        self.publishing = False
         self.steps = steps
         self.watch: SensorWatch | None = None
         self.problem = ""
         self.latency = LatencyMeter()
+        self.doubt = ""
+        self.lost_for = 0.0
         self.withheld = 0
         self.unfit = 0
         self.age = self.oldest = 0.0
@@ -91,24 +109,43 @@ class BenchStreams:
             return
         match received.message:
             case ImuFrame() as frame if len(frame.readings) == len(self._sensors):
-                sample, stamp = watch.take(received, frame), self._stamp(received)
-                self._publish_joints(watch, received, stamp)
-                self._publish_imus(sample, stamp)
+                sample = watch.take(received, frame)
+                self.age = received.read - received.time
+                self.oldest = max(self.oldest, self.age)
+                self._judge(watch, received)
+                if self.publishing:
+                    stamp = self._stamp(received)
+                    self._publish_joints(watch, received, stamp)
+                    self._publish_imus(sample, stamp)
             case TensionFrame() as frame if len(frame.set_points) == len(self._planar.cables):
                 self.tension = frame
-                self._publish_cables(watch, received, frame)
+                if self.publishing:
+                    self._publish_cables(watch, received, frame)
             case ImuFrame() | TensionFrame():
                 self.unfit += 1
 
     def forget(self) -> None:
         """Forget the bench after the line was closed."""
         self._conversation, self.watch, self.problem, self.tension = 0, None, "", None
+        self.publishing = False
+
+    def calibrated(self, steps: CalibrationSteps) -> None:
+        """Use other steps from now on; the angles have to be found anew."""
+        self.steps, self._known_at = steps, None
 
     def _greet(self, hello: Hello) -> None:
         """Start over with another bench, or with the same one after its restart."""
         self.problem = mismatch(hello, len(self._sensors), len(self._planar.cables))
         self.watch = None if self.problem else SensorWatch(hello, self.steps)
-        self.tension = None
+        self.tension, self._known_at = None, None
+
+    def _judge(self, watch: SensorWatch, received: Received) -> None:
+        """Note whether the angles of the latest sample are known, and since when they are not."""
+        now = received.device_time / MICROSECONDS
+        self.doubt = _doubt(watch.estimate, now, received.error if self.publishing else 0.0)
+        if self._known_at is None or not self.doubt:
+            self._known_at = now
+        self.lost_for = now - self._known_at
 
     def _stamp(self, received: Received) -> TimeMessage:
         """Return the ROS time of a received message."""
@@ -116,10 +153,8 @@ class BenchStreams:
         return Time(nanoseconds=max(0, now - round((instant - received.time) * NANOSECONDS))).to_msg()
 
     def _publish_joints(self, watch: SensorWatch, received: Received, stamp: TimeMessage) -> None:
-        self.age = received.read - received.time
-        self.oldest = max(self.oldest, self.age)
-        estimate = _good_estimate(watch, received, SAME)
-        if estimate is None:
+        estimate = watch.estimate
+        if self.doubt or estimate is None:
             self.withheld += 1
             return
         self._joints(self._planar.joint_state(stamp, estimate.angles, estimate.rates))
@@ -137,14 +172,24 @@ class BenchStreams:
             tensions = np.array([])  # unknown
         else:
             tensions = np.maximum(np.array(frame.measured, dtype=float), 0.0)
-        estimate = _good_estimate(watch, received, FRESH)
-        angles, rates = (None, None) if estimate is None else (estimate.angles, estimate.rates)
+        estimate = watch.estimate
+        if self.doubt or estimate is None or abs(received.device_time / MICROSECONDS - estimate.time) > FRESH:
+            angles, rates = None, None
+        else:
+            angles, rates = estimate.angles, estimate.rates
         self._cables(self._planar.cable_states(self._stamp(received), angles, rates, tensions))
 
 
-def _good_estimate(watch: SensorWatch, received: Received, within: float) -> AngleEstimate | None:
-    """Return the latest estimate if all angles are valid and its time is that of the message to ``within`` [s]."""
-    estimate = watch.estimate
-    if estimate is None or not estimate.good.all():
-        return None
-    return estimate if abs(received.device_time / MICROSECONDS - estimate.time) <= within else None
+def _doubt(estimate: AngleEstimate | None, now: float, error: float) -> str:
+    """Describe why angles are not known at a device time, whose stamp may err by ``error`` [s]; empty if they are."""
+    if estimate is None:
+        return "no estimate"
+    if not estimate.good.all():
+        return "; ".join(dict.fromkeys(filter(None, estimate.why_not)))
+    if abs(now - estimate.time) > SAME:
+        return "the sample was skipped"
+    if error > SURE or np.any(estimate.errors + np.abs(estimate.rates) * error > RIGHT):
+        if np.isinf(error):
+            return "the time of the sample is not known"
+        return f"the time of the sample is known to {1e3 * error:.0f} ms only"
+    return ""

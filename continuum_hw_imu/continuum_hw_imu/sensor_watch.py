@@ -5,9 +5,11 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
+from continuum.arrays import Array
 from continuum.errors import MeasurementError
 from continuum.inertial.angle_estimator import AngleEstimate, AngleEstimator
 from continuum.inertial.calibration import CalibrationSteps
@@ -18,8 +20,31 @@ from continuum_hw_imu.link.received import Received
 from continuum_hw_imu.protocol.device_time import MICROSECONDS
 from continuum_hw_imu.protocol.messages import Hello, ImuFrame
 
+_MOST_NEWS = 100
+"""Most news that wait for a reader."""
+
 KEPT = 60.0
 """Time for which samples are kept [s]."""
+
+LOST = EstimatorSettings().longest_gap
+"""Time without data after which a sensor counts as lost [s]: that after which its angle is lost."""
+
+
+@dataclass(frozen=True)
+class SensorNews:
+    """A sensor was lost or is back.
+
+    Attributes:
+        link: number of its link, from 1.
+        name: its name.
+        lost: whether it was lost.
+        gap: time since its last data before this, by the device's clock [s].
+    """
+
+    link: int
+    name: str
+    lost: bool
+    gap: float
 
 
 class SensorWatch:
@@ -35,6 +60,7 @@ class SensorWatch:
         missing, clipped: number of samples in which each sensor was missing or clipped, (n,).
         received: whether each sensor was in the latest sample, (n,).
         estimate: latest estimate; None before the first, and while the calibration is incomplete.
+        news: sensors that were lost or are back, oldest first; the reader removes them.
 
     Raises:
         InvalidValueError: the calibration steps are inconsistent.
@@ -42,6 +68,7 @@ class SensorWatch:
 
     def __init__(self, hello: Hello, steps: CalibrationSteps) -> None:
         self._order = np.argsort([sensor.link for sensor in hello.sensors])
+        self._names = [hello.sensors[k].name for k in self._order]
         self._settings = EstimatorSettings(period=1.0 / hello.sample_rate)
         self._kept: deque[ImuSample] = deque(maxlen=round(KEPT * hello.sample_rate))
         self._mutex = threading.Lock()
@@ -50,6 +77,9 @@ class SensorWatch:
         self.missing, self.clipped = (np.zeros(len(hello.sensors), dtype=int) for _ in range(2))
         self.received = np.zeros(len(hello.sensors), dtype=bool)
         self.estimate: AngleEstimate | None = None
+        self.news: deque[SensorNews] = deque(maxlen=_MOST_NEWS)
+        self._seen: Array | None = None  # time of the latest data of each sensor [s]
+        self._lost = np.zeros(len(hello.sensors), dtype=bool)
         self.steps = steps
         self._zeroed: float | None = None  # time of the samples [s] at which the arm was straight and at rest
         self._use(steps)
@@ -73,7 +103,18 @@ class SensorWatch:
             self.missing += ~sample.valid
             self.clipped += sample.clipped & sample.valid
             self.estimate = None if self._estimator is None else self._estimator.update(sample)
+        self._note_lost(sample)
         return sample
+
+    def _note_lost(self, sample: ImuSample) -> None:
+        seen = np.full(sample.n_sensors, sample.time) if self._seen is None else self._seen
+        gap, valid = sample.time - seen, sample.valid
+        now_lost = ~valid & (gap > LOST)
+        for lost, changed in ((True, now_lost & ~self._lost), (False, valid & self._lost)):
+            for k in np.flatnonzero(changed).tolist():
+                self.news.append(SensorNews(k + 1, self._names[k], lost, float(gap[k])))
+        self._lost = (self._lost | now_lost) & ~valid
+        self._seen = np.where(valid, sample.time, seen)
 
     def find_bias(self, rest_time: float) -> None:
         """Estimate the bias from the latest ``rest_time`` [s] of samples.

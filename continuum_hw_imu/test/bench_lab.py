@@ -57,6 +57,7 @@ class Lab:
                 if beat:
                     self.say(m.Heartbeat(TOKEN))
             self.book.step(self.now)
+            self.emulator.hear()
             self.emulator.step(self.now)
             self.hear()
         return self.frames[first:]

@@ -3,8 +3,8 @@
 import json
 import socket
 import time
-from collections.abc import Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -14,15 +14,53 @@ from lifecycle_msgs.srv import ChangeState, GetState
 from sensor_msgs.msg import Imu, JointState
 from std_srvs.srv import Trigger
 
+from continuum.dynamics.model_file import load_model
+from continuum.inertial.calibration_values import Calibration, save_calibration
+from continuum_hw_imu.emulator.bench import BenchSettings
+from continuum_hw_imu.emulator.link_motion import gravity
+from continuum_hw_imu.emulator.sensor_model import SensorModel
 from continuum_hw_imu.emulator.truth_file import read_truth
+from continuum_hw_imu.sensor_quality import SensorQuality
 from continuum_manipulator.nodekit.qos import STREAM
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 from continuum_manipulator.nodekit.two_clocks import read_together
 from continuum_msgs.msg import CableStates
 
 MOST_ACTIVATIONS = 5  # in one pull: a bench lets go of whoever was silent, not of whoever speaks
+COMMAND_PERIOD = 1 / 30  # s
+ASK_AGAIN = 3.0  # s; longer than the bridge waits for the bench
 CABLES = ["section_1_cable_1", "section_1_cable_2"]
 N_SENSORS = 5
+
+
+class Shared:
+    """What tests share until one fails. Use as a context.
+
+    Args:
+        make: returns a context of the shared.
+    """
+
+    def __init__(self, make: Callable[[], AbstractContextManager]) -> None:
+        self._make, self._stack = make, ExitStack()
+        self._kept = None
+
+    def __enter__(self) -> "Shared":
+        return self
+
+    def __exit__(self, *_) -> None:
+        self._kept = None
+        self._stack.close()
+
+    def get(self):
+        if self._kept is None:
+            self._kept = self._stack.enter_context(self._make())
+        return self._kept
+
+    def replace(self) -> None:
+        """End it, in whatever state it is; the next test gets another."""
+        self._kept = None
+        with suppress(Exception):  # of what failed already
+            self._stack.close()
 
 
 class EmulatedBench:
@@ -123,31 +161,60 @@ class Bridge:
         }
 
     def call(self, name: str, request=None):
-        client = self._clients[name]
+        """Asked again where the answer is lost, as while nodes still find each other."""
+        client, asked, ask_again = self._clients[name], [], 0.0
         self.probe.wait_until(client.service_is_ready, lambda: f"service {name}; {self.node.stderr}")
-        future = client.call_async(request or client.srv_type.Request())
-        self.probe.wait_until(future.done, lambda: f"answer of {name}; {self.node.stderr}")
-        return future.result()
+
+        def answered() -> bool:
+            nonlocal ask_again
+            if time.monotonic() > ask_again:
+                asked.append(client.call_async(request or client.srv_type.Request()))
+                ask_again = time.monotonic() + ASK_AGAIN
+            return any(future.done() for future in asked)
+
+        self.probe.wait_until(answered, lambda: f"answer of {name}; {self.node.stderr}")
+        return next(future.result() for future in asked if future.done())
 
     @property
     def state(self) -> str:
-        """Asked again where the answer is lost, as while nodes still find each other."""
-        client = self._clients["get_state"]
-        self.probe.wait_until(client.service_is_ready, lambda: f"get_state; {self.node.stderr}")
-        asked = []
-
-        def answered() -> bool:
-            if not asked or (not asked[-1].done() and time.monotonic() > self._ask_again):
-                asked.append(client.call_async(GetState.Request()))
-                self._ask_again = time.monotonic() + 2.0
-            return any(future.done() for future in asked)
-
-        self.probe.wait_until(answered, lambda: f"answer of get_state; {self.node.stderr}")
-        return next(future.result() for future in asked if future.done()).current_state.label
+        return self.call("get_state").current_state.label
 
     def change(self, transition: str) -> bool:
+        """Whether a transition was carried out; one whose answer was lost is refused the second time."""
         number = getattr(Transition, f"TRANSITION_{transition.upper()}")
         return self.call("change_state", ChangeState.Request(transition=Transition(id=number))).success
+
+    def configure(self) -> None:
+        """Configure, again where the bench just then does not answer."""
+        self.probe.wait_until(
+            lambda: self.state == "inactive" or self.change("configure"), lambda: f"inactive; {self.node.stderr}"
+        )
+
+    def activate(self) -> None:
+        """Activate, again where the bench just then is silent or does not answer, as on a busy machine."""
+        self.probe.wait_until(
+            lambda: self.state == "active" or self.change("activate"), lambda: f"active; {self.node.stderr}"
+        )
+
+    def deactivate(self) -> None:
+        """Deactivate, unless the node has become inactive by itself, and wait for slack cables."""
+        if self.state == "active":
+            self.change("deactivate")
+        self.wait_for_state("inactive")
+        self.probe.wait_until(lambda: not any(self.bench.status["set_points"]), "slack cables")
+
+    def wait_for_joints(self, number: int = 5) -> None:
+        """Wait for so many more joint states, of an active node."""
+        before = len(self.joints)
+
+        def came() -> bool:
+            return len(self.joints) >= before + number
+
+        while not came():
+            self.activate()
+            self.probe.wait_until(
+                lambda: came() or self.state != "active", lambda: f"joint states; {self.diagnostic('angles')}"
+            )
 
     def wait_for_state(self, label: str) -> None:
         self.probe.wait_until(lambda: self.state == label, lambda: f"{label}; {self.node.stderr}")
@@ -169,22 +236,22 @@ class Bridge:
 
     def monotonic(self, message) -> float:
         """When what a message tells of was measured, by this machine's monotonic clock [s]."""
-        instant, now = read_together(time.monotonic, lambda: self.probe.node.get_clock().now().nanoseconds)
-        return instant + (nanoseconds(message.header.stamp) - now) / NANOSECONDS
+        return self.monotonic_of(nanoseconds(message.header.stamp) / NANOSECONDS)
 
-    def since(self, instant: float, messages) -> list:
-        """Those of what was measured after an instant of `monotonic` [s]; topics keep no order among each other."""
-        return [message for message in messages if self.monotonic(message) > instant]
+    def monotonic_of(self, stamp: float) -> float:
+        """A ROS time [s] by this machine's monotonic clock [s]."""
+        instant, now = read_together(time.monotonic, lambda: self.probe.node.get_clock().now().nanoseconds)
+        return instant + (stamp - now / NANOSECONDS)
 
     def command_until(self, effort, until) -> None:
-        """Command tensions, with every second cable state that comes, until ``until()``."""
-        due = len(self.cables)
+        """Command tensions until ``until()``."""
+        due = time.monotonic()
 
         def done() -> bool:
             nonlocal due
-            if len(self.cables) >= due:
+            if time.monotonic() >= due:
                 self.command(effort)
-                due = len(self.cables) + 2
+                due = time.monotonic() + COMMAND_PERIOD
             return until()
 
         self.probe.wait_until(done, lambda: f"what was commanded for; {self.bench.status}; {self.node.stderr}")
@@ -204,8 +271,7 @@ class Bridge:
             self.command_until(effort, lambda before=before: until() or dropped() > before)
             if dropped() <= before:
                 return
-            if self.state == "inactive":
-                assert self.change("activate"), self.node.stderr
+            self.activate()
         raise AssertionError(f"activated again {MOST_ACTIVATIONS} times; {self.node.stderr}")
 
     def calibrate(self) -> list[str]:
@@ -231,6 +297,20 @@ class Bridge:
 
         self.probe.wait_until(succeeded, lambda: f"{name}: {answers[-1].message}")
         return answers[-1].message
+
+
+def save_true_calibration(file: Path) -> Path:
+    """Write the calibration that the sensors of an emulated bench have by default, with the bias of its start."""
+    sensors = SensorModel(N_SENSORS, SensorQuality(), np.random.default_rng(BenchSettings().seed))
+    upwards = -gravity(load_model("lamecc_prototype.yaml"))
+    calibration = Calibration(
+        bias=sensors._rate_bias,
+        axis=np.array([mounting.apply([0.0, 1.0, 0.0]) for mounting in sensors.mountings]),
+        zero=np.array([mounting.apply(upwards) for mounting in sensors.mountings]) + sensors._force_bias,
+        sources=("as emulated",) * N_SENSORS,
+    )
+    save_calibration(calibration, file)
+    return file
 
 
 @contextmanager

@@ -1,5 +1,7 @@
 """A bench client whose port leads straight to a bench controller: no port, no thread, no time but the test's."""
 
+import math
+
 from continuum_hw_imu.link.bench_client import BenchClient
 from continuum_hw_imu.protocol.frame import FrameWriter
 from continuum_hw_imu.protocol.messages import Hello, Message, ReceiverLimits, SensorPlace
@@ -13,6 +15,7 @@ class LoopedLink:
 
     def __init__(self) -> None:
         self.is_open, self.problem, self.refused, self.openings, self.reopened = True, "", 0, 1, 0
+        self.emptied = math.inf  # it is read at any time
         self.client: BenchClient | None = None
         self.bench: LoopedBench | None = None
         self.deaf = False
@@ -36,14 +39,13 @@ class LoopedBench:
     """A controller and the client at it; both ends' clocks show ``now`` [s]."""
 
     def __init__(self, hello: Hello = HELLO) -> None:
-        self.received = []
+        self.received, self.now = [], 10.0
         self.controller = BenchController(hello)
-        self.client = BenchClient("nowhere", 921_600, self.received.append)
+        self.client = BenchClient("nowhere", 921_600, self.received.append, now=lambda: self.now)
         self.link = LoopedLink()
         self.link.client, self.link.bench = self.client, self
         self.client.link = self.link
         self._writer = FrameWriter()
-        self.now = 10.0
         self.connect()
 
     def connect(self) -> None:

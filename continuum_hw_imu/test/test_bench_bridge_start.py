@@ -68,7 +68,7 @@ def test_calibration_of_another_arm(domain, calibration_of_three):
 def test_without_a_bench_it_waits_says_why_once_and_ends_cleanly(domain, number, tmp_path):
     port = tmp_path / "port"
     with Probe(domain) as probe, ended_in_any_case(bridge(domain, port=port)) as (node,):
-        node.wait_for_line(f"cannot configure: {port} does not exist")
+        node.wait_for_line(f"waiting: {port} does not exist")
         probe.wait_until(
             lambda: probe.report("bench_bridge: link").get("message") == f"{port} does not exist",
             lambda: probe.report("bench_bridge: link"),

@@ -45,15 +45,17 @@ class Published:
         self.bench = LoopedBench(hello)
         self.bench.client._hand_on = self.streams.take
         self.bench.connect()
+        self.streams.publishing = True
         self._sample = 0
         commander = BenchCommander(TensionLimits(12.0, 100.0, 0.4, 0.2), 2, lambda: self.bench.now)
         commander.client = self.bench.client
         self._diagnostics = BenchDiagnostics("bridge", self.streams, commander, "nowhere", N)
 
-    def measure(self, frames: int = 1, rates=None, flags=None, link_rates=None, forces=UP) -> None:
+    def measure(self, frames: int = 1, rates=None, flags=None, link_rates=None, forces=UP, answers=True) -> None:
         """Samples at 60 Hz; rates (n, 3) [rad/s] in the order of the frame, or about y of each link (n,).
 
-        Specific forces (n, 3) [m/s2] are in the order of the frame, too.
+        Specific forces (n, 3) [m/s2] are in the order of the frame, too. With ``answers``, the bench answers a request
+        before each sample, from which the error of stamps is known.
         """
         rates = np.zeros((N, 3)) if rates is None else rates
         if link_rates is not None:
@@ -63,6 +65,8 @@ class Published:
         for _ in range(frames):
             self.bench.now += 1 / 60
             self._sample += 1
+            if answers:
+                self.bench.client.beat()
             self.bench.say(ImuFrame.of(self._sample, rates, forces, flags))
 
     def status(self, subject: str) -> DiagnosticStatus:
@@ -154,6 +158,55 @@ def test_no_joint_state_is_wrong_while_a_sensor_turns_unmeasured(trouble):
     for joints in published.joints[before:]:
         np.testing.assert_allclose(joints.position[1:-1], [0.0, 0.0, 0.0, 0.0, turn], atol=0.01)
     assert published.status("angles").level != DiagnosticStatus.ERROR
+
+
+def test_angles_whose_time_is_not_known_are_withheld():
+    """No answer limits by how much all frames so far were late."""
+    published = Published()
+    published.measure(60, answers=False)
+    assert not published.joints
+    assert published.status("angles").level == DiagnosticStatus.ERROR
+    assert "the time of the sample is not known" in published.status("angles").message
+    assert [len(imu) for imu in published.imus] == [60] * N
+    published.measure(1)
+    assert len(published.joints) == 1
+
+
+@pytest.mark.parametrize(("late", "speed", "known"), [(0.008, 0.1, True), (0.008, 3.5, False), (0.02, 0.0, False)])
+def test_angles_are_withheld_where_the_error_of_their_time_makes_them_wrong(late, speed, known):
+    """Here link 1 turns so fast [rad/s], and all frames come later than they could by so much [s]."""
+    published = Published()
+    published.measure(60, answers=False)
+    bench = published.bench
+    bench.client._now = lambda: bench.now - late  # of each request, which the bench answers when it hears it
+    published.measure(1)
+    published.joints.clear()
+    published.measure(3, link_rates=[speed] * N)
+    assert bool(published.joints) is known
+
+
+def test_nothing_is_published_while_the_node_is_not_active():
+    published = Published()
+    published.streams.publishing = False
+    published.measure(60)
+    published.bench.say(TensionFrame((1.0, 0.0), (1.02, 0.0)))
+    assert not any((published.joints, published.cables, *published.imus))
+    assert published.streams.withheld == 0
+    published.streams.publishing = True
+    published.measure(1)
+    assert len(published.joints) == 1
+
+
+def test_the_time_of_lost_angles_is_counted_by_the_clock_of_the_bench():
+    published = Published()
+    published.measure(60)
+    assert published.streams.lost_for == 0.0
+    flags = np.full(N, PRESENT)
+    flags[2] = 0
+    published.measure(30, flags=flags)
+    assert published.streams.lost_for == pytest.approx(0.5, abs=1e-3)
+    published.measure(60)
+    assert published.streams.lost_for == 0.0
 
 
 def test_what_is_clipped_has_the_covariance_of_anything_in_range():

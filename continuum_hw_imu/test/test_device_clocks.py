@@ -96,6 +96,36 @@ def test_a_clock_that_was_set_begins_again():
     assert clock.host_time(900 * 16667 + 3_000_000) == pytest.approx(15.0, abs=1e-3)
 
 
+@given(st.integers(0, 1 << 32), st.sampled_from([-900.0, -100.0, 0.0, 100.0, 900.0]), st.sampled_from([0.0, 0.02, 0.5]))
+def test_a_time_is_never_more_off_than_its_error(seed, ppm, waits):
+    """However late frames are read and requests are heard: at first, later, or in waits of a process without a core."""
+    clock, random = ClockMap(), np.random.default_rng(seed)
+    awake, asked, known = 0.0, 0.0, 0
+    for k in range(60 * 12):
+        device, real = round(k / 60 * 1e6), 5000.0 + k / 60 * (1 + ppm * 1e-6)
+        clock.received(device, max(real + random.exponential(0.001), awake))
+        assert abs(clock.host_time(device) - real) <= clock.error(device) + 2e-6
+        known += clock.error(device) < 0.01
+        if random.random() < 0.3:
+            heard = real + random.exponential(0.001)
+            asked = heard - random.exponential(0.001 if random.random() < 0.5 else waits)
+            device += round((heard - real) / (1 + ppm * 1e-6) * 1e6)
+            clock.received(device, max(heard + random.exponential(0.001), awake), asked)
+            assert abs(clock.host_time(device) - heard) <= clock.error(device) + 2e-6
+        if random.random() < 0.1:
+            awake = real + random.exponential(waits)
+    assert known > 60 * 6
+
+
+def test_no_answer_no_error_is_known():
+    clock = ClockMap()
+    for k in range(60):
+        clock.received(k * 16667, k * 16667e-6)
+    assert clock.error(60 * 16667) == np.inf
+    clock.received(60 * 16667, 1.0001, 0.9)
+    assert clock.error(60 * 16667) == pytest.approx(0.1, abs=2e-3)
+
+
 def test_there_and_back():
     clock = ClockMap()
     for k in range(1200):

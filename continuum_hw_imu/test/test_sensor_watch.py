@@ -13,7 +13,7 @@ from continuum.inertial.calibration import CalibrationSteps
 from continuum_hw_imu.link.received import Received
 from continuum_hw_imu.protocol.messages import ImuFrame
 from continuum_hw_imu.protocol.messages.imu import PRESENT
-from continuum_hw_imu.sensor_watch import KEPT, SensorWatch
+from continuum_hw_imu.sensor_watch import KEPT, LOST, SensorWatch
 
 N, RATE = 5, 60
 BEND = np.radians(60.0)
@@ -40,7 +40,7 @@ class Arm:
         force = 9.81 * np.stack([np.sin(links), np.zeros(N), -np.cos(links)], axis=1)
         frame = ImuFrame.of(self.sample, np.outer(rates, [0, 1, 0])[order], force[order], np.full(N, PRESENT))
         at = self.sample / RATE
-        self.watch.take(Received(frame, at, at, round(at * 1e6), 1), frame)
+        self.watch.take(Received(frame, at, 0.0, at, round(at * 1e6), 1), frame)
 
 
 @pytest.fixture
@@ -81,12 +81,39 @@ def test_a_zero_from_a_file_does_not_say_when_the_arm_was_straight(arm):
         later.watch.find_axes()
 
 
+def test_the_loss_and_the_return_of_a_sensor_are_each_news_once():
+    """By the clock of the samples; a gap of all sensors, or a short one, is none."""
+    watch, at = SensorWatch(HELLO, CalibrationSteps()), 0
+
+    def take(missing: set[int]) -> list[tuple[int, str, bool, float]]:
+        nonlocal at
+        at += 1
+        flags = np.array([0 if sensor.link in missing else PRESENT for sensor in HELLO.sensors])
+        frame = ImuFrame.of(at, np.zeros((N, 3)), np.zeros((N, 3)), flags)
+        watch.take(Received(frame, at / RATE, 0.0, at / RATE, round(at / RATE * 1e6), 1), frame)
+        news = [(one.link, one.name, one.lost, round(one.gap, 3)) for one in watch.news]
+        watch.news.clear()
+        return news
+
+    quiet = [set(), {4}, set(), {2}, {2}, set()]
+    assert [take(missing) for missing in quiet] == [[]] * len(quiet)
+    at += RATE
+    assert take(set()) == []
+    told = [news for _ in range(60) if (news := take({2, 5}))]
+    (lost,) = told
+    assert [one[:3] for one in lost] == [(2, "S2", True), (5, "S5", True)]
+    assert all(LOST < one[3] < LOST + 2 / RATE for one in lost)
+    assert take({5}) == [(2, "S2", False, round(61 / RATE, 3))]
+    assert take({5}) == []
+    assert take(set()) == [(5, "S5", False, round(63 / RATE, 3))]
+
+
 def test_samples_without_a_sensor_are_counted_by_its_link():
     watch, flags = SensorWatch(HELLO, CalibrationSteps()), np.full(N, PRESENT)
     flags[1] = 0
     frame = ImuFrame.of(1, np.zeros((N, 3)), np.zeros((N, 3)), flags)
     for _ in range(2):
-        watch.take(Received(frame, 0.0, 0.0, 0, 1), frame)
+        watch.take(Received(frame, 0.0, 0.0, 0.0, 0, 1), frame)
     lost = np.arange(1, N + 1) == HELLO.sensors[1].link
     np.testing.assert_array_equal(watch.missing, 2 * lost)
     np.testing.assert_array_equal(watch.received, ~lost)

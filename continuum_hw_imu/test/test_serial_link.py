@@ -1,13 +1,15 @@
 """The serial link on a pseudo-terminal that goes and comes: what arrives, what is told, who holds the port."""
 
+import time
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+import serial
 from harness import wait_until
 
 from continuum_hw_imu.emulator.pseudo_port import PseudoPort
-from continuum_hw_imu.link.serial_link import SerialLink
+from continuum_hw_imu.link.serial_link import CHECK, SerialLink
 
 
 class Line:
@@ -47,6 +49,32 @@ def test_bytes_go_both_ways(port, tmp_path):
         assert line.received == bytes(range(256))  # nothing is taken for a control character
         assert line.link.send(b"\x00\x11\x13\xff")
         wait_until(lambda: port.read() == b"\x00\x11\x13\xff", "bytes of the host")
+
+
+def test_no_byte_is_said_to_have_come_before_it_was_sent(port, tmp_path, monkeypatch):
+    """Even where the reading thread waits for the processor between two steps."""
+    sent = []
+
+    def write_meanwhile(serial):
+        sent.append(time.monotonic())
+        port.write(b"y")
+        return waiting(serial)
+
+    waiting = serial.Serial.in_waiting.fget
+    monkeypatch.setattr(serial.Serial, "in_waiting", property(write_meanwhile))
+    with line_at(tmp_path / "port") as line:
+        wait_until(lambda: line.link.is_open, "the port")
+        port.write(b"x")
+        wait_until(lambda: line.received.startswith(b"xy"), lambda: line.received)
+        assert line.times[0] >= sent[0]
+
+
+def test_waiting_for_bytes_is_told_from_waiting_for_the_processor(port, tmp_path):
+    with line_at(tmp_path / "port") as line:
+        wait_until(lambda: line.link.is_open, "the port")
+        port.write(b"x")
+        wait_until(lambda: line.times, "the byte")
+        wait_until(lambda: line.link.emptied > line.times[-1] + 2 * CHECK, "that nothing more comes")
 
 
 def test_a_port_that_comes_later_or_back_is_opened(tmp_path):

@@ -83,6 +83,7 @@ def _go_on(emulator: Emulator, book: OrderBook, control: ControlSocket | None) -
         return
     if control is not None:
         control.serve()
+    emulator.hear()
     now = time.monotonic()
     book.step(now)
     emulator.step(now)

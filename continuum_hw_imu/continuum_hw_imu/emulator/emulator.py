@@ -1,6 +1,7 @@
 """The emulated bench in real time on its port: input and output, orders, and the record of the true motion.
 
-The main loop calls `step` with the time of a clock repeatedly, at `wake_at` at the latest or when bytes have arrived.
+The main loop calls `hear`, then `step` with the time of a clock, repeatedly: at `wake_at` at the latest, or when bytes
+have arrived.
 """
 
 from __future__ import annotations
@@ -84,6 +85,7 @@ class Emulator:
         self.skipped = 0.0
         self.largest_set_point = 0.0
         self._open = False
+        self._heard = b""
         self.clock = DeviceClock(now, settings.clock_start)
         self._begin(settings.clock_start)
 
@@ -101,10 +103,15 @@ class Emulator:
         tick = self.clock.real(self._tick_time(self._ticks + 1))
         return min(tick, *(when for when in (self._outgoing.next, self._incoming.next, np.inf) if when is not None))
 
+    def hear(self) -> None:
+        """Read the bytes that have arrived; before the clock is read, so that none is answered before it was sent."""
+        self._heard += self.port.read()
+
     def step(self, now: float) -> None:
-        """Carry out the actions that are due."""
+        """Carry out the actions that are due, and answer what was heard."""
         self._watch_port(now)
-        for piece in pieces_of(self.port.read()):
+        heard, self._heard = self._heard, b""
+        for piece in pieces_of(heard):
             for delay, part in self.down.passed(piece, now):
                 self._incoming.put(now, part, delay)
         for data in self._incoming.due(now):
@@ -120,6 +127,7 @@ class Emulator:
     def unplug(self) -> None:
         """Unplug the port; the controller continues to run."""
         self.port.unplug()
+        self._heard = b""
         self._outgoing.clear()
         self._incoming.clear()
 

@@ -41,6 +41,9 @@ AGAIN = 0.1
 BEGAN_AGAIN = 2_000_000
 """A frame older than the newest by more than this [us] is not late: the device's clock restarted."""
 
+_REMEMBERED = 256
+"""Number of past requests whose time of sending is remembered."""
+
 HELLO_AGAIN = 0.2
 """Time after which a device that has not identified itself is asked again [s]."""
 
@@ -53,6 +56,7 @@ class BenchClient:
         received: function that the link's thread calls with every new message, but not with repeated frames or frames
             that arrive after later ones.
         rng: generator of tokens; random by default.
+        now: `time.monotonic`, except in tests [s].
 
     Attributes:
         link: the port.
@@ -66,14 +70,21 @@ class BenchClient:
     """
 
     def __init__(
-        self, port: str, baud_rate: int, received: Callable[[Received], None], rng: random.Random | None = None
+        self,
+        port: str,
+        baud_rate: int,
+        received: Callable[[Received], None],
+        rng: random.Random | None = None,
+        now: Callable[[], float] = time.monotonic,
     ) -> None:
         self.link = SerialLink(port, baud_rate, self._take, self._begin)
         self._hand_on = received
         self._rng = rng or random.SystemRandom()
+        self._now = now
         self._news = threading.Condition()
         self._answers: dict[int, Result | None] = {}  # to the transmissions of the pending request, by number
         self._writer = FrameWriter()
+        self._sent = [(-1, 0.0)] * _REMEMBERED  # sequence number and time of the latest requests
         self._device_time = DeviceTime()
         self._asked_hello = -HELLO_AGAIN
         self._token = 0
@@ -99,8 +110,11 @@ class BenchClient:
         return self.conversation.hello
 
     def silent_for(self, now: float) -> float:
-        """Return the time since the last valid frame [s]; infinite before the first on this link."""
-        return now - self.conversation.last
+        """Return the time since the last valid frame [s]; infinite before the first on this link.
+
+        Time in which this process did not get round to reading the port is no silence of the bench.
+        """
+        return max(0.0, min(now, self.link.emptied) - self.conversation.last)
 
     def wait_for(self, condition: Callable[[], bool], timeout: float) -> bool:
         """Wait until a condition on the received data holds; return whether it did within ``timeout`` [s]."""
@@ -189,7 +203,9 @@ class BenchClient:
         self._send(request)
 
     def _send(self, message: Message) -> None:
-        self.link.send(self._writer.write(message, int(time.monotonic() * MICROSECONDS)))
+        sequence, now = self._writer.sequence, self._now()
+        self._sent[sequence % _REMEMBERED] = (sequence, now)
+        self.link.send(self._writer.write(message, int(now * MICROSECONDS)))
 
     def _begin(self) -> None:
         """Start after the port was opened."""
@@ -229,7 +245,7 @@ class BenchClient:
                 self._forget()
                 self._news.notify_all()
                 return None
-            self.clock.received(device_time, now)
+            self.clock.received(device_time, now, self._asked_at(frame.message))
             talk = self.conversation
             talk.last, talk.newest = now, max(talk.newest, device_time)
             overtaken = arrival is Arrival.LATE
@@ -240,8 +256,16 @@ class BenchClient:
             self._news.notify_all()
             if overtaken:
                 return None
-            host_time = self.clock.host_time(device_time)
-            return Received(frame.message, host_time, now, device_time, self.conversations)
+            clock = self.clock
+            times = clock.host_time(device_time), clock.error(device_time), now
+            return Received(frame.message, *times, device_time, self.conversations)
+
+    def _asked_at(self, message: Message) -> float | None:
+        """Return when the request was sent that a message answers; None if it answers none."""
+        if not isinstance(message, Ack):
+            return None
+        sequence, sent = self._sent[message.sequence % _REMEMBERED]
+        return sent if sequence == message.sequence else None
 
     def _goes_back(self, message: Message, arrival: Arrival, device_time: int) -> bool:
         """Return whether the device's clock went back; times of sensor frames increase with their numbers."""

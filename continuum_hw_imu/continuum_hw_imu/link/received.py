@@ -16,13 +16,15 @@ class Received:
     Attributes:
         message: the message.
         time: instant of its content by `time.monotonic` [s], without the jitter of the transmission.
-        read: time at which its bytes arrived, by the same clock [s].
+        error: largest possible error of `time` [s]; infinite as long as the bench has not answered a request.
+        read: time by which its bytes had arrived, by the same clock [s].
         device_time: instant of its content by the device's clock, unwrapped [us].
         conversation: number of its conversation.
     """
 
     message: Message
     time: float
+    error: float
     read: float
     device_time: int
     conversation: int

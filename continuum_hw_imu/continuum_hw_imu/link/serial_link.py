@@ -13,8 +13,8 @@ import serial
 FIRST_PAUSE, LONGEST_PAUSE = 0.05, 0.4
 """First and longest time between attempts to open the port [s]; it doubles from attempt to attempt."""
 
-CHECK = 0.1
-"""Longest wait for bytes before the thread checks whether it must end [s]."""
+CHECK = 0.05
+"""Longest wait for bytes before the thread checks whether it must end, and notes that there are none [s]."""
 
 WRITE_LIMIT = 0.02
 """Longest duration of a transmission [s]; after that, the other end does not read, and the data are outdated."""
@@ -26,7 +26,7 @@ FAILURES = (serial.SerialException, OSError, termios.error)
 """Exceptions of a port that disappears during an operation."""
 
 Received = Callable[[bytes, float], None]
-"""Function that is called with bytes and their arrival time by `time.monotonic` [s]."""
+"""Function that is called with bytes and a time by `time.monotonic` [s] by which all of them had arrived."""
 
 
 class SerialLink:
@@ -46,6 +46,7 @@ class SerialLink:
         openings: number of times that the port was opened.
         refused: number of transmissions that the port did not accept.
         problem: description of why the port is not open; empty while it is.
+        emptied: latest time by `time.monotonic` [s] at which the port had nothing to read.
     """
 
     def __init__(
@@ -66,6 +67,7 @@ class SerialLink:
         self.openings = 0
         self.refused = 0
         self.problem = "not opened yet"
+        self.emptied = 0.0
 
     def start(self) -> None:
         """Start the thread; call this once."""
@@ -128,9 +130,13 @@ class SerialLink:
         try:
             while port is not None and not (self._end.is_set() or self._again.is_set()):
                 data = port.read(1)
-                now = time.monotonic()
                 if data:
-                    self._received(data + port.read(min(port.in_waiting, MOST)), now)
+                    data += port.read(min(port.in_waiting, MOST))
+                now = time.monotonic()  # last: whoever waits for the processor here must not take a byte for earlier
+                if data:
+                    self._received(data, now)
+                else:
+                    self.emptied = now
         except FAILURES as error:
             problem = _in_words(self._port, error)
         self._shut(problem)

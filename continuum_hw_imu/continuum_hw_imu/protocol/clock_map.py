@@ -6,17 +6,24 @@ of all such lines, the one with the least sum of distances is the edge of the po
 (L. Zhang, Z. Liu, C. H. Xia, Clock synchronization algorithms for network measurements, IEEE INFOCOM 2002). Any number
 of late frames lie above it and do not change it.
 
-The shortest delay cannot be determined from one side: it remains in the offset, a millisecond on a serial port.
+The shortest delay cannot be determined from one side: it remains in the offset, a millisecond on a serial port, and
+more if every frame so far was late. Answers limit it from the other side: a device answers no request before it was
+sent. So at a frame that arrives at r the map is at most r - host_time early, at an answer to a request of the time s at
+most host_time - s late, and from there on it goes wrong no faster than the two drifts may differ.
 """
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from itertools import pairwise
 
 from continuum_hw_imu.protocol.device_time import MICROSECONDS
 
 Point = tuple[float, float]
+
+_Limit = tuple[int, float]
+"""Device time [us] and a host time [s] that it cannot be later than, or earlier than."""
 
 _BUCKET = 0.25
 """Length of an interval [s] of which the least delayed frame counts."""
@@ -51,6 +58,8 @@ class ClockMap:
         """Start over after a restart of the device."""
         self._points.clear()
         self._origin: int | None = None
+        self._latest: _Limit | None = None
+        self._earliest: _Limit | None = None
         self._offset = 0.0
         self.drift = 0.0
 
@@ -59,19 +68,28 @@ class ClockMap:
         """Whether any frame has arrived."""
         return self._origin is not None
 
-    def received(self, device: int, host: float) -> None:
-        """Process a frame with a device time that arrived at a host time."""
+    def received(self, device: int, host: float, asked: float | None = None) -> None:
+        """Process a frame with a device time that arrived at a host time.
+
+        For an answer, ``asked`` is the host time at which its request was sent.
+        """
         if self._origin is not None and host - self.host_time(device) < -_LEAP:
             self.leaps += 1
             self.forget()
         if self._origin is None:
             self._origin = device
             self._offset = host
-        t = (device - self._origin) / MICROSECONDS
+        self._add((device - self._origin) / MICROSECONDS, host)
+        self._latest = self._closer(self._latest, (device, host))
+        if asked is not None:
+            self._earliest = self._closer(self._earliest, (device, asked))
+
+    def _add(self, t: float, host: float) -> None:
+        """Take a point into the history if it is the least delayed of its interval, and fit the line."""
         point = (t, host - t)
         if self._points and t < (_bucket(self._points[-1][0]) + 1) * _BUCKET:
             if point[1] >= self._points[-1][1] or _bucket(t) != _bucket(self._points[-1][0]):
-                return  # not the least delayed of its interval, or late
+                return
             self._points[-1] = point
         else:
             self._points.append(point)
@@ -81,6 +99,21 @@ class ClockMap:
         """Return the host time [s] of a device time [us]; only valid if `known`."""
         t = (device - (self._origin or 0)) / MICROSECONDS
         return self._offset + (1.0 + self.drift) * t
+
+    def error(self, device: int) -> float:
+        """Return the largest possible error of `host_time` at a device time [us], in s; infinite before any answer."""
+        if self._latest is None or self._earliest is None:
+            return math.inf
+        return max(self._distance(limit, device) for limit in (self._latest, self._earliest))
+
+    def _distance(self, limit: _Limit, device: int) -> float:
+        """Return how far the map may be beyond a limit, seen from a device time [us]; in s."""
+        away = abs(device - limit[0]) / MICROSECONDS
+        return abs(limit[1] - self.host_time(limit[0])) + 2.0 * self._most_drift * away
+
+    def _closer(self, kept: _Limit | None, new: _Limit) -> _Limit:
+        """Return the limit that says more at the device time of the new one."""
+        return kept if kept and self._distance(kept, new[0]) < self._distance(new, new[0]) else new
 
     def device_time(self, host: float) -> int:
         """Return the device time [us] at a host time [s]; only valid if `known`."""

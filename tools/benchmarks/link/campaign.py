@@ -101,19 +101,24 @@ def to_and_fro(t: float) -> Array:
     return COMMANDED * np.eye(2)[int(t / HALF) % 2]
 
 
-def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
+def reactivate(bridge: Bridge) -> None:
+    """Activate a bridge that has become inactive as soon as it can be; until then it publishes nothing."""
     if bridge.state != "active":
-        bridge.change("activate")
-        bridge.wait_for_state("active")
+        bridge.probe.wait_until(lambda: bridge.change("activate") or bridge.state == "active", "an active bridge")
+
+
+def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
+    reactivate(bridge)
     bench.wait_for_joints(bridge)
     bench.drive(bridge, to_and_fro, 4 * HALF)
     bench.latency_probe.clear()
-    begin = time.monotonic()
+    begin, before = time.monotonic(), len(bridge.node.stderr)
     for order in orders(case):
         bench.bench.tell(order)
     back = time.monotonic() + LASTS
     bench.drive(bridge, to_and_fro, back - time.monotonic())
     bench.bench.tell(NO_DRIFT)
+    reactivate(bridge)
     bench.drive(bridge, to_and_fro, PULLED_ON)
     bench.drive(bridge, lambda _: np.zeros(2), 4 * HALF)
     bench.drive(bridge, None, CALM)
@@ -122,10 +127,8 @@ def _course(bench: Rig, bridge: Bridge, case: tuple[str, ...]) -> _Course:
         list(bench.latency_probe.joints),
         [list(imu) for imu in bench.latency_probe.imus],
     )
-    fell_back = ""
-    if bridge.state != "active":
-        said = bridge.node.stderr.rpartition(_FALLEN)[2].partition("\n")[0]
-        fell_back = said.replace(str(bench.folder), "").strip(" /")
+    said = bridge.node.stderr[before:].partition(_FALLEN)[2].partition("\n")[0]
+    fell_back = said.replace(str(bench.folder), "").strip(" /")
     return _Course(case, begin, back, end, os.getloadavg()[0], joints, imus, fell_back)
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import tools.benchmarks.link
 from continuum.errors import ContinuumError
-from tools.benchmarks.link import campaign, closed_loop, crash_tests, soak
+from tools.benchmarks.link import campaign, closed_loop, crash_tests, soak, starvation
 from tools.benchmarks.link.faults import CASES, FAULTS
 from tools.benchmarks.link.processes import take_niceness
 from tools.benchmarks.link.results import keep, load, together
@@ -33,13 +33,19 @@ def main(arguments: list[str] | None = None) -> int:
         metavar="NAME",
         help="of the campaign: cases of these only, beside those kept: %(choices)s",
     )
+    add("--starved-seconds", type=float, default=30.0, help="of each way to starve the bridge; default %(default)g")
     add("--soak-minutes", type=float, default=60.0, help="default %(default)g")
     add("--soak-rate", type=float, default=60.0, metavar="HZ", help="of the sensors then; default %(default)g")
     add("--niceness", type=int, default=os.getpriority(os.PRIO_PROCESS, 0), metavar="N",
         help="of all its processes and their session; below 0 takes a privilege")  # fmt: skip
     add("--out", type=Path, default=Path("out/bench_link"), metavar="FOLDER", help="default %(default)s")
     add("--docs", type=Path, default=DOCS, metavar="FOLDER", help="of record and pages; default %(default)s")
-    add("parts", nargs="*", metavar="PART", help="closed, campaign, crash_tests, soak or page (no run); default all")
+    add(
+        "parts",
+        nargs="*",
+        metavar="PART",
+        help="closed, campaign, crash_tests, starvation, soak or page (no run); default all",
+    )
     options = parser.parse_args(arguments)
     runs: dict[str, Callable[[Path], Any]] = {
         "closed": lambda folder: [*(load(options.out).closed or []), closed_loop.measure(options.minutes, folder)],
@@ -47,6 +53,7 @@ def main(arguments: list[str] | None = None) -> int:
             load(options.out).campaign if options.faults else None, campaign.measure(folder, _cases(options.faults))
         ),
         "crash_tests": lambda folder: crash_tests.measure(folder, options.repetitions),
+        "starvation": lambda folder: starvation.measure(folder, options.starved_seconds),
         "soak": lambda folder: soak.measure(options.soak_minutes, options.soak_rate, folder),
     }
     parts = options.parts or list(runs)

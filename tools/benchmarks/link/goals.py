@@ -11,6 +11,7 @@ from tools.benchmarks.link.crash_tests import LIMITS, TICK, Crash
 from tools.benchmarks.link.results import Results
 from tools.benchmarks.link.rig import RATE
 from tools.benchmarks.link.soak import Soak
+from tools.benchmarks.link.starvation import Starved
 from tools.benchmarks.record import Figure
 
 RISE_ROUNDING = 2 * STEP * RATE
@@ -28,6 +29,7 @@ def goals(results: Results) -> tuple[Figure, ...]:
     parts: Sequence[tuple[object, Callable[..., Iterator[Figure]]]] = (
         (results.crash_tests, _crashes),
         (results.campaign, _campaign),
+        (results.starvation, _starvation),
         (results.closed and results.closed[-1], _closed),
         (results.soak, _soak),
     )
@@ -59,6 +61,11 @@ def _campaign(cases: Sequence[Case]) -> Iterator[Figure]:
         yield Figure("bridge, any fault: data stream again after", max(known), "s", at_most=1.0, n=len(known))
     yield Figure("bridge, any fault: rise of tension", rise, "N/s", at_most=FASTEST + RISE_ROUNDING, n=n)
     yield Figure("bridge, any fault: largest error of an angle", max(c.largest_error for c in cases), "degrees", n=n)
+
+
+def _starvation(ways: Sequence[Starved]) -> Iterator[Figure]:
+    wrong, states = sum(way.wrong for way in ways), sum(way.states for way in ways)
+    yield Figure("bridge without processor: joint states with a wrong angle", wrong, at_most=0, n=states)
 
 
 def _crashes(crash_tests: Sequence[Crash]) -> Iterator[Figure]:

@@ -13,6 +13,7 @@ from tools.benchmarks.link.campaign import Case
 from tools.benchmarks.link.closed_loop import ClosedLoop, Minute
 from tools.benchmarks.link.crash_tests import Crash
 from tools.benchmarks.link.soak import Memory, Soak
+from tools.benchmarks.link.starvation import Starved
 
 
 @dataclass(frozen=True)
@@ -25,11 +26,12 @@ class Results:
     closed: list[ClosedLoop] | None
     campaign: list[Case] | None
     crash_tests: list[Crash] | None
+    starvation: list[Starved] | None
     soak: Soak | None
     niceness: dict[str, int] = field(default_factory=dict)
 
 
-PARTS = "closed", "campaign", "crash_tests", "soak"
+PARTS = "closed", "campaign", "crash_tests", "starvation", "soak"
 """Parts, each stored in a file of its name."""
 
 
@@ -49,7 +51,7 @@ def together(kept: Sequence[Case] | None, new: Sequence[Case]) -> list[Case]:
 def load(folder: Path) -> Results:
     """Load all stored results."""
     kept = {part: _plain(folder / f"{part}.json") for part in PARTS}
-    closed, campaign, crash_tests, soak = (kept[part] and kept[part]["result"] for part in PARTS)
+    closed, campaign, crash_tests, starvation, soak = (kept[part] and kept[part]["result"] for part in PARTS)
     for run in closed or []:
         run["by_minute"] = [Minute(**minute) for minute in run["by_minute"]]
     if soak:
@@ -58,6 +60,7 @@ def load(folder: Path) -> Results:
         closed and [ClosedLoop(**run) for run in closed],
         campaign and [Case(**case) for case in campaign],
         crash_tests and [Crash(**crash) for crash in crash_tests],
+        starvation and [Starved(**way) for way in starvation],
         soak and Soak(**soak),
         {part: known["niceness"] for part, known in kept.items() if known},
     )

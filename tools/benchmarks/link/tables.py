@@ -11,6 +11,7 @@ from tools.benchmarks.link.crash_tests import Crash
 from tools.benchmarks.link.goals import goals
 from tools.benchmarks.link.results import Results
 from tools.benchmarks.link.soak import Soak
+from tools.benchmarks.link.starvation import Starved
 from tools.benchmarks.record import Record, Table
 
 _STAGES = {
@@ -33,6 +34,8 @@ def record_of(results: Results) -> Record:
         notes.append(f"Fault campaign: {wrong:.2%} of the joint states had a wrong angle.")
     if results.crash_tests:
         tables["crash tests"] = _crashes(results.crash_tests)
+    if results.starvation:
+        tables["starvation"] = _by_columns(_WAYS, results.starvation)
     if results.soak:
         tables["memory"] = _soak(results.soak)
         notes.append(_of_soak(results.soak))
@@ -111,6 +114,16 @@ _CASES: Mapping[str, Callable[[Case], object]] = {
     "inactive, since": lambda case: case.fell_back,
     "emulator late [ms]": lambda case: f"{1e3 * case.stalled:.0f}",
     "load": lambda case: f"{case.load:.1f}",
+}
+
+
+_WAYS: Mapping[str, Callable[[Starved], object]] = {
+    "bridge": lambda way: way.name,
+    "samples with joint states": lambda way: f"{way.published:.0%}",
+    "joint states": lambda way: way.states,
+    "wrong": lambda way: way.wrong,
+    "largest error [degrees]": lambda way: f"{way.largest_error:.2f}",
+    "load": lambda way: f"{way.load:.1f}",
 }
 
 

@@ -115,7 +115,7 @@ class Conductor:
             return
         request = ChangeState.Request(transition=Transition(id=Transition.TRANSITION_ACTIVATE))
         if not self._call(ChangeState, "bench_bridge/change_state", request).success:
-            raise DemoError("bench_bridge cannot be activated")
+            raise DemoError("bench_bridge cannot be activated; nodes.log has the reason")
 
     def place_simulated_arm(self) -> None:
         """Place the simulated arm at rest in the posture of the bench's arm."""

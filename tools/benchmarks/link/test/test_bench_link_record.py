@@ -15,6 +15,7 @@ from tools.benchmarks.link.latency_probe import Sample, State
 from tools.benchmarks.link.processes import Usage
 from tools.benchmarks.link.results import PARTS, Results, keep, load, together
 from tools.benchmarks.link.soak import Memory, Soak, memory_of
+from tools.benchmarks.link.starvation import Starved
 from tools.benchmarks.link.tables import record_of
 from tools.benchmarks.link.truth import Truth
 
@@ -25,8 +26,9 @@ CLOSED = ClosedLoop(
 )  # fmt: skip
 CASE = Case(["lost", "late"], 3.0, 0.01, 0.3, 0.1, 400, 0.7, 0, 12.0, 120.0, "the port is not there")
 CRASH = Crash("killed (SIGKILL)", 0.0, [0.5, 0.48], [0.01, 0.0], [3.0, 3.0])
+WAY = Starved("stopped", 1.0, 0.7, 1200, 0, 0.6)
 SOAK = Soak(20.0, 180.0, 180.0, 3.0, 0, Memory(80.0, 80.1, 0.1, 0.3), Memory(90.0, 90.0, 0.0, 0.3))
-ALL = Results([CLOSED], [CASE], [CRASH], SOAK, dict.fromkeys(PARTS, 3))
+ALL = Results([CLOSED], [CASE], [CRASH], [WAY], SOAK, dict.fromkeys(PARTS, 3))
 
 SPOILED = {
     "bridge, release tests": replace(ALL, closed=[replace(CLOSED, released=0.51)]),
@@ -40,6 +42,7 @@ SPOILED = {
     "bridge, any fault: joint states with": replace(ALL, campaign=[CASE, replace(CASE, wrong=1)]),
     "bridge, any fault: tension": replace(ALL, campaign=[CASE, replace(CASE, largest_tension=12.1)]),
     "bridge, any fault: rise": replace(ALL, campaign=[CASE, replace(CASE, fastest_rise=130.0)]),
+    "bridge without processor": replace(ALL, starvation=[WAY, replace(WAY, wrong=1)]),
     "cables slack after the bridge": replace(ALL, crash_tests=[replace(CRASH, times=[0.4, 0.6], begun=[0.0, 0.2])]),
     "cables slack after the receiver": replace(ALL, crash_tests=[replace(CRASH, begins=0.25, times=[0.4, 0.6])]),
     "bridge: streaming": replace(ALL, soak=replace(SOAK, minutes=10.0)),
@@ -59,7 +62,7 @@ def test_each_goal_can_be_missed_alone(beginning):
 
 
 def test_results_are_read_as_they_were_kept(tmp_path):
-    assert load(tmp_path) == Results(None, None, None, None)
+    assert load(tmp_path) == Results(None, None, None, None, None)
     for part in PARTS:
         keep(tmp_path, part, getattr(ALL, part), ALL.niceness[part])
     assert load(tmp_path) == ALL
