@@ -7,6 +7,7 @@ import pytest
 import rclpy
 from arm_messages import ARM, cables, joint_state, pose, postures
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from domain_coordinator import domain_id
 from geometry_msgs.msg import PoseStamped
 from harness import NodeProcess, Probe, running
 from harness.visitor import Visitor
@@ -22,6 +23,7 @@ from continuum_msgs.msg import CableStates
 
 pytestmark = pytest.mark.ros
 
+TOPICS = ("/cable_tension_cmd", "/traj_pose", "/joint_states")
 CABLES = ["section_1_cable_1", "section_1_cable_2"]
 SLIDER = "section 1 cable 1 [N]"
 TAKE, LEAD = "Take control", "You move"
@@ -86,11 +88,26 @@ class Bench:
         self.wait(silent, f"{topic} left to the other")
 
 
-@pytest.fixture
-def bench(domain):
+@contextlib.contextmanager
+def started(domain):
     node = NodeProcess("continuum_manipulator", "viewer", domain, parameters={"port": 0, "max_tension": 30.0})
     with running(node), Probe(domain) as probe:
         yield Bench(probe, node)
+
+
+@pytest.fixture(scope="module")
+def viewer(domain):
+    with started(domain) as bench:
+        yield bench
+
+
+@pytest.fixture
+def bench(viewer):
+    """The viewer with nobody at its page, and nothing heard yet."""
+    viewer.wait(lambda: not any(map(viewer.advertises, TOPICS)), "nobody at the page")
+    for received in (viewer.tensions, viewer.targets, viewer.joints):
+        received.clear()
+    return viewer
 
 
 def test_cables_are_pulled_by_a_slider_and_slack_once_control_is_given_back(bench):
@@ -181,8 +198,16 @@ def test_a_dragged_target_and_joints_are_published(bench):
     bench.wait_for_silence(bench.targets)
 
 
-def test_what_nodes_say_is_to_be_seen(bench):
+@pytest.fixture
+def fresh():
+    """A viewer that has heard nothing yet."""
+    with domain_id() as domain, started(domain) as bench:
+        yield bench
+
+
+def test_what_nodes_say_is_to_be_seen(fresh):
     """A simulated arm makes the measured one its ghost; who falls silent is told to be silent."""
+    bench = fresh
     say = [bench.probe.speaker(JointState, topic).publish for topic in ("joint_states", "simulated/joint_states")]
     aim = bench.probe.speaker(PoseStamped, "traj_pose").publish
     tell = bench.probe.speaker(DiagnosticArray, "/diagnostics", listeners=2, qos=REPORT).publish

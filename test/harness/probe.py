@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from types import TracebackType
-from typing import Any
+from typing import Any, ClassVar
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -31,12 +31,15 @@ class Probe:
         name: of its node.
     """
 
+    _silent: ClassVar[set[str]] = set()  # names of probes: they answer no requests while they do not listen
+
     def __init__(self, domain: int, name: str = "probe") -> None:
         self._context = Context()
         rclpy.init(context=self._context, domain_id=domain)
         self.node = rclpy.create_node(name, context=self._context)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
+        self._silent.add(name)
         self._received: list[list[Any]] = []
         self._reports: dict[str, dict[str, str]] = {}
         self._clients: dict[str, Client] = {}
@@ -106,7 +109,7 @@ class Probe:
         before = -1
         while before != (before := sum(map(len, self._received))):
             for name, namespace in self.node.get_node_names_and_namespaces():
-                if name != self.node.get_name():
+                if name not in self._silent:
                     self._ask(f"{namespace.rstrip('/')}/{name}/get_parameters")
             for _ in range(20 + sum(map(len, self._received)) - before):  # what has come but is not taken yet
                 self._executor.spin_once(timeout_sec=0.0)
