@@ -26,7 +26,7 @@ BAD_PARAMETERS = {
     ),
     "section of the wrong type": ("section", ARM, {"section": "first"}, "section is 'first'; allowed: a whole number"),
     "unknown name": ("robot", ARM, {"targets": "position"}, "unknown parameter 'targets'; did you mean target?"),
-    "no arm": ("markers", (), {}, "arm is None; allowed: a block"),
+    "no arm": ("markers", (), {}, "no arm is given; start the node with --ros-args --params-file"),
     "an arm in the place of a model": ("dynamics", (), {"model": ARM_FILE}, "three_sections.yaml: is an arm file"),
     "two postures": (
         "dynamics",

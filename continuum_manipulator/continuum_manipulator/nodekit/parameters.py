@@ -71,11 +71,17 @@ def declare_arm(node: Node, given: Mapping[str, object], default: Arm | None = N
     Parameters for simulations only are declared unchanged.
 
     Raises:
-        InvalidValueError: no arm is given, or one of its parameters is missing, unknown or out of range.
+        ContinuumError: no arm is given.
+        InvalidValueError: one of its parameters is missing, unknown or out of range.
     """
     block = _nested({name: value for name, value in given.items() if _is_of_arm(name)}).get("arm")
     if block is None and default is not None:
         block = arm_to_mapping(default)
+    if block is None:
+        raise ContinuumError(
+            "no arm is given; start the node with --ros-args --params-file ARM.yaml, the file of an arm such as "
+            "continuum_description/config/three_sections.yaml"
+        )
     if not isinstance(block, Mapping):
         raise InvalidValueError(
             "arm", block, "a block arm.sections, arm.<section>.n_joints, ..., for example from --params-file"
