@@ -49,8 +49,8 @@ def test_sections_for_which_nobody_speaks_are_reported(arm_file, domain):
                 "the sections' states",
             )
             node._patience_timer.callback()
-            told = ["sections without a node"] if arm_file != ARM_FILE else []
-            assert list(node.diagnostics.warnings.counts) == told
+            expected = ["sections without a node"] if arm_file != ARM_FILE else []
+            assert list(node.diagnostics.warnings.counts) == expected
             executor.remove_node(node)
             node.destroy_node()
     finally:
