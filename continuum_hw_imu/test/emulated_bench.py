@@ -26,7 +26,6 @@ from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 from continuum_manipulator.nodekit.two_clocks import read_together
 from continuum_msgs.msg import CableStates
 
-MOST_ACTIVATIONS = 5  # in one pull: a bench lets go of whoever was silent, not of whoever speaks
 COMMAND_PERIOD = 1 / 30  # s
 ASK_AGAIN = 3.0  # s; longer than the bridge waits for the bench
 CABLES = ["section_1_cable_1", "section_1_cable_2"]
@@ -206,15 +205,19 @@ class Bridge:
     def wait_for_joints(self, number: int = 5) -> None:
         """Wait for so many more joint states, of an active node."""
         before = len(self.joints)
+        self.wait_while_active(
+            lambda: len(self.joints) >= before + number, lambda: f"joint states; {self.diagnostic('angles')}"
+        )
 
-        def came() -> bool:
-            return len(self.joints) >= before + number
+    def wait_while_active(self, condition, what) -> None:
+        """Wait for what an active node does, and activate it again where it loses its claim, as on a busy machine."""
 
-        while not came():
-            self.activate()
-            self.probe.wait_until(
-                lambda: came() or self.state != "active", lambda: f"joint states; {self.diagnostic('angles')}"
-            )
+        def holds() -> bool:
+            if not condition() and self.state != "active":
+                self.activate()
+            return condition()
+
+        self.probe.wait_until(holds, what)
 
     def wait_for_state(self, label: str) -> None:
         self.probe.wait_until(lambda: self.state == label, lambda: f"{label}; {self.node.stderr}")
@@ -266,13 +269,16 @@ class Bridge:
         def dropped() -> int:
             return self.probe.count(self.name, "dropped: not active")
 
-        for _ in range(MOST_ACTIVATIONS):
-            before = dropped()
-            self.command_until(effort, lambda before=before: until() or dropped() > before)
-            if dropped() <= before:
-                return
-            self.activate()
-        raise AssertionError(f"activated again {MOST_ACTIVATIONS} times; {self.node.stderr}")
+        seen = dropped()
+
+        def done() -> bool:
+            nonlocal seen
+            if dropped() > seen:
+                seen = dropped()
+                self.activate()
+            return until()
+
+        self.command_until(effort, done)
 
     def calibrate(self) -> list[str]:
         """At rest, straight, and after a bend towards cable 1; what the services answered."""

@@ -20,7 +20,7 @@ from tools.benchmarks.link.latency_probe import State
 from tools.benchmarks.link.rig import RATE, Rig, rig
 from tools.benchmarks.link.truth import Truth, errors_of, load_truth
 
-BUSY = 4
+BUSY = 2
 """Number of busy processes beside the bridge on its core."""
 
 PIECE = 1.0
@@ -34,27 +34,29 @@ class Way:
     Attributes:
         name: description.
         stopped: longest time for which the process is stopped again and again [s]; 0 for never.
-        niceness: niceness of the bridge on one core with busy processes; None without them.
+        runs: longest time for which it runs in between [s].
+        niceness: by how much the bridge gives way to busy processes on the same core; None without them.
         order: fault of the line.
     """
 
     name: str
     stopped: float = 0.0
+    runs: float = 0.01
     niceness: int | None = None
     order: str = ""
 
 
 WAYS = (
     Way("undisturbed"),
-    Way("stopped for up to 0.1 s", stopped=0.1),
-    Way("stopped for up to 0.3 s", stopped=0.3),
-    Way("stopped for up to 1 s", stopped=1.0),
-    Way("beside four busy processes", niceness=0),
-    Way("beside four busy processes, nice 5", niceness=5),
-    Way("stopped for up to 0.3 s, late frames", stopped=0.3, order="late share=0.5 by=0.2"),
-    Way("stopped for up to 0.3 s, damaged frames", stopped=0.3, order="damage share=0.1"),
-    Way("beside four busy processes, late frames", niceness=0, order="late share=0.5 by=0.2"),
-    Way("beside four busy processes, damaged frames", niceness=0, order="damage share=0.1"),
+    Way("stopped for up to 0.03 s", stopped=0.03),
+    Way("stopped for up to 0.2 s", stopped=0.2, runs=0.1),
+    Way("stopped for up to 1 s", stopped=1.0, runs=1.0),
+    Way("beside two busy processes", niceness=0),
+    Way("beside two busy processes, nice 5", niceness=5),
+    Way("stopped for up to 0.03 s, late frames", stopped=0.03, order="late share=0.5 by=0.2"),
+    Way("stopped for up to 0.03 s, damaged frames", stopped=0.03, order="damage share=0.1"),
+    Way("beside two busy processes, late frames", niceness=0, order="late share=0.5 by=0.2"),
+    Way("beside two busy processes, damaged frames", niceness=0, order="damage share=0.1"),
 )
 
 
@@ -138,11 +140,11 @@ def evaluated(course: _Course, truth: Truth) -> Starved:
 def starved(process: int, way: Way, seed: int) -> Iterator[None]:
     """Starve a process during the block."""
     over = threading.Event()
-    stopper = threading.Thread(target=_stop_and_go, args=(process, way.stopped, over, seed))
+    stopper = threading.Thread(target=_stop_and_go, args=(process, way, over, seed))
     core = {min(os.sched_getaffinity(0))}
     busy: list[subprocess.Popen[bytes]] = []
     try:
-        _confine([process], core, way.niceness or 0)
+        _confine([process], core, os.getpriority(os.PRIO_PROCESS, 0) + (way.niceness or 0))
         if way.niceness is not None:
             busy += [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(BUSY)]
             _confine([one.pid for one in busy], core)
@@ -158,15 +160,15 @@ def starved(process: int, way: Way, seed: int) -> Iterator[None]:
             one.wait()
 
 
-def _stop_and_go(process: int, longest: float, over: threading.Event, seed: int) -> None:
-    """Stop a process for up to ``longest`` [s], and let it run for up to half of that, in turn."""
+def _stop_and_go(process: int, way: Way, over: threading.Event, seed: int) -> None:
+    """Stop a process and let it run, in turn."""
     random = np.random.default_rng(seed)
     try:
         while not over.is_set():
             os.kill(process, signal.SIGSTOP)
-            over.wait(random.uniform(0.0, longest))
+            over.wait(random.uniform(0.0, way.stopped))
             os.kill(process, signal.SIGCONT)
-            over.wait(random.uniform(0.0, longest / 2))
+            over.wait(random.uniform(0.0, way.runs))
     except ProcessLookupError:
         return
 
@@ -182,11 +184,11 @@ def _elsewhere(bench: Rig) -> Iterator[None]:
         _confine([0], cores)
 
 
-def _confine(processes: Sequence[int], cores: set[int], niceness: int = 0) -> None:
+def _confine(processes: Sequence[int], cores: set[int], niceness: int | None = None) -> None:
     """Restrict processes and their threads to cores."""
     for process in processes:
         tasks = Path(f"/proc/{process or os.getpid()}/task").iterdir()
         for task in tasks:
             os.sched_setaffinity(int(task.name), cores)
-            if niceness:
+            if niceness is not None:
                 os.setpriority(os.PRIO_PROCESS, int(task.name), niceness)
