@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from continuum.discovery import diagnose
-from continuum.discovery.words import estimate_in_words, verdict_in_words
+from continuum.discovery.words import verdict_in_words
 from continuum.dynamics.effect_lookup import effect_named
 from continuum.dynamics.measuring import as_read
 from continuum.dynamics.model import ActiveEffect
@@ -32,20 +32,17 @@ def main(out: Path) -> None:
     out.mkdir(parents=True, exist_ok=True)
     rng, nominal = np.random.default_rng(SEED), load_model("lamecc_prototype.yaml")
     n = nominal.n_joints
-
     effect = effect_named(str(rng.choice(EFFECTS)))
     values = {name: spec.array(spec.default, n, name) for name, spec in effect.parameters.items()}  # absent
     size, spec = next(iter(effect.parameters.items()))
     joint = int(rng.integers(values[size].size))
     values[size][joint] = rng.uniform(3.0, 5.0) * spec.typical  # at one joint, if it has any
     true = replace(nominal, effects=(ActiveEffect(effect, values),))
-
     recordings = []
     for name, bend in {"left": np.radians(90.0), "right": np.radians(-60.0)}.items():  # sum of the joint angles [rad]
         motion = as_read(true, Simulator(true).run(np.full(n, bend / n), TIMES))  # released from rest
         theta = motion.theta + NOISE * rng.standard_normal(motion.theta.shape)  # (n_times, n_joints) [rad]
         recordings.append(Recording(name, TIMES, theta))
-
     result = diagnose(recordings, nominal, with_power=False)
     before, after = (np.degrees(one.error(0, recordings[0].theta)) for one in (result.before, result.after))
     print(f"verdict: {result.verdict.kind.value} {', '.join(cause.label for cause in result.causes)}")
@@ -53,7 +50,7 @@ def main(out: Path) -> None:
     where = f"[{joint + 1}]" if spec.per_joint else ""
     print(f"hidden: {effect.name}.{size}{where} {values[size][joint]:.4g} {spec.unit}")
     for one in (one for cause in result.causes for one in cause.estimates):
-        print(f"found:  {one} {estimate_in_words(one)}")
+        print(f"found:  {one} {one.value:.4g} {one.unit} ({one.low:.4g} to {one.high:.4g})")
     print(f"gain: open-loop error of {recordings[0].name} {before:.2f} -> {after:.2f} degrees")
     result.plot().savefig(out / "diagnosis.png")
     save_model(result.extended_model, out / "extended.yaml")
