@@ -61,7 +61,9 @@ class Step:
             running: list[tuple[subprocess.Popen[bytes], IO[str], str]] = []
             for command in commands:
                 output = stack.enter_context(tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace"))
-                running.append((self._started(command, environment, output, stack), output, " ".join(map(str, command))))
+                running.append(
+                    (self._started(command, environment, output, stack), output, " ".join(map(str, command)))
+                )
             while running:
                 self._wait(running[0][0])
                 for process, output, words in [one for one in running if one[0].poll() is not None]:

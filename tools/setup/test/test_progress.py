@@ -55,7 +55,9 @@ def test_a_program_that_is_not_there_is_an_error_with_its_name() -> None:
 
 def test_commands_run_at_the_same_time(tmp_path: Path, log: Path) -> None:
     """Each waits for a file that the other writes."""
-    meet = "import os, sys, time\nopen(sys.argv[1], 'w').close()\nwhile not os.path.exists(sys.argv[2]): time.sleep(0.01)"
+    meet = (
+        "import os, sys, time\nopen(sys.argv[1], 'w').close()\nwhile not os.path.exists(sys.argv[2]): time.sleep(0.01)"
+    )
     one, other = str(tmp_path / "one"), str(tmp_path / "other")
     with progress.Step("baking", "hint") as step:
         step.run_together([[*python(meet), one, other], [*python(meet), other, one]], dict(os.environ))
