@@ -1,5 +1,6 @@
 """`make bench-demo` up to its recordings: runs that `continuum diagnose` can read, with the arm's true angles."""
 
+import json
 import os
 import re
 import subprocess
@@ -11,6 +12,7 @@ import pytest
 
 from continuum.inertial.calibration_values import load_calibration
 from continuum.recordings.recording_bag import read_recording_bag
+from tools.demo.bench.answer import HIDDEN, JOINT, answer
 from tools.demo.bench.command import main
 from tools.demo.bench.runs import RUNS
 
@@ -37,6 +39,36 @@ def test_bench_is_calibrated_pulled_released_and_recorded(domain, tmp_path):
         assert np.degrees(np.abs(recording.theta.sum(axis=1)).max()) > 30
         assert recording.tensions is not None
         assert recording.tensions.values.max() > 10
+
+
+def verdict(kind: str, joint: int) -> dict:
+    values = {"viscous": (1.9, 1.7, 2.1), "coulomb": (2.1, 1.9, 2.3)}
+    parameters = [
+        {"name": f"{HIDDEN}.{name}", "joint": joint, "value": value, "low": low, "high": high}
+        for name, (value, low, high) in values.items()
+    ]
+    return {"verdict": kind, "causes": [{"effect": HIDDEN, "joint": joint, "parameters": parameters}]}
+
+
+@pytest.mark.parametrize(
+    ("given", "right"),
+    [
+        (verdict("cause", JOINT), True),
+        (verdict("cause", JOINT + 1), False),
+        (verdict("ambiguous", JOINT), False),
+        ({"verdict": "adequate", "causes": []}, False),
+    ],
+)
+def test_truth_and_finding_have_the_same_words_and_the_exit_code_is_the_verdicts(given, right, tmp_path):
+    (tmp_path / "verdict.json").write_text(json.dumps(given))
+    (truth, finding), found = answer(tmp_path / "verdict.json")
+    assert found is right
+    names = re.findall(rf"{HIDDEN}\.\w+\[\d\]", truth)
+    assert names == [f"{HIDDEN}.{name}[{JOINT}]" for name in ("viscous", "coulomb")]
+    assert truth.count(" %") == 2
+    if right:
+        assert re.findall(rf"{HIDDEN}\.\w+\[\d\]", finding) == names
+        assert "1.9 (1.7 to 2.1) = +190 %" in finding
 
 
 def test_a_bench_that_is_not_there_ends_the_demo_in_one_line(domain, tmp_path, monkeypatch, capsys):

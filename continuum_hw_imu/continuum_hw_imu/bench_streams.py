@@ -35,13 +35,11 @@ SAME = 1e-5
 FRESH = 0.1
 """Largest age of joint angles that are combined with a measured tension [s]."""
 
-
 RIGHT = np.radians(1.5)
 """Error beyond which an angle is wrong [rad]."""
 
-SURE = 0.01
-"""Largest error of a stamp [s] with which joint states are published. In that time the prototype, let go from 90
-degrees, changes its rate so little that the error of an angle is that of its stamp times its rate."""
+MOST_ACCELERATION = np.radians(13_000.0)
+"""Largest angular acceleration of a joint of the prototype, pulled suddenly or let go [rad/s^2]."""
 
 
 class BenchStreams:
@@ -188,8 +186,9 @@ def _doubt(estimate: AngleEstimate | None, now: float, error: float) -> str:
         return "; ".join(dict.fromkeys(filter(None, estimate.why_not)))
     if abs(now - estimate.time) > SAME:
         return "the sample was skipped"
-    if error > SURE or np.any(estimate.errors + np.abs(estimate.rates) * error > RIGHT):
-        if np.isinf(error):
-            return "the time of the sample is not known"
+    if np.isinf(error):
+        return "the time of the sample is not known"
+    missed = np.abs(estimate.rates) * error + 0.5 * MOST_ACCELERATION * error**2  # by the stamp alone
+    if np.any(estimate.errors + missed > RIGHT):
         return f"the time of the sample is known to {1e3 * error:.0f} ms only"
     return ""

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import math
+import shutil
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import tools.demo.bench
@@ -27,6 +30,12 @@ TOPICS = ("/joint_states", "/cable_states", "/cable_tension_cmd", "/simulated/jo
 
 RESULTS = (*(run.name for run in RUNS), "nodes.log", "recorder.log", "arm.yaml", "sensors.yaml", "truth.csv",
            "verdict.json", "diagnosis.html", "better.yaml")  # fmt: skip
+
+TRIES = 5
+"""Most attempts at a run."""
+
+GAP = 0.25
+"""Longest time without joint states in a run [s]: `continuum diagnose` refuses recordings with longer gaps."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -68,13 +77,38 @@ def record_runs(port: str, out: Path) -> None:
         ):
             _calibrate(conductor)
             for run in RUNS:
-                with recorder(out / run.name, domain, conductor):
-                    conductor.place_simulated_arm()
-                    conductor.listen(0.5)
-                    conductor.wait_for_states()
-                    conductor.activate()
-                    conductor.carry_out(run)
+                _until_whole(conductor, run.name, partial(_record, run, out / run.name, domain, conductor))
                 _report(run, conductor, None if port else out / "truth.csv")
+
+
+def _record(run: Run, folder: Path, domain: int, conductor: Conductor) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    with recorder(folder, domain, conductor):
+        conductor.place_simulated_arm()
+        conductor.listen(0.5)
+        conductor.wait_for_states()
+        conductor.carry_out(run)
+
+
+def _until_whole(conductor: Conductor, what: str, act: Callable[[], None]) -> None:
+    """Carry out something with an active bridge; again if it became inactive or left out angles, on a busy machine.
+
+    Raises:
+        DemoError: it did so every time, or something else failed.
+    """
+    for _ in range(TRIES):
+        conductor.activate()
+        try:
+            act()
+        except DemoError:
+            if conductor.is_active:
+                raise
+        gap = conductor.largest_gap if conductor.is_active else math.inf
+        if gap <= GAP:
+            return
+        why = f"joint states are missing for {gap:.1f} s" if math.isfinite(gap) else "the bridge became inactive"
+        print(f"{what}, once more: {why}; nodes.log may have the reason", flush=True)
+    raise DemoError(f"{what}: {why}, the last of {TRIES} times; the machine is too busy for a bench")
 
 
 def diagnosed(out: Path) -> int:
@@ -106,8 +140,7 @@ def _calibrate(conductor: Conductor) -> None:
     print("calibration: bias and zero at rest, axes from a bend towards cable 1 and back", flush=True)
     conductor.trigger("bench_bridge/calibrate_bias", patient=True)
     conductor.trigger("bench_bridge/zero", patient=True)
-    conductor.activate()
-    conductor.carry_out(BEND)
+    _until_whole(conductor, BEND.name, partial(conductor.carry_out, BEND))
     print(f"  {conductor.trigger('bench_bridge/find_axes', patient=True)}", flush=True)
     conductor.wait_for_states()
 

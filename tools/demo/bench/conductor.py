@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from itertools import pairwise
 from types import TracebackType
 from typing import Any
 
@@ -104,18 +105,31 @@ class Conductor:
                 raise DemoError(f"{service}: {answer.message}")
             self.listen(0.3)
 
+    @property
+    def is_active(self) -> bool:
+        """Whether the bridge is active."""
+        state = self._call(GetState, "bench_bridge/get_state", GetState.Request()).current_state
+        return bool(state.id == State.PRIMARY_STATE_ACTIVE)
+
     def activate(self) -> None:
         """Activate the bridge unless it is active; the bench ends the claim of a bridge that was silent for too long.
 
         Raises:
-            DemoError: the bridge refuses.
+            DemoError: the bridge refuses, again and again.
         """
-        state = self._call(GetState, "bench_bridge/get_state", GetState.Request()).current_state
-        if state.id == State.PRIMARY_STATE_ACTIVE:
-            return
         request = ChangeState.Request(transition=Transition(id=Transition.TRANSITION_ACTIVATE))
-        if not self._call(ChangeState, "bench_bridge/change_state", request).success:
-            raise DemoError("bench_bridge cannot be activated; nodes.log has the reason")
+        deadline = time.monotonic() + PATIENCE
+        while not self.is_active:
+            if not self._call(ChangeState, "bench_bridge/change_state", request).success:
+                if time.monotonic() > deadline:
+                    raise DemoError("bench_bridge cannot be activated; nodes.log has the reason")
+                self.listen(0.3)
+
+    @property
+    def largest_gap(self) -> float:
+        """Return the longest time without measured joint states since the last clearing [s]; 0 if none were known."""
+        stamps = [stamp for stamp, _ in self.received["measured"]]
+        return max((later - earlier for earlier, later in pairwise(stamps)), default=0) / NANOSECONDS
 
     def place_simulated_arm(self) -> None:
         """Place the simulated arm at rest in the posture of the bench's arm."""
