@@ -57,15 +57,17 @@ def test_every_link_is_where_yourdfpy_has_it(seed, single_bends):
 
 
 def test_an_angle_of_its_own_counts_more_than_that_of_the_mimicked_joint():
-    follower = JOINT.format("revolute", '<axis xyz="0 0 2"/><mimic joint="other" multiplier="-2" offset="0.1"/>')
+    """Both come on top of the turn that the joint has at angle 0."""
+    rest = '<origin rpy="0 0 0.4"/><axis xyz="0 0 2"/>'
+    follower = JOINT.format("revolute", f'{rest}<mimic joint="other" multiplier="-2" offset="0.1"/>')
     links = LinkTransforms(f"<robot>{follower}</robot>")
 
     def angle(**angles: float) -> float:
         (one,) = links.moved(angles, Time()).transforms
         return 2 * np.arctan2(one.transform.rotation.z, one.transform.rotation.w)
 
-    assert angle(other=0.3) == pytest.approx(-0.5)
-    assert angle(other=0.3, j=0.2) == pytest.approx(0.2)
+    assert angle(other=0.3) == pytest.approx(0.4 - 0.5)
+    assert angle(other=0.3, j=0.2) == pytest.approx(0.4 + 0.2)
     assert links.moved({"third": 1.0}, Time()).transforms == []
 
 

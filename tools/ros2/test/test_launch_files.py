@@ -165,3 +165,17 @@ def generate_launch_description():
     launch = ros2("launch", file, code=1)
     errors = [line for line in launch.stdout.splitlines() if line.startswith("[ERROR] [launch]")]
     assert errors == ["[ERROR] [launch]: Caught exception in launch (see debug for traceback): short-2 gave 1"]
+
+
+def test_launch_files_of_the_workspace_refuse_unknown_arguments_where_the_stock_launch_takes_them() -> None:
+    """Of the command line alone: who includes the file has arguments of its own."""
+    with python_api.importable():
+        from continuum_description.launching import refuse_unknown
+    words = ["/opt/ros/bin/ros2", "launch", "trajectory_generator", "arm.launch.py", "mode:=cables", "trajektory:=a"]
+    known = ["arm", "mode", "trajectory"]
+    with pytest.raises(RuntimeError, match=r"arm\.launch\.py has no argument 'trajektory'; did you mean trajectory\?"):
+        refuse_unknown("arm.launch.py", known, words)
+    with pytest.raises(RuntimeError, match="known: arm, mode, trajectory"):
+        refuse_unknown("arm.launch.py", known, [*words[:-1], "x:=1"])
+    refuse_unknown("arm.launch.py", known, words[:-1])
+    refuse_unknown("part.launch.py", known, words)
