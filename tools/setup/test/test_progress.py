@@ -64,7 +64,7 @@ def test_commands_run_at_the_same_time(tmp_path: Path, log: Path) -> None:
     assert log.read_text().count("$ ") == 2
 
 
-def test_a_failure_ends_the_commands_beside_it(tmp_path: Path) -> None:
+def test_a_failure_ends_the_other_commands(tmp_path: Path) -> None:
     waits = "import time\nwhile True: time.sleep(1)"
     with progress.Step("baking", "hint") as step, pytest.raises(SetupError, match="no fire"):
         step.run_together([python(waits), python("print('no fire'); raise SystemExit(3)")], dict(os.environ))
