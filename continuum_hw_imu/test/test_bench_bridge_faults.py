@@ -188,7 +188,7 @@ def test_a_bridge_without_a_processor_tells_no_wrong_angle(bridge_here):
         for _ in range(20):  # a busy machine adds to it
             if bridge.state != "active":
                 bridge.change("activate")
-            bridge.let_hand_move("hand bend=90 over=0.5 hold=0", 1.5)
+            bridge.let_hand_move("hand bend=60 over=0.3 hold=1", 1.5)
             if moves() > 60:
                 break
         if bridge.joints:
