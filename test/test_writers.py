@@ -27,8 +27,7 @@ ELSEWHERE = {
     "tools/docs/site/source.py": "in a folder that is made again",
     "tools/benchmarks/exams/urdf_payload.py": "in a temporary folder",
     "tools/benchmarks/fuzzing/guided.py": "in a temporary folder",
-    "tools/ros2/ros2_standin/launch/parameter_values.py": "in a temporary folder",
-    "tools/ros2/ros2_standin/launch/process_tags.py": "in a temporary folder",
+    "tools/ros2/ros2_standin/launch/launch_file.py": "in a temporary folder",
     "tools/ros2/ros2_standin/launch/screen.py": "a log of processes",
 }
 """Where files are opened for writing all the same, and why."""

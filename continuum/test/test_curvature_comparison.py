@@ -77,7 +77,7 @@ def test_models_that_the_measurement_does_not_separate_are_not_separated_by_an_a
     assert of(far).nearer is Nearer.UNDECIDED
 
 
-@pytest.mark.parametrize("share", [0.0, 0.4, 0.5, 0.6, 1.0])
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
 def test_intervals_hold_the_true_differences_and_no_more_than_chance_is_wrong(share: float) -> None:
     """Of arms between the models, 600 measured ones each."""
     rng, sd = np.random.default_rng(4), np.radians(0.5)

@@ -91,7 +91,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._to_come = self.values["autostart"] != AUTOSTARTS[0]
         self._autostart_at = 0.0
         self._waits_for = ""
-        self._told_lost: set[int] = set()
+        self._reported_lost: set[int] = set()
         self.listen(CableStates, COMMANDS, self._on_command)
         rest_time = self.values["rest_time"]
         services: dict[str, Callable[[], str]] = {
@@ -289,9 +289,9 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
                 if self.diagnostics.warnings.note(
                     f"imu {news.link} is lost", f"no data of {news.name} for {news.gap:.2f} s"
                 ):
-                    self._told_lost.add(news.link)
-            elif news.link in self._told_lost:
-                self._told_lost.remove(news.link)
+                    self._reported_lost.add(news.link)
+            elif news.link in self._reported_lost:
+                self._reported_lost.remove(news.link)
                 self.get_logger().info(f"imu {news.link} is back: {news.name} was lost for {news.gap:.2f} s")
 
     def _on_command(self, message: CableStates) -> None:

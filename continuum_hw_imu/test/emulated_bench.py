@@ -1,7 +1,10 @@
 """An emulated bench as a process, told over its second channel what to do, and the node at its port."""
 
 import json
+import os
+import signal
 import socket
+import threading
 import time
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
@@ -336,3 +339,25 @@ def bridge_at(
     bridge = Bridge(latency_probe, bench, domain, arguments, **parameters)
     with ended_in_any_case(bridge.node):
         yield bridge
+
+
+@contextmanager
+def stopped_again_and_again(process, stopped, runs, seed):
+    """During the block stop a process for up to ``stopped`` [s] and let it run for up to ``runs`` [s], in turn."""
+    over, random = threading.Event(), np.random.default_rng(seed)
+
+    def stop_and_go():
+        with suppress(ProcessLookupError):
+            while not over.is_set():
+                os.kill(process, signal.SIGSTOP)
+                over.wait(random.uniform(0.0, stopped))
+                os.kill(process, signal.SIGCONT)
+                over.wait(random.uniform(0.0, runs))
+
+    stopper = threading.Thread(target=stop_and_go)
+    stopper.start()
+    try:
+        yield
+    finally:
+        over.set()
+        stopper.join()

@@ -9,13 +9,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 from ament_index_python.packages import get_package_prefix
-from emulated_bench import Bridge, LatencyProbe, bridge_at, emulated_bench, save_true_calibration
+from emulated_bench import (
+    Bridge,
+    LatencyProbe,
+    bridge_at,
+    emulated_bench,
+    save_true_calibration,
+    stopped_again_and_again,
+)
 from harness import NodeProcess, Probe, ended_in_any_case
 from test_bench_bridge_node import ROW, angles_and_truth
 
 from continuum_hw_imu.bench_bridge import AUTOSTART_PERIOD
 from continuum_hw_imu.protocol.messages import GuardState, ReceiverLimits
-from tools.benchmarks.link.starvation import Way, starved
 
 pytestmark = pytest.mark.ros
 
@@ -178,9 +184,9 @@ def test_late_frames_have_the_stamps_of_their_measurement(pulling):
     assert_no_wrong_angle(pulling, pulling.joints)
 
 
-def test_a_bridge_without_a_processor_tells_no_wrong_angle(bridge_here):
+def test_a_bridge_without_a_processor_publishes_no_wrong_angle(bridge_here):
     """From its start on it is stopped again and again, until it has published angles of an arm that moves."""
-    with bridge_here() as bridge, starved(bridge.node.process.pid, Way("stopped", stopped=0.03, runs=0.03), seed=1):
+    with bridge_here() as bridge, stopped_again_and_again(bridge.node.process.pid, 0.03, 0.03, seed=1):
 
         def moves() -> int:
             return sum(np.abs(message.velocity).max() > 0.3 for message in bridge.joints)

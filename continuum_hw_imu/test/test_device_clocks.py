@@ -98,7 +98,7 @@ def test_a_clock_that_was_set_begins_again():
 
 @given(st.integers(0, 1 << 32), st.sampled_from([-900.0, -100.0, 0.0, 100.0, 900.0]), st.sampled_from([0.0, 0.02, 0.5]))
 def test_a_time_is_never_more_off_than_its_error(seed, ppm, waits):
-    """However late frames are read and requests are heard: at first, later, or in waits of a process without a core."""
+    """However late frames and requests are read: at first, later, or in waits of a process without a core."""
     clock, random = ClockMap(), np.random.default_rng(seed)
     awake, asked, known = 0.0, 0.0, 0
     for k in range(60 * 12):
@@ -107,11 +107,11 @@ def test_a_time_is_never_more_off_than_its_error(seed, ppm, waits):
         assert abs(clock.host_time(device) - real) <= clock.error(device) + 2e-6
         known += clock.error(device) < 0.01
         if random.random() < 0.3:
-            heard = real + random.exponential(0.001)
-            asked = heard - random.exponential(0.001 if random.random() < 0.5 else waits)
-            device += round((heard - real) / (1 + ppm * 1e-6) * 1e6)
-            clock.received(device, max(heard + random.exponential(0.001), awake), asked)
-            assert abs(clock.host_time(device) - heard) <= clock.error(device) + 2e-6
+            read = real + random.exponential(0.001)
+            asked = read - random.exponential(0.001 if random.random() < 0.5 else waits)
+            device += round((read - real) / (1 + ppm * 1e-6) * 1e6)
+            clock.received(device, max(read + random.exponential(0.001), awake), asked)
+            assert abs(clock.host_time(device) - read) <= clock.error(device) + 2e-6
         if random.random() < 0.1:
             awake = real + random.exponential(waits)
     assert known > 60 * 6

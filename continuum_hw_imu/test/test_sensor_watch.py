@@ -99,8 +99,8 @@ def test_the_loss_and_the_return_of_a_sensor_are_each_news_once():
     assert [take(missing) for missing in quiet] == [[]] * len(quiet)
     at += RATE
     assert take(set()) == []
-    told = [news for _ in range(60) if (news := take({2, 5}))]
-    (lost,) = told
+    reported = [news for _ in range(60) if (news := take({2, 5}))]
+    (lost,) = reported
     assert [one[:3] for one in lost] == [(2, "S2", True), (5, "S5", True)]
     assert all(LOST < one[3] < LOST + 2 / RATE for one in lost)
     assert take({5}) == [(2, "S2", False, round(61 / RATE, 3))]

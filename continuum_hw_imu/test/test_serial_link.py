@@ -69,7 +69,7 @@ def test_no_byte_is_said_to_have_come_before_it_was_sent(port, tmp_path, monkeyp
         assert line.times[0] >= sent[0]
 
 
-def test_waiting_for_bytes_is_told_from_waiting_for_the_processor(port, tmp_path):
+def test_waiting_for_bytes_differs_from_waiting_for_the_processor(port, tmp_path):
     with line_at(tmp_path / "port") as line:
         wait_until(lambda: line.link.is_open, "the port")
         port.write(b"x")

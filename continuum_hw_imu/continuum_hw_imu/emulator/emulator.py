@@ -85,7 +85,7 @@ class Emulator:
         self.skipped = 0.0
         self.largest_set_point = 0.0
         self._open = False
-        self._heard = b""
+        self._received = b""
         self.clock = DeviceClock(now, settings.clock_start)
         self._begin(settings.clock_start)
 
@@ -105,13 +105,13 @@ class Emulator:
 
     def hear(self) -> None:
         """Read the bytes that have arrived; before the clock is read, so that none is answered before it was sent."""
-        self._heard += self.port.read()
+        self._received += self.port.read()
 
     def step(self, now: float) -> None:
-        """Carry out the actions that are due, and answer what was heard."""
+        """Carry out the actions that are due, and answer what was received."""
         self._watch_port(now)
-        heard, self._heard = self._heard, b""
-        for piece in pieces_of(heard):
+        received, self._received = self._received, b""
+        for piece in pieces_of(received):
             for delay, part in self.down.passed(piece, now):
                 self._incoming.put(now, part, delay)
         for data in self._incoming.due(now):
@@ -127,7 +127,7 @@ class Emulator:
     def unplug(self) -> None:
         """Unplug the port; the controller continues to run."""
         self.port.unplug()
-        self._heard = b""
+        self._received = b""
         self._outgoing.clear()
         self._incoming.clear()
 

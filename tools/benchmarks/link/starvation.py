@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import os
-import signal
 import subprocess
 import sys
-import threading
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from emulated_bench import bridge_at
+from emulated_bench import bridge_at, stopped_again_and_again
 
 from tools.benchmarks.link.campaign import RIGHT, to_and_fro
 from tools.benchmarks.link.latency_probe import State
@@ -107,7 +105,7 @@ def _course(bench: Rig, way: Way, seconds: float, seed: int) -> _Course:
     given = {"calibration": bench.calibration, "keep_bias": True}
     with (
         bridge_at(bench.latency_probe, bench.bench, bench.domain, **given) as bridge,
-        starved(bridge.node.process.pid, way, seed),
+        _starved(bridge.node.process.pid, way, seed),
     ):
         bridge.wait_for_state("inactive")
         if way.order:
@@ -137,40 +135,21 @@ def evaluated(course: _Course, truth: Truth) -> Starved:
 
 
 @contextmanager
-def starved(process: int, way: Way, seed: int) -> Iterator[None]:
+def _starved(process: int, way: Way, seed: int) -> Iterator[None]:
     """Starve a process during the block."""
-    over = threading.Event()
-    stopper = threading.Thread(target=_stop_and_go, args=(process, way, over, seed))
     core = {min(os.sched_getaffinity(0))}
     busy: list[subprocess.Popen[bytes]] = []
-    try:
+    with ExitStack() as stack:
         _confine([process], core, os.getpriority(os.PRIO_PROCESS, 0) + (way.niceness or 0))
         if way.niceness is not None:
             busy += [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(BUSY)]
+            for one in busy:
+                stack.callback(one.wait)
+                stack.callback(one.kill)
             _confine([one.pid for one in busy], core)
         if way.stopped:
-            stopper.start()
+            stack.enter_context(stopped_again_and_again(process, way.stopped, way.runs, seed))
         yield
-    finally:
-        over.set()
-        if way.stopped:
-            stopper.join()
-        for one in busy:
-            one.kill()
-            one.wait()
-
-
-def _stop_and_go(process: int, way: Way, over: threading.Event, seed: int) -> None:
-    """Stop a process and let it run, in turn."""
-    random = np.random.default_rng(seed)
-    try:
-        while not over.is_set():
-            os.kill(process, signal.SIGSTOP)
-            over.wait(random.uniform(0.0, way.stopped))
-            os.kill(process, signal.SIGCONT)
-            over.wait(random.uniform(0.0, way.runs))
-    except ProcessLookupError:
-        return
 
 
 @contextmanager
