@@ -1,0 +1,14 @@
+"""How the loops of the chain are compiled: sums may be reordered, but NaN and infinity stay what they are."""
+
+from __future__ import annotations
+
+import numba
+
+FAST = {"reassoc", "contract", "nsz", "arcp"}
+"""LLVM's flags: without ``nnan`` and ``ninf``, so that a state that is not finite is seen."""
+
+inner = numba.njit(error_model="numpy", fastmath=FAST)
+"""Decorator of a function that only compiled code calls; it has no cache of its own."""
+
+merged = numba.njit(error_model="numpy", fastmath=FAST, inline="always")
+"""As `inner`, for functions with one caller: passing the arrays of an arm would take as long as their work."""

@@ -1,0 +1,400 @@
+"""One way to step in time: implicit midpoint rule, linear in the step, with Moreau's impulses of dry friction.
+
+With the predicted middle of a step of length h, from the change dv_p of the rates in the step before,
+
+    q_p = q + h/2 v + h/4 dv_p,    v_p = v + dv_p / 2,    q+ = q + h (v + v+) / 2,    v+ = v + dv,
+
+the step solves, with h G = h/2 D + h^2/4 K for the stiff terms of Eq. 12,
+
+    (M(q_p) + h G) dv = h f(q_p, v_p) + h G dv_p - h sum_k T_k(v+) dL_k/dq - h c Sgn(v+),
+
+Sgn being the set-valued sign (Moreau 1988; Acary and Brogliato, Numerical Methods for Nonsmooth Dynamical Systems,
+2008, ch. 10): a joint sticks with v+ = 0 as long as the impulse that this takes is within h c, c being the dry friction
+of Eq. 13. Sticking is exact and needs no small steps. The modes (sticks, slips forward, slips backward) are found by
+an active set that starts from the modes of the step before. The friction of cables, Eq. 15, is linearised about the
+rates that are predicted for the end of the step, v + dv_p, where it is a damping that may be arbitrarily stiff.
+
+Linear springs and dampers cancel from the prediction, so that they are integrated by the implicit midpoint rule, which
+keeps their energy; all else is of second order in h while the modes stay.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.arrays import Array
+from continuum.dynamics.spatial.cable_paths import SATURATED, Cables, Paths, Pull, new_paths, new_pull, trace
+from continuum.dynamics.spatial.chain import (
+    Chain,
+    Moving,
+    Placed,
+    inverse_dynamics,
+    mass_matrix,
+    new_moving,
+    new_placed,
+    place,
+)
+from continuum.dynamics.spatial.compiling import inner, merged
+from continuum.dynamics.spatial.linear_systems import factor, factor_symmetric, solve, solve_symmetric
+
+COMPLETE, NOT_FINITE, NO_MODES = 0, 1, 2
+"""Status of a simulation: done; a state is not finite, or the mass matrix is singular; no modes satisfy their laws."""
+
+_AT_ONCE = 6
+"""Active sets in which all joints that violate their law change their mode; then one joint at a time, the first one,
+which ends after finitely many sets as the matrix is positive definite (Murty's rule)."""
+_MOST_SETS = 200
+_SLOW = 1e-12
+"""Rate that is no slip in the wrong direction [rad/s]: rounding of a solution near 1 rad/s."""
+
+
+class Joints(NamedTuple):
+    """Springs and friction of the degrees of freedom (Eqs. 12, 13), (n,) each.
+
+    Attributes:
+        stiffness: K [N m/rad].
+        rest: angle of the relaxed spring [rad].
+        viscous: tau_mu [N m s/rad].
+        coulomb: tau_c [N m].
+        stribeck_gain: S.
+        stribeck_speed: v_d [rad/s].
+    """
+
+    stiffness: Array
+    rest: Array
+    viscous: Array
+    coulomb: Array
+    stribeck_gain: Array
+    stribeck_speed: Array
+
+
+class State(NamedTuple):
+    """State of the arm between two steps; a step overwrites it.
+
+    Attributes:
+        q: angles, (n,) [rad].
+        v: rates, (n,) [rad/s].
+        acceleration: that of the last step where it predicts the next one, else 0, (n,) [rad/s2].
+        mode: -1, 0 or 1: slips backward, sticks, slips forward, (n,).
+    """
+
+    q: Array
+    v: Array
+    acceleration: Array
+    mode: Array
+
+
+class Work(NamedTuple):
+    """Storage of a step."""
+
+    placed: Placed
+    moving: Moving
+    paths: Paths
+    pull: Pull
+    change: Array
+    middle_q: Array
+    middle_v: Array
+    end_v: Array
+    zero: Array
+    torque: Array
+    implicit: Array
+    impulse: Array
+    level: Array
+    matrix: Array
+    damped: Array
+    shared: Array
+    factor: Array
+    right: Array
+    step: Array
+    slipping: Array
+    before: Array
+    counts: Array
+
+
+@inner
+def new_work(n: int, cables: Cables) -> Work:
+    """Return storage for arms with ``n`` degrees of freedom and these cables."""
+    integers = np.zeros(n, np.int64)
+    return Work(
+        new_placed(n), new_moving(n), new_paths(cables, n), new_pull(cables), np.empty(n), np.empty(n), np.empty(n),
+        np.empty(n), np.zeros(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty((n, n)), np.empty((n, n)), np.empty(n),
+        np.empty((n, n)), np.empty(n), np.empty(n), integers, integers.copy(), np.zeros(2, np.int64),
+    )  # fmt: skip
+
+
+@inner
+def start_modes(joints: Joints, v: Array, mode: Array) -> None:
+    """Modes of a state without a step before it: joints at rest with dry friction stick."""
+    for i in range(v.size):
+        slips = abs(v[i]) > _SLOW or joints.coulomb[i] == 0.0
+        mode[i] = (1 if v[i] >= 0.0 else -1) if slips else 0
+
+
+@merged
+def step(
+    chain: Chain, joints: Joints, cables: Cables, holds: Array, state: State, command: Array, drive: Array, h: float,
+    work: Work,
+) -> int:  # fmt: skip
+    """Advance the state by one step.
+
+    Args:
+        chain, joints, cables: the arm.
+        holds: whether the motor of each cable holds a length instead of a tension, (n_cables,).
+        state: overwritten.
+        command: tension [N] of each cable, or length [m] of the path that its motor allows, (n_cables,).
+        drive: torque of each joint's drive, (n,) [N m].
+        h: length of the step [s].
+        work: storage.
+
+    Returns:
+        The status.
+    """
+    n = state.q.size
+    q, v, mode, acceleration = state.q, state.v, state.mode, state.acceleration
+    q_p, v_p, change, torque, matrix = work.middle_q, work.middle_v, work.change, work.torque, work.matrix
+    implicit, impulse, level, end_v, before = work.implicit, work.impulse, work.level, work.end_v, work.before
+    stiffness, rest, viscous, coulomb = joints.stiffness, joints.rest, joints.viscous, joints.coulomb
+    gain, slow, rotor = joints.stribeck_gain, joints.stribeck_speed, chain.rotor
+    for i in range(n):
+        change[i] = h * acceleration[i]
+        q_p[i] = q[i] + 0.5 * h * v[i] + 0.25 * h * change[i]
+        v_p[i] = v[i] + 0.5 * change[i]
+    place(chain, q_p, work.placed)
+    inverse_dynamics(chain, work.placed, v_p, work.zero, work.moving, torque)
+    mass_matrix(work.placed, matrix)
+    for i in range(n):
+        implicit[i] = 0.5 * h * viscous[i] + 0.25 * h * h * stiffness[i]
+        matrix[i, i] += rotor[i] + implicit[i]
+        still = torque[i] + stiffness[i] * (q_p[i] - rest[i]) + viscous[i] * v_p[i] - drive[i]
+        impulse[i] = implicit[i] * change[i] - h * still
+        level[i] = coulomb[i]
+        if gain[i] != 0.0:
+            level[i] *= 1.0 + gain[i] * np.exp(-((v_p[i] / slow[i]) ** 2))
+        end_v[i] = v[i] + change[i]
+        before[i] = mode[i]
+    if cables.first.size > 1:
+        trace(cables, chain.base, work.placed, work.paths)
+    status = _solve_for_change(joints, cables, holds, state, command, h, work)
+    if status != COMPLETE:
+        return status
+    for i in range(n):
+        moved = end_v[i] - v[i]
+        q[i] += h * (v[i] + 0.5 * moved)
+        v[i] = end_v[i]
+        goes_on = coulomb[i] == 0.0 or (
+            # a predicted rate beyond zero would begin with the wrong friction
+            mode[i] == before[i] and (v[i] + 0.5 * moved) * mode[i] > 0.0
+        )
+        acceleration[i] = moved / h if goes_on else 0.0
+        if not np.isfinite(q[i]):
+            return NOT_FINITE
+    return COMPLETE
+
+
+
+@merged
+def _solve_for_change(
+    joints: Joints, cables: Cables, holds: Array, state: State, command: Array, h: float, work: Work
+) -> int:
+    """Find modes and ``work.end_v`` that satisfy the step's equation and the laws of friction."""
+    n = state.q.size
+    mode, v, right, level, change, end_v = state.mode, state.v, work.right, work.level, work.step, work.end_v
+    factors, slipping, counts = work.factor, work.slipping, work.counts
+    damped = _linearise_cables(cables, holds, state, command, h, work)
+    matrix = work.damped if damped else work.matrix
+    counts[1] = damped
+    for attempt in range(_MOST_SETS):
+        n_slipping = 0
+        for i in range(n):
+            if mode[i] != 0:
+                slipping[n_slipping] = i
+                n_slipping += 1
+        for x in range(n_slipping):
+            i = slipping[x]
+            total = right[i] - h * mode[i] * level[i]
+            for k in range(n):
+                if mode[k] == 0:
+                    total += matrix[i, k] * v[k]
+            change[x] = total
+            for y in range(0 if damped else x, n_slipping):
+                factors[x, y] = matrix[i, slipping[y]]
+        if damped:
+            if not factor(factors, n_slipping):
+                return NOT_FINITE
+            solve(factors, change, n_slipping)
+        else:
+            if not factor_symmetric(factors, n_slipping):
+                return NOT_FINITE
+            solve_symmetric(factors, change, n_slipping)
+        for i in range(n):
+            end_v[i] = 0.0
+        for x in range(n_slipping):
+            end_v[slipping[x]] = v[slipping[x]] + change[x]
+        counts[0] += 1
+        if not _change_modes(joints, state, matrix, h, work, attempt >= _AT_ONCE):
+            return COMPLETE
+    return NO_MODES
+
+
+@merged
+def _change_modes(joints: Joints, state: State, matrix: Array, h: float, work: Work, one_at_a_time: bool) -> bool:
+    """Change the modes of joints that violate their law; return whether there were any."""
+    n, changed = state.q.size, False
+    modes, coulomb, v, end_v, right, level = state.mode, joints.coulomb, state.v, work.end_v, work.right, work.level
+    for i in range(n):
+        mode = modes[i]
+        if coulomb[i] == 0.0:
+            continue
+        new = mode
+        if mode != 0:
+            if end_v[i] * mode < -_SLOW:
+                new = 0
+        else:
+            needed = right[i]  # impulse that would move the joint
+            for k in range(n):
+                needed -= matrix[i, k] * (end_v[k] - v[k])
+            if abs(needed) > h * level[i] * (1.0 + 1e-9):
+                new = 1 if needed > 0.0 else -1
+        if new != mode:
+            modes[i] = new
+            changed = True
+            if one_at_a_time:
+                break
+    return changed
+
+
+@merged
+def _linearise_cables(
+    cables: Cables, holds: Array, state: State, command: Array, h: float, work: Work
+) -> bool:
+    """Linearise the cables' torque by the rates at the end: fill ``work.right``, and ``work.damped`` if it depends on them.
+
+    The friction at a hole is linearised at the slip that is predicted for the end of the step, or at zero where the slip
+    turns within the step: there the law is steepest, and the cable comes to rest instead of turning to and fro.
+
+    Returns:
+        Whether the torque depends on the rates at the end.
+    """
+    n = state.q.size
+    first, body, friction, steepness = cables.first, cables.body, cables.friction, cables.slope
+    paths, pull, v, end_v, change = work.paths, work.pull, state.v, work.end_v, work.change
+    gradient, length, bend = paths.gradient, paths.length, paths.bend
+    slip, rest, slope, tension = pull.slip, pull.rest, pull.slope, pull.tension
+    base, base_slope, right, impulse = pull.base, pull.base_slope, work.right, work.impulse
+    undamped, damped = work.matrix, work.damped
+    for i in range(n):
+        right[i] = impulse[i]
+    is_damped = False
+    for c in range(first.size - 1):
+        begin, end, mu, steep = first[c], first[c + 1], friction[c], steepness[c]
+        base[c], base_slope[c] = command[c], 0.0
+        if holds[c]:
+            stretch, rate = -command[c], 0.0
+            for k in range(begin + 1, end):
+                stretch += length[k]
+                for i in range(body[k - 1] + 1, body[k] + 1):
+                    rate += 0.5 * gradient[c, i] * (v[i] + end_v[i])
+            pulled = cables.stiffness[c] * stretch + cables.damping[c] * rate
+            base[c] = max(pulled, 0.0)
+            base_slope[c] = 0.25 * h * cables.stiffness[c] + 0.5 * cables.damping[c] if pulled > 0.0 else 0.0
+        rubs = mu > 0.0 and base[c] > 0.0
+        if rubs:
+            beyond, before = 0.0, 0.0
+            for k in range(end - 1, begin, -1):
+                turns = beyond * before < 0.0
+                slip[k] = 0.0 if turns else beyond
+                rest[k] = -beyond if turns else 0.0
+                for i in range(body[k - 1] + 1, body[k] + 1):
+                    beyond -= gradient[c, i] * end_v[i]
+                    before -= gradient[c, i] * v[i]
+        pulling, sticks = base[c], base_slope[c] != 0.0
+        for k in range(begin + 1, end):
+            tension[k] = pulling
+            for i in range(body[k - 1] + 1, body[k] + 1):
+                right[i] -= h * pulling * gradient[c, i]
+            if rubs and k < end - 1:
+                x = steep * slip[k]
+                if abs(x) > SATURATED:
+                    sign, slope[k] = np.sign(x), 0.0
+                else:
+                    sign = np.tanh(x)
+                    slope[k] = steep * (1.0 - sign * sign)
+                    sticks = True
+                pulling *= np.exp(-mu * bend[k] * sign)
+        if sticks:
+            if not is_damped:
+                is_damped = True
+                for i in range(n):
+                    for k in range(n):
+                        damped[i, k] = undamped[i, k]
+            _add_damping(cables, h, work, c)
+    return is_damped
+
+
+@merged
+def _add_damping(cables: Cables, h: float, work: Work, c: int) -> None:
+    """Add the slope of cable c's torque by the rates at the end to the matrix, and its value there to the right side.
+
+    Segment j is slowed by the rates of all segments m that lie beyond a hole k < min(j, m), with the weight
+    T_j mu phi_k ds/dw; a tension at the base that depends on the rate of the whole length slows every pair.
+    """
+    begin, end, body, gradient = cables.first[c], cables.first[c + 1], cables.body, work.paths.gradient
+    tension, slope, rest, bend, mu = work.pull.tension, work.pull.slope, work.pull.rest, work.paths.bend, cables.friction[c]
+    damped, shared, right, predicted = work.damped, work.shared, work.right, work.change
+    share = h * work.pull.base_slope[c] / work.pull.base[c] if work.pull.base[c] > 0.0 else 0.0
+    turned = 0.0  # what the slip at the predicted end would change beyond the point of linearisation
+    inmost, outmost = body[begin] + 1, body[end - 1] + 1
+    for j in range(begin + 1, end):
+        inside, outside = body[j - 1] + 1, body[j] + 1
+        for i in range(inside, outside):
+            along, value = tension[j] * gradient[c, i], 0.0
+            shared[i] = share * gradient[c, i]
+            for k in range(inmost, inside):
+                damped[i, k] += along * shared[k]
+                value += shared[k] * predicted[k]
+            for k in range(inside, outmost):
+                damped[i, k] += along * share * gradient[c, k]
+                value += share * gradient[c, k] * predicted[k]
+            right[i] += along * (value + turned)
+        weight = h * mu * bend[j] * slope[j]
+        share += weight
+        turned -= weight * rest[j]
+
+
+@inner
+def simulate(
+    chain: Chain, joints: Joints, cables: Cables, holds: Array, state: State, durations: Array, steps: Array,
+    before: Array, after: Array, drive_before: Array, drive_after: Array, q_out: Array, v_out: Array,
+) -> tuple[int, int]:  # fmt: skip
+    """Advance over intervals in which commands and torques change linearly; write the state at the end of each.
+
+    Args:
+        chain, joints, cables, holds, state: as in `step`.
+        durations: of the intervals, (n_intervals,) [s].
+        steps: number of steps in each, (n_intervals,).
+        before, after: commands at the begin and the end of each interval, (n_intervals, n_cables).
+        drive_before, drive_after: torques of the drives, (n_intervals, n) [N m].
+        q_out, v_out: results, (n_intervals, n) [rad, rad/s].
+
+    Returns:
+        The status, and the number of completed intervals.
+    """
+    n, n_cables = state.q.size, cables.first.size - 1
+    work = new_work(n, cables)
+    command, drive = np.empty(n_cables), np.empty(n)
+    for row in range(durations.size):
+        h = durations[row] / steps[row]
+        for number in range(steps[row]):
+            part = (number + 0.5) / steps[row]
+            for c in range(n_cables):
+                command[c] = before[row, c] + part * (after[row, c] - before[row, c])
+            for i in range(n):
+                drive[i] = drive_before[row, i] + part * (drive_after[row, i] - drive_before[row, i])
+            status = step(chain, joints, cables, holds, state, command, drive, h, work)
+            if status != COMPLETE:
+                return status, row
+        q_out[row] = state.q
+        v_out[row] = state.v
+    return COMPLETE, work.counts[0]
