@@ -230,6 +230,23 @@ def test_a_lost_sensor_is_reported_once_and_the_cables_are_let_go(pulling, recor
     print(f"from loss to line {said - lost:.3f} s, to release {begins - lost:.3f} s")
 
 
+def test_cables_are_let_go_when_no_frames_of_the_sensors_come(pulling):
+    """While the bench reports its state and its tensions."""
+    bench, node = pulling.bench, pulling.node
+    bench.tell("mute for=1000")
+    pulling.command_until([8.0, 0.0], lambda: pulling.state == "inactive")
+    node.wait_for_line("fell back to inactive, cables slack: the angles are lost since 1.")
+    assert "s: no frames of the sensors" in node.stderr
+    pulling.wait_for_level("angles", "ERROR", "no frames of the sensors")
+    pulling.activate()
+    refused = pulling.probe.count(pulling.name, "dropped: angles lost")
+    pulling.command_until([8.0, 0.0], lambda: pulling.probe.count(pulling.name, "dropped: angles lost") > refused + 3)
+    assert not any(bench.status["set_points"])
+    bench.tell("clear")
+    pulling.wait_for_joints()
+    pull(pulling)
+
+
 def test_the_start_of_an_emulated_bench_has_no_warnings(domain, latency_probe, calibration, tmp_path):
     """As of a launch: all at once, and the port comes when the emulator is ready."""
     port = tmp_path / "port"

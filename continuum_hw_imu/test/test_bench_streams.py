@@ -209,6 +209,27 @@ def test_the_time_of_lost_angles_is_counted_by_the_clock_of_the_bench():
     assert published.streams.lost_for == 0.0
 
 
+@pytest.mark.parametrize("unfit", [False, True])
+def test_angles_are_lost_when_no_frames_of_the_sensors_come(unfit):
+    """But others do: the task of the sensors hangs, or it reports another number of them."""
+    published = Published()
+    published.measure(60)
+    bench, streams = published.bench, published.streams
+    for _ in range(10):
+        bench.pass_time(0.1)
+        bench.say(bench.controller.status())
+        if unfit:
+            bench.say(ImuFrame.of(6, np.zeros((3, 3)), UP[:3], np.full(3, PRESENT)))
+    assert streams.lost_for == pytest.approx(1.0, abs=1e-3)
+    assert published.status("angles").level == DiagnosticStatus.ERROR
+    assert "no frames of the sensors" in published.status("angles").message
+    bench.say(TensionFrame((1.0, 0.0), (1.02, -0.03)))
+    assert not published.cables[-1].position
+    published.measure(120)
+    assert streams.lost_for == 0.0
+    assert not streams.doubt
+
+
 def test_what_is_clipped_has_the_covariance_of_anything_in_range():
     published = Published()
     flags = np.full(N, PRESENT)
