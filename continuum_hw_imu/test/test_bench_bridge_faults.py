@@ -173,6 +173,21 @@ def test_a_bad_line_is_reported_and_survived(pulling, order):
     assert pulling.bench.status["largest_set_point"] < 8.01  # what is pulled here
 
 
+def test_a_line_without_a_whole_frame_is_silent_and_no_tension_comes_back_by_itself(pulling):
+    """Bytes come all the time, and the bench hears the bridge."""
+    bench, probe = pulling.bench, pulling.probe
+    bench.tell("damage share=1 for=1000")
+    pulling.command_until([8.0, 0.0], lambda: pulling.state == "inactive")
+    pulling.node.wait_for_line("fell back to inactive, cables slack: the bench is silent for")
+    probe.wait_until(lambda: int(pulling.diagnostic("link").get("times opened", 0)) > 1, "the port, opened again")
+    bench.tell("clear")
+    probe.wait_until(lambda: pulling.diagnostic("link")["level"] in ("OK", "WARN"), lambda: pulling.diagnostic("link"))
+    go_on(pulling, 0.5)
+    assert pulling.state == "inactive"
+    assert not any(bench.status["set_points"])
+    pull(pulling)
+
+
 def test_late_frames_have_the_stamps_of_their_measurement(pulling):
     pulling.joints.clear()
     pulling.bench.tell("late by=0.2 for=1000")
