@@ -215,7 +215,8 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     def _autostart(self, now: float) -> None:
         """Advance to the state of ``autostart`` once; after that, the node never activates by itself again.
 
-        What is not there yet, a port or a calibration, is waited for; everything else is tried again now and then.
+        A port that is not there yet is waited for, and everything else is tried again now and then. Without a
+        calibration the node stays inactive: at its end hands are on the arm.
         """
         if not self._to_come or now < self._autostart_at:
             return
@@ -225,7 +226,11 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             self._commander.refused = missing or self._commander.refused
             go_on = self.trigger_configure
         elif state == State.PRIMARY_STATE_INACTIVE:
-            missing, go_on = self._uncalibrated(), self.trigger_activate
+            missing, go_on = "", self.trigger_activate
+            if uncalibrated := self._uncalibrated():
+                self._to_come = False
+                self.get_logger().info(f"stays inactive: {uncalibrated}; then activate the node")
+                return
         else:
             return
         if missing:

@@ -270,7 +270,7 @@ def test_the_start_of_an_emulated_bench_has_no_warnings(domain, latency_probe, c
     with ended_in_any_case(early), emulated_bench(domain, tmp_path):
         early.wait_for_line(f"waiting: {port} does not exist")
         early.wait_for_line("bench_emulator 0.1.0 at")
-        early.wait_for_line("waiting: not calibrated: no bias; call ~/calibrate_bias (at rest)")
+        early.wait_for_line("stays inactive: not calibrated: no bias; call ~/calibrate_bias (at rest)")
         assert early.stop() == 0
         assert all(line.startswith("[INFO]") for line in early.stderr.splitlines()), early.stderr
 
@@ -304,10 +304,15 @@ def test_what_was_stopped_becomes_active_by_a_persons_word_alone(bridge_here, pr
 
 
 def test_the_bias_of_a_file_is_of_another_day(bridge_here):
-    with bridge_here(keep_bias=False, autostart="configure") as bridge:
+    """With hands still on the arm, the end of the calibration does not activate the node, whatever `autostart`."""
+    with bridge_here(keep_bias=False) as bridge:
         bridge.wait_for_level("angles", "ERROR", "not calibrated: no bias")
         assert not bridge.change("activate")
         bridge.wait_for_success("calibrate_bias")
+        go_on(bridge, 3 * AUTOSTART_PERIOD)
+        assert bridge.state == "inactive"
+        (line,) = [line for line in bridge.node.stderr.splitlines() if "stays inactive: not calibrated" in line]
+        assert line.endswith("; then activate the node")
         bridge.wait_for_joints()
         assert_no_wrong_angle(bridge, bridge.joints)
         assert bridge.node.stop() == 0
