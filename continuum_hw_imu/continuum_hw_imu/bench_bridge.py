@@ -32,8 +32,7 @@ from continuum_manipulator.nodekit import tension_parameters
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_manipulator.nodekit.planar_arm import PlanarArm
-from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
-from continuum_manipulator.nodekit.tension_commands import read_tensions
+from continuum_manipulator.nodekit.tension_commands import held_for, read_tensions
 from continuum_msgs.msg import CableStates
 
 COMMANDS = "cable_tension_cmd"
@@ -303,13 +302,13 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         speakers = self.count_publishers(self.resolve_topic_name(COMMANDS))
         if speakers > 1:
             raise MessageFault("several commanders", f"{speakers} publishers; only one may command at a time")
-        now = self.get_clock().now().nanoseconds
-        wanted = read_tensions(message, self._planar.cables, self.arrival(), self.values["command_timeout"])
-        age = max(0, now - nanoseconds(message.header.stamp)) / NANOSECONDS
+        arrival, patience = self.arrival(), self.values["command_timeout"]
+        wanted = read_tensions(message, self._planar.cables, arrival, patience)
+        held = held_for(message, arrival, self.get_clock().now().nanoseconds, patience)
         blind = self._blind() if self._commander.gate.is_open else ""
         if blind:
             raise MessageFault("angles lost", blind)
-        if not self._commander.gate.command(wanted, time.monotonic() - age):
+        if not self._commander.gate.command(wanted, time.monotonic() - held):
             raise MessageFault("not active", "a tension command arrived; activate the node first")
         tension_parameters.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
 
