@@ -41,12 +41,16 @@ RIGHT = np.radians(1.5)
 MOST_ACCELERATION = np.radians(13_000.0)
 """Largest angular acceleration of a joint of the prototype, pulled suddenly or let go [rad/s^2]."""
 
+LONGEST_ERROR = np.sqrt(2.0 * RIGHT / MOST_ACCELERATION)
+"""Error of a stamp beyond which nothing is published [s]: in it, an arm at rest reaches a wrong angle."""
+
 
 class BenchStreams:
     """Publishes joint and cable states and the sensors' raw data.
 
     Joint states are published only if the angles of all joints are right at their stamp, by the errors of estimate and
-    stamp. Stamps are ROS times, without the jitter of the transmission.
+    stamp, and nothing is while the error of the stamps is not known or large. Stamps are ROS times, without the jitter
+    of the transmission.
 
     Args:
         planar: the arm's names and messages.
@@ -117,11 +121,12 @@ class BenchStreams:
                 if self.publishing:
                     stamp = self._stamp(received)
                     self._publish_joints(watch, received, stamp)
-                    self._publish_imus(sample, stamp)
+                    if received.error <= LONGEST_ERROR:
+                        self._publish_imus(sample, stamp)
             case TensionFrame() as frame if len(frame.set_points) == len(self._planar.cables):
                 self._note_lost(received)
                 self.tension = frame
-                if self.publishing:
+                if self.publishing and received.error <= LONGEST_ERROR:
                     self._publish_cables(watch, received, frame)
             case message:
                 self._note_lost(received)

@@ -167,22 +167,31 @@ def test_angles_whose_time_is_not_known_are_withheld():
     assert not published.joints
     assert published.status("angles").level == DiagnosticStatus.ERROR
     assert "the time of the sample is not known" in published.status("angles").message
-    assert [len(imu) for imu in published.imus] == [60] * N
+    published.bench.say(TensionFrame((1.0, 0.0), (1.02, 0.0)))
+    assert not any((published.cables, *published.imus))
     published.measure(1)
-    assert len(published.joints) == 1
+    published.bench.say(TensionFrame((1.0, 0.0), (1.02, 0.0)))
+    assert len(published.joints) == len(published.cables) == 1
+    assert [len(imu) for imu in published.imus] == [1] * N
 
 
 @pytest.mark.parametrize(("late", "speed", "known"), [(0.008, 0.1, True), (0.008, 3.5, False), (0.02, 0.0, False)])
 def test_angles_are_withheld_where_the_error_of_their_time_makes_them_wrong(late, speed, known):
-    """Here link 1 turns so fast [rad/s], and all frames come later than they could by so much [s]."""
+    """Here link 1 turns so fast [rad/s], and all frames come later than they could by so much [s].
+
+    Raw data and cable states are withheld where even the angles of an arm at rest are.
+    """
     published = Published()
     published.measure(60, answers=False)
     bench = published.bench
     bench.client._now = lambda: bench.now - late  # of each request, which the bench answers when it hears it
     published.measure(1)
-    published.joints.clear()
+    for seen in (published.joints, *published.imus):
+        seen.clear()
     published.measure(3, link_rates=[speed] * N)
+    bench.say(TensionFrame((1.0, 0.0), (1.02, 0.0)))
     assert bool(published.joints) is known
+    assert bool(published.cables) is bool(published.imus[0]) is (late < 0.015)
 
 
 def test_nothing_is_published_while_the_node_is_not_active():
@@ -253,6 +262,7 @@ def test_without_calibration_there_are_raw_data_and_no_joint_states():
 
 def test_measured_tensions_are_reported_with_lengths_that_are_known():
     published = Published()
+    published.bench.client.beat()  # from the answer, the error of stamps is known
     published.bench.say(TensionFrame((1.0, 0.0), (1.02, -0.03)))
     assert published.cables[-1].effort.tolist() == [1.02, 0.0]  # a cable never pushes
     assert not published.cables[-1].position
