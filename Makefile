@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 IN_WORKSPACE := source install/setup.bash &&
 # more workers than cores: tests that start nodes wait more than they compute
-PYTEST := $(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m pytest --numprocesses=4 --dist=loadfile
+PYTEST := $(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m pytest --numprocesses=3 --dist=loadfile
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:

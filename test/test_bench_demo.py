@@ -76,5 +76,6 @@ def test_a_bench_that_is_not_there_ends_the_demo_in_one_line(domain, tmp_path, m
     monkeypatch.setattr("tools.demo.bench.conductor.PATIENCE", 6.0)
     assert main(["--port", str(tmp_path / "nowhere"), "--no-diagnosis", "--out", str(tmp_path / "out")]) == 1
     (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("bench-demo: bench_bridge/calibrate_bias: ")
+    assert line.startswith("bench-demo: ")
+    assert "bench_bridge/calibrate_bias" in line  # which refuses, or on a busy machine is not there in time
     assert "nowhere is not there" in line or "not configured" in line
