@@ -90,7 +90,6 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._to_come = self.values["autostart"] != AUTOSTARTS[0]
         self._autostart_at = 0.0
         self._waits_for = ""
-        self._reported_lost: set[int] = set()
         self.listen(CableStates, COMMANDS, self._on_command)
         rest_time = self.values["rest_time"]
         services: dict[str, Callable[[], str]] = {
@@ -285,17 +284,15 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return f"not calibrated: no {', no '.join(missing)}; call {calls}, or set the parameter allow_uncalibrated"
 
     def _tell_of_sensors(self) -> None:
-        """Log each loss and each return of a sensor in one line."""
+        """Log each loss, those of a burst together, and each return of a sensor in one line."""
         watch = self._streams.watch
         while watch is not None and watch.news:
             news = watch.news.popleft()
             if news.lost:
-                if self.diagnostics.warnings.note(
+                self.diagnostics.warnings.note(
                     f"imu {news.link} is lost", f"no data of {news.name} for {news.gap:.2f} s"
-                ):
-                    self._reported_lost.add(news.link)
-            elif news.link in self._reported_lost:
-                self._reported_lost.remove(news.link)
+                )
+            else:
                 self.get_logger().info(f"imu {news.link} is back: {news.name} was lost for {news.gap:.2f} s")
 
     def _on_command(self, message: CableStates) -> None:

@@ -221,8 +221,10 @@ def test_a_lost_sensor_is_reported_once_and_the_cables_are_let_go(pulling, recor
     bench.tell("drop sensor=3 for=1000")
     lost = bench.status["monotonic"]
     pulling.command_until([8.0, 0.0], lambda: pulling.state == "inactive")
-    node.wait_for_line("fell back to inactive, cables slack: the angles are lost since 1.0")
-    assert "s: sensor 3 is missing" in node.stderr
+    node.wait_for_line("fell back to inactive, cables slack: the angles are lost since ")
+    assert re.search(
+        r"the angles are lost since \d+\.\d\d s: (sensor 3 is missing|no frames of the sensors)", node.stderr
+    )
     begins = release_begins(bench)
     assert begins >= lost + 0.9  # 1 s by the bench's clock; the order came a moment before
     pulling.probe.wait_until(lambda: not np.any(bench.truth()["set_point"][-1]), "slack")
@@ -233,11 +235,13 @@ def test_a_lost_sensor_is_reported_once_and_the_cables_are_let_go(pulling, recor
     assert not any(bench.status["set_points"])
     bench.tell("clear")
     node.wait_for_line("imu 3 is back: DOT-3 was lost for ")
+    for returns in (2, 3):  # within a burst of losses, too
+        bench.tell("drop sensor=3 for=0.3")
+        pulling.probe.wait_until(lambda n=returns: node.stderr.count("imu 3 is back") == n, lambda: node.stderr)
     pulling.wait_for_joints()
     pull(pulling)
     assert_no_wrong_angle(pulling, pulling.joints)
-    (line,) = [line for line in node.stderr.splitlines() if "imu 3 is lost" in line]
-    (_,) = [line for line in node.stderr.splitlines() if "imu 3 is back" in line]
+    line = next(line for line in node.stderr.splitlines() if "imu 3 is lost" in line)
     assert "no data of DOT-3 for 0.1" in line
     said = pulling.monotonic_of(float(re.search(r"\[(\d+\.\d+)\]", line)[1]))
     record_property("from loss to line [s]", round(said - lost, 3))
@@ -250,8 +254,8 @@ def test_cables_are_let_go_when_no_frames_of_the_sensors_come(pulling):
     bench, node = pulling.bench, pulling.node
     bench.tell("mute for=1000")
     pulling.command_until([8.0, 0.0], lambda: pulling.state == "inactive")
-    node.wait_for_line("fell back to inactive, cables slack: the angles are lost since 1.")
-    assert "s: no frames of the sensors" in node.stderr
+    node.wait_for_line("fell back to inactive, cables slack: the angles are lost since ")
+    assert re.search(r"the angles are lost since \d+\.\d\d s: no frames of the sensors", node.stderr)
     pulling.wait_for_level("angles", "ERROR", "no frames of the sensors")
     pulling.activate()
     refused = pulling.probe.count(pulling.name, "dropped: angles lost")
