@@ -212,8 +212,9 @@ def test_a_bridge_without_a_processor_publishes_no_wrong_angle(bridge_here):
             bridge.let_hand_move("hand bend=60 over=0.3 hold=1", 1.5)
             if moves() > 60:
                 break
-        if bridge.joints:
-            assert_no_wrong_angle(bridge, bridge.joints)
+        if moves() <= 60:
+            pytest.skip(f"{moves()} joint states of a moving arm: this machine is too busy to say anything by them")
+        assert_no_wrong_angle(bridge, bridge.joints)
 
 
 def test_a_lost_sensor_is_reported_once_and_the_cables_are_let_go(pulling, record_property):
