@@ -13,7 +13,7 @@ import pytest
 from continuum.inertial.calibration_values import load_calibration
 from continuum.recordings.recording_bag import read_recording_bag
 from tools.demo.bench.answer import HIDDEN, JOINT, answer
-from tools.demo.bench.command import main
+from tools.demo.bench.command import _launch_command, main
 from tools.demo.bench.runs import RUNS
 
 pytestmark = pytest.mark.ros
@@ -69,6 +69,11 @@ def test_truth_and_finding_have_the_same_words_and_the_exit_code_is_the_verdicts
     if right:
         assert re.findall(rf"{HIDDEN}\.\w+\[\d\]", finding) == names
         assert "1.9 (1.7 to 2.1) = +190 %" in finding
+
+
+def test_no_cable_of_a_real_arm_is_pulled_before_its_angles_are_known(tmp_path):
+    assert "allow_uncalibrated:=true" in _launch_command("", tmp_path)
+    assert not any("allow_uncalibrated" in word for word in _launch_command("/dev/ttyACM0", tmp_path))
 
 
 def test_a_bench_that_is_not_there_ends_the_demo_in_one_line(domain, tmp_path, monkeypatch, capsys):
