@@ -189,13 +189,19 @@ def test_a_line_without_a_whole_frame_is_silent_and_no_tension_comes_back_by_its
 
 
 def test_late_frames_have_the_stamps_of_their_measurement(pulling):
+    """All of them: the frames before tell the clock, and until its error grows too large there are joint states."""
     pulling.joints.clear()
     pulling.bench.tell("late by=0.2 for=1000")
+    begin = pulling.bench.status["monotonic"]
     pulling.command_until([8.0, 0.0], lambda: "ms late" in pulling.diagnostic("clock")["message"])
     go_on(pulling, 0.5)
+    end = pulling.bench.status["monotonic"]
     pulling.bench.tell("clear")
     pull(pulling)
     pulling.wait_for_joints(60)
+    late = sum(begin < pulling.monotonic(message) < end for message in pulling.joints)
+    if late < 10:
+        pytest.skip(f"{late} joint states of late frames: this machine is too busy to say anything by them")
     assert_no_wrong_angle(pulling, pulling.joints)
 
 
