@@ -13,7 +13,7 @@ import pytest
 from continuum.inertial.calibration_values import load_calibration
 from continuum.recordings.recording_bag import read_recording_bag
 from tools.demo.bench.answer import HIDDEN, JOINT, answer
-from tools.demo.bench.command import _launch_command, main
+from tools.demo.bench.command import GAP, TOO_BUSY, _launch_command, main
 from tools.demo.bench.runs import RUNS
 
 pytestmark = pytest.mark.ros
@@ -26,6 +26,8 @@ def test_bench_is_calibrated_pulled_released_and_recorded(domain, tmp_path):
     words = [sys.executable, "-m", "tools.demo.bench", "--no-diagnosis", "--out", str(out)]
     environment = os.environ | {"ROS_DOMAIN_ID": str(domain)}
     done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
+    if TOO_BUSY in done.stderr:
+        pytest.skip(done.stderr.strip())
     assert done.returncode == 0, done.stderr + (out / "nodes.log").read_text()
     off = [float(text) for text in re.findall(r"measured angles err by ([\d.]+) degrees RMS", done.stdout)]
     assert len(off) == len(RUNS)
@@ -35,7 +37,7 @@ def test_bench_is_calibrated_pulled_released_and_recorded(domain, tmp_path):
         recording = read_recording_bag(out / run.name)
         lasts = recording.times[-1] - recording.times[0]
         assert lasts > run.pulled
-        assert recording.times.size > 0.9 * 60 * lasts
+        assert np.diff(recording.times).max() < GAP + 2 / 60
         assert np.degrees(np.abs(recording.theta.sum(axis=1)).max()) > 30
         assert recording.tensions is not None
         assert recording.tensions.values.max() > 10

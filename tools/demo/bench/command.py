@@ -37,6 +37,8 @@ TRIES = 5
 GAP = 0.25
 """Longest time without joint states in a run [s]: `continuum diagnose` refuses recordings with longer gaps."""
 
+TOO_BUSY = "the machine is too busy for a bench"
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the demo; return 0 if all of it was completed and a hidden effect was found, 1 if not."""
@@ -108,7 +110,7 @@ def _until_whole(conductor: Conductor, what: str, act: Callable[[], None]) -> No
             return
         why = f"joint states are missing for {gap:.1f} s" if math.isfinite(gap) else "the bridge became inactive"
         print(f"{what}, once more: {why}; nodes.log may have the reason", flush=True)
-    raise DemoError(f"{what}: {why}, the last of {TRIES} times; the machine is too busy for a bench")
+    raise DemoError(f"{what}: {why}, the last of {TRIES} times; {TOO_BUSY}")
 
 
 def diagnosed(out: Path) -> int:
