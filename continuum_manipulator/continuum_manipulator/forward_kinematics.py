@@ -52,6 +52,7 @@ class ForwardKinematicsNode(CheckedNode):
         ParameterSpec(
             "publish_tf", bool, "publish description and frames; false where robot_state_publisher does", default=True
         ),
+        ParameterSpec("publish_tip", bool, "publish pose and twist of the tip", default=True),
         ParameterSpec(
             "publish_frequency", float, "most transforms of a joint per second", "Hz", 0.0, 1e4, lower_open=True,
             default=30.0,
@@ -70,8 +71,9 @@ class ForwardKinematicsNode(CheckedNode):
         }
         self._interval = (1.0 - SLACK) * NANOSECONDS / self.values["publish_frequency"]
         self._shown: dict[tuple[int, ...], int] = {}
-        self._publish_pose = self.offer(PoseStamped, "tip_pose")
-        self._publish_twist = self.offer(TwistStamped, "tip_twist")
+        if self.values["publish_tip"]:
+            self._publish_pose = self.offer(PoseStamped, "tip_pose")
+            self._publish_twist = self.offer(TwistStamped, "tip_twist")
         self._links = LinkTransforms(self.values["robot_description"], self.values["frame_prefix"])
         if self.values["publish_tf"]:
             self._publish_frames = self.offer(TFMessage, "/tf", TRANSFORMS)
@@ -99,6 +101,8 @@ class ForwardKinematicsNode(CheckedNode):
         if self.values["publish_tf"] and self._is_due(tuple(found), stamp):
             angles = {name: message.position[i] for name, i in index.items() if math.isfinite(message.position[i])}
             self._publish_frames(self._links.moved(angles, message.header.stamp))
+        if not self.values["publish_tip"]:
+            return
         for i, joints in found.items():
             instant = self._instants.add(i, stamp, joints)
             if instant is not None and (self._publish_pose.subscribers or self._publish_twist.subscribers):
