@@ -91,8 +91,8 @@ def test_launch_file_starts_sliders_and_rviz_with_its_configuration() -> None:
     assert [line.partition(":")[0] for line in lines] == [
         "forward_kinematics", "joint_state_publisher_gui", "rviz2",
     ]  # fmt: skip
-    beside = launch("gui:=false", "frames:=false", "--print").stdout.splitlines()
-    assert [line.partition(":")[0] for line in beside] == ["rviz2"]
+    alone = launch("gui:=false", "frames:=false", "--print").stdout.splitlines()
+    assert [line.partition(":")[0] for line in alone] == ["rviz2"]
     (config,) = (word for word in lines[-1].split() if word.endswith(".rviz"))
     assert Path(config).is_file()
 

@@ -156,7 +156,7 @@ def test_a_late_node_does_not_blame_the_sender_and_pulls_no_longer_than_the_comm
         assert given < pulling.max() <= given + 2 * holds * NANOSECONDS + 2 * PERIOD
 
 
-def test_a_command_that_timed_out_in_the_node_does_not_begin_a_release_anew(domain, probe):
+def test_a_command_that_timed_out_in_the_node_does_not_begin_another_release(domain, probe):
     """Each of them would make what is left of the tension last for another slack time."""
     holds, cables = 0.1, probe.hear(CableStates, "cable_states")
     with dynamics_here(domain, command_timeout=holds, slack_time=holds) as (node, executor):
