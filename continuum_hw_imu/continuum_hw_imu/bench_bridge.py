@@ -90,7 +90,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._to_come = self.values["autostart"] != AUTOSTARTS[0]
         self._autostart_at = 0.0
         self._waits_for = ""
-        self.listen(CableStates, COMMANDS, self._on_command)
+        self.listen(CableStates, COMMANDS, self._on_command, timed=True)
         rest_time = self.values["rest_time"]
         services: dict[str, Callable[[], str]] = {
             "zero": partial(self._calibrate, lambda watch: watch.find_zero(rest_time)),

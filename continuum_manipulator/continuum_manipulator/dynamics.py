@@ -87,7 +87,7 @@ class DynamicsNode(CheckedNode):
         }
         self._publish_joints = self.offer(JointState, "joint_states")
         self._publish_cables = self.offer(CableStates, "cable_states")
-        self.listen(CableStates, "cable_tension_cmd", self._on_command)
+        self.listen(CableStates, "cable_tension_cmd", self._on_command, timed=True)
         self.create_service(Trigger, "~/release", self._release)
         self.create_service(ResetArm, "~/reset", self._reset)
         steady = Clock(clock_type=ClockType.STEADY_TIME)  # ROS time may jump forwards or backwards
