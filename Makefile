@@ -2,8 +2,7 @@
 
 SHELL := /bin/bash
 IN_WORKSPACE := source install/setup.bash &&
-# more workers than cores: tests that start nodes wait more than they compute
-PYTEST := $(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m pytest --numprocesses=4 --dist=loadfile
+PYTEST := $(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m pytest --dist=loadfile --no-loadscope-reorder
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
@@ -22,11 +21,13 @@ demo: setup ## follow the thesis's helix with real nodes, results in out/demo; V
 bench-demo: setup ## emulated bench, bridge and simulated arm: pulled, released, recorded, diagnosed; results in out/bench_demo
 	@$(IN_WORKSPACE) OPENBLAS_NUM_THREADS=1 python3 -m tools.demo.bench $(ARGS)
 
-test: check browser ## run the checks and every test (ARGS="-k name" are given to pytest)
-	@$(PYTEST) --no-loadscope-reorder $(ARGS)
+test: check browser ## run the checks and every test, those with nodes first (ARGS="-k name" are given to pytest)
+	@$(PYTEST) --numprocesses=2 -m ros $(ARGS); nodes=$$?; \
+	  $(PYTEST) --numprocesses=3 -m "not ros" $(ARGS); rest=$$?; \
+	  for code in $$nodes $$rest; do [ $$code -eq 0 ] || [ $$code -eq 5 ] || exit $$code; done
 
 quick: check ## run the checks and the fast unit tests: what to run after every change
-	@$(PYTEST) -m "not (ros or hidden_effects or slow)" $(ARGS)
+	@$(PYTEST) --numprocesses=3 -m "not (ros or hidden_effects or slow)" $(ARGS)
 
 browser: setup ## Chromium and Playwright for the viewer's tests, into out/browser; what cannot be had is left out
 	@$(IN_WORKSPACE) test -d out/browser/extra/playwright || \

@@ -80,7 +80,7 @@ class ViewedPage:
     def __init__(self, browser: Any, address: str) -> None:
         self.requests: list[str] = []
         self.errors: list[str] = []
-        self.tab = browser.new_page(viewport={"width": 1200, "height": 720})
+        self.tab = browser.new_page(viewport={"width": 1200, "height": 720}, device_scale_factor=0.5)
         self.tab.set_default_timeout(120_000)
         self.tab.on("request", lambda request: self.requests.append(request.url))
         self.tab.on("websocket", lambda socket: self.requests.append(socket.url))
@@ -94,7 +94,7 @@ class ViewedPage:
 
     def pixels(self) -> Any:
         """The scene without the panel and without notes, (height, width, 3) from 0 to 255, as integers."""
-        picture = Image.open(io.BytesIO(self.tab.screenshot(clip=_SCENE)))
+        picture = Image.open(io.BytesIO(self.tab.screenshot(clip=_SCENE, scale="css")))
         return np.asarray(picture.convert("RGB")).astype(int)
 
     def settled(self) -> Any:

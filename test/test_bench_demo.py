@@ -13,7 +13,7 @@ import pytest
 from continuum.inertial.calibration_values import load_calibration
 from continuum.recordings.recording_bag import read_recording_bag
 from tools.demo.bench.answer import HIDDEN, JOINT, answer
-from tools.demo.bench.command import main
+from tools.demo.bench.command import GAP, TOO_BUSY, _launch_command, main
 from tools.demo.bench.runs import RUNS
 
 pytestmark = pytest.mark.ros
@@ -26,6 +26,8 @@ def test_bench_is_calibrated_pulled_released_and_recorded(domain, tmp_path):
     words = [sys.executable, "-m", "tools.demo.bench", "--no-diagnosis", "--out", str(out)]
     environment = os.environ | {"ROS_DOMAIN_ID": str(domain)}
     done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
+    if TOO_BUSY in done.stderr:
+        pytest.skip(done.stderr.strip())
     assert done.returncode == 0, done.stderr + (out / "nodes.log").read_text()
     off = [float(text) for text in re.findall(r"measured angles err by ([\d.]+) degrees RMS", done.stdout)]
     assert len(off) == len(RUNS)
@@ -35,7 +37,7 @@ def test_bench_is_calibrated_pulled_released_and_recorded(domain, tmp_path):
         recording = read_recording_bag(out / run.name)
         lasts = recording.times[-1] - recording.times[0]
         assert lasts > run.pulled
-        assert recording.times.size > 0.9 * 60 * lasts
+        assert np.diff(recording.times).max() < GAP + 2 / 60
         assert np.degrees(np.abs(recording.theta.sum(axis=1)).max()) > 30
         assert recording.tensions is not None
         assert recording.tensions.values.max() > 10
@@ -71,10 +73,16 @@ def test_truth_and_finding_have_the_same_words_and_the_exit_code_is_the_verdicts
         assert "1.9 (1.7 to 2.1) = +190 %" in finding
 
 
+def test_no_cable_of_a_real_arm_is_pulled_before_its_angles_are_known(tmp_path):
+    assert "allow_uncalibrated:=true" in _launch_command("", tmp_path)
+    assert not any("allow_uncalibrated" in word for word in _launch_command("/dev/ttyACM0", tmp_path))
+
+
 def test_a_bench_that_is_not_there_ends_the_demo_in_one_line(domain, tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     monkeypatch.setattr("tools.demo.bench.conductor.PATIENCE", 6.0)
     assert main(["--port", str(tmp_path / "nowhere"), "--no-diagnosis", "--out", str(tmp_path / "out")]) == 1
     (line,) = capsys.readouterr().err.splitlines()
-    assert line.startswith("bench-demo: bench_bridge/calibrate_bias: ")
+    assert line.startswith("bench-demo: ")
+    assert "bench_bridge/calibrate_bias" in line  # which refuses, or on a busy machine is not there in time
     assert "nowhere is not there" in line or "not configured" in line

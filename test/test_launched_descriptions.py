@@ -34,7 +34,7 @@ def target(probe: Probe) -> None:
 
 
 def angles(probe: Probe) -> None:
-    """Say angles in the place of a bench without a calibration, which says none."""
+    """Say angles in the place of a bench without a calibration, or of sliders."""
     message = JointState(name=PLANAR, position=[0.0, 0.1, 0.2, 0.3, -0.1, -0.2, 0.0])
     message.header.stamp = probe.node.get_clock().now().to_msg()
     probe.speaker(JointState, "joint_states").publish(message)
@@ -46,6 +46,10 @@ LAUNCHES = {
     "bench": (
         ("continuum_hw_imu", "bench.launch.py", "emulator_link:=port", "emulator_control:=control"),
         angles, "bench_bridge", 5,
+    ),
+    "display": (
+        ("continuum_description", "display.launch.py", "arm:=planar_prototype.yaml", "gui:=false", "rviz:=false"),
+        angles, "forward_kinematics", 0,
     ),
 }  # fmt: skip
 """The launch, what makes it publish joints, a node that it requires, and the number of its sensors."""

@@ -19,12 +19,6 @@ def swinging(file: Path) -> Path:
     return file
 
 
-@pytest.fixture(scope="module")
-def chromium():
-    with headless_browser() as browser:
-        yield browser
-
-
 def orange(pixels: np.ndarray) -> np.ndarray:
     """Where the discs of the first section are."""
     red, green, blue = np.moveaxis(pixels, -1, 0)
@@ -37,57 +31,58 @@ def blue(pixels: np.ndarray) -> np.ndarray:
     return (blue > 180) & (blue - red > 100) & (blue > green + 30)
 
 
-@pytest.fixture(scope="module")
-def moved_by_hand(chromium):
-    with view() as address:
-        page = ViewedPage(chromium, address)
+@pytest.fixture(scope="class")
+def moved_by_hand():
+    with view() as address, headless_browser() as browser:
+        page = ViewedPage(browser, address)
         page.wait_for(lambda: orange(page.pixels()).sum() > 500, "the arm")
         yield page
         page.tab.close()
 
 
-def test_nothing_comes_from_elsewhere(moved_by_hand):
-    hosts = {urlsplit(url.removeprefix("blob:")).hostname for url in moved_by_hand.requests if url[:5] != "data:"}
-    assert hosts == {"127.0.0.1"}
-    assert moved_by_hand.errors == []
+class TestMovedByHand:
+    """One page for these tests, closed before the next: Chromium starves the page that is not in front."""
+
+    def test_nothing_comes_from_elsewhere(self, moved_by_hand):
+        hosts = {urlsplit(url.removeprefix("blob:")).hostname for url in moved_by_hand.requests if url[:5] != "data:"}
+        assert hosts == {"127.0.0.1"}
+        assert moved_by_hand.errors == []
+
+    def test_arm_moves_with_a_slider(self, moved_by_hand):
+        page = moved_by_hand
+        before = page.settled()
+        page.keep("straight")
+        page.set_number("theta [deg]", 80.0)
+        page.wait_for(lambda: (orange(page.pixels()) ^ orange(before)).sum() > 0.2 * orange(before).sum(), "a bent arm")
+        page.set_number("theta [deg]", 60.0, which=1)
+        page.set_number("phi [deg]", 120.0, which=1)
+        page.tab.get_by_text("The target follows the sliders.").wait_for()
+        page.settled()
+        page.keep("bent")
+
+    def test_a_dragged_target_is_reached(self, moved_by_hand):
+        page = moved_by_hand
+        for number in range(3):
+            page.set_number("theta [deg]", 0.0, which=number)
+            page.set_number("phi [deg]", 0.0, which=number)
+        handle = page.uppermost(blue(page.settled()))
+        page.tab.mouse.move(*handle)
+        page.tab.wait_for_timeout(500)  # the page has to see what is under the mouse before it is pressed
+        page.tab.mouse.down()
+        for step in range(1, 21):
+            page.tab.mouse.move(handle[0], handle[1] + 6 * step)
+            page.tab.wait_for_timeout(50)
+        page.tab.mouse.up()
+        words = page.tab.get_by_text("Target reached; the tip is 0.00")
+        words.wait_for()
+        assert float(page.number("theta [deg]", 2).input_value()) > 0.0
+        page.settled()
+        page.keep("target")
 
 
-def test_arm_moves_with_a_slider(moved_by_hand):
-    page = moved_by_hand
-    before = page.settled()
-    page.keep("straight")
-    page.set_number("theta [deg]", 80.0)
-    page.wait_for(lambda: (orange(page.pixels()) ^ orange(before)).sum() > 0.2 * orange(before).sum(), "a bent arm")
-    page.set_number("theta [deg]", 60.0, which=1)
-    page.set_number("phi [deg]", 120.0, which=1)
-    page.tab.get_by_text("The target follows the sliders.").wait_for()
-    page.settled()
-    page.keep("bent")
-
-
-def test_a_dragged_target_is_reached(moved_by_hand):
-    page = moved_by_hand
-    for number in range(3):
-        page.set_number("theta [deg]", 0.0, which=number)
-        page.set_number("phi [deg]", 0.0, which=number)
-    handle = page.uppermost(blue(page.settled()))
-    page.tab.mouse.move(*handle)
-    page.tab.wait_for_timeout(500)  # the page has to see what is under the mouse before it is pressed
-    page.tab.mouse.down()
-    for step in range(1, 21):
-        page.tab.mouse.move(handle[0], handle[1] + 6 * step)
-        page.tab.wait_for_timeout(50)
-    page.tab.mouse.up()
-    words = page.tab.get_by_text("Target reached; the tip is 0.00")
-    words.wait_for()
-    assert float(page.number("theta [deg]", 2).input_value()) > 0.0
-    page.settled()
-    page.keep("target")
-
-
-def test_playback_scrubs(chromium, tmp_path):
-    with view(str(swinging(tmp_path / "run.csv"))) as address:
-        page = ViewedPage(chromium, address)
+def test_playback_scrubs(tmp_path):
+    with view(str(swinging(tmp_path / "run.csv"))) as address, headless_browser() as browser:
+        page = ViewedPage(browser, address)
         time = page.number("time [s]")
         page.tab.get_by_label("Repeat").uncheck()
         page.wait_for(lambda: float(time.input_value()) >= 1.5, "the end of the recording")

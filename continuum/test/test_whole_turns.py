@@ -59,9 +59,37 @@ def test_turning_joints_are_continuous_and_begin_within_half_a_turn(
     assert np.all(np.abs(found.theta[0]) <= np.pi + 1e-9)
     for joint in range(2):
         rows = 1 + np.flatnonzero(np.abs(np.diff(table.theta[:, joint])) > 4)
-        about = [note for note in notes if f"q{joint + 1}" in note]
+        about = [note for note in notes if f"q{joint + 1} jumps" in note]
         assert len(about) == bool(rows.size)
         assert all(f" {table.numbers[rows[0]]}" in note for note in about)
+
+
+@pytest.mark.parametrize("wraps", sorted(WRAPS))
+@pytest.mark.parametrize("zero", [0.0, 1.0, -2.5])
+def test_recordings_of_one_arm_have_the_same_angles_for_the_same_pose(wraps: int, zero: float) -> None:
+    """Whether their log crosses its end or not; and a note says what was shifted."""
+    t = np.arange(ROWS) / 200
+    for away in (0.4, 0.05):
+        true = np.stack([away * np.sin(5 * t) - 0.2, 0.3 * np.cos(5 * t)], axis=1)
+        shown = logged(true - zero, wraps) + zero
+        found, notes = repaired(
+            Samples(
+                Path("run.csv"), np.arange(2, ROWS + 2), t, shown, None, None, torque=np.ones((ROWS, 2)), turns=True
+            )
+        )
+        np.testing.assert_allclose(found.theta, true, atol=1e-9)
+        for joint in np.flatnonzero(np.abs(shown[0] - true[0]) > 1):
+            assert any(f"q{joint + 1} begins at {np.degrees(shown[0, joint]):.1f}" in note for note in notes)
+
+
+def test_a_single_row_off_by_a_turn_is_left_out() -> None:
+    t = np.arange(ROWS) / 200
+    theta = 0.4 * np.stack([np.sin(5 * t), np.cos(5 * t)], axis=1)
+    table = Samples(Path("run.csv"), np.arange(2, ROWS + 2), t, theta.copy(), None, None)
+    table.theta[100, 1] += 2 * np.pi
+    found, notes = repaired(table)
+    np.testing.assert_array_equal(found.theta, np.delete(theta, 100, axis=0))
+    assert [note for note in notes if "102" in note]
 
 
 @given(st.floats(60.0, 1000.0), st.floats(-3.0, 3.0), st.sampled_from(sorted(WRAPS)))

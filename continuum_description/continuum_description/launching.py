@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
 
 from ament_index_python.packages import get_package_share_directory
@@ -23,7 +24,10 @@ from continuum.urdf.robot import Sensor, urdf_text
 
 BOOLEANS = ("true", "false", "True", "False")
 
-MAY_END = ("trajectory_publisher", "rviz2", "joint_state_publisher_gui")
+WINDOWS = ("rviz2", "joint_state_publisher_gui")
+"""Processes that may end without ending the launch, with any exit code: some windows end with one when closed."""
+
+MAY_END = ("trajectory_publisher",)
 """Processes that may end normally without ending the launch."""
 
 Parameters = str | dict[str, object]
@@ -57,7 +61,7 @@ def launch_file(
     """
 
     def checked(context: LaunchContext) -> Sequence[Node | ExecuteProcess]:
-        refuse_unknown(Path(file).name, [one.name for one in arguments], sys.argv)
+        refuse_unknown(Path(file), [one.name for one in arguments], sys.argv)
         return processes(context.launch_configurations)
 
     return LaunchDescription(
@@ -65,28 +69,30 @@ def launch_file(
     )
 
 
-def refuse_unknown(file: str, known: Sequence[str], words: Sequence[str]) -> None:
+def refuse_unknown(file: Path, known: Sequence[str], words: Sequence[str]) -> None:
     """Refuse arguments that a launch file does not have; the stock ``ros2 launch`` takes any.
 
-    They are found among the words of the command line, if these name the file: a file that another one includes is also
-    given the arguments of that one.
+    They are found among the words of the command line, if these name the file by its path, or by its package and name:
+    a file that another one includes, of whatever name, is also given the arguments of that one.
 
     Raises:
         RuntimeError: an argument is unknown.
     """
-    if not any(Path(word).name == file for word in words):
+    package = file.resolve().parent.parent.name  # share/PACKAGE/launch/FILE, or PACKAGE/launch/FILE of a checkout
+    by_name = any(pair in ((package, file.name), (file.parent.parent.name, file.name)) for pair in pairwise(words))
+    if not by_name and not any(Path(word).resolve() == file.resolve() for word in words if word.endswith(file.name)):
         return
     for word in words:
         name, separator, _ = word.partition(":=")
         if separator and name not in known:
             hint = did_you_mean(name, known) or f"; known: {', '.join(known)}"
-            raise RuntimeError(f"{file} has no argument {name!r}{hint}")
+            raise RuntimeError(f"{file.name} has no argument {name!r}{hint}")
 
 
 def miss(event: ProcessExited, context: LaunchContext) -> None:
     """End the launch when a required process ends."""
     name = event.process_name.rpartition("-")[0]
-    if not context.is_shutdown and (event.returncode != 0 or name not in MAY_END):
+    if not context.is_shutdown and name not in WINDOWS and (event.returncode != 0 or name not in MAY_END):
         raise RuntimeError(f"{name} ended with exit code {event.returncode}; the launch requires it and ends")
 
 

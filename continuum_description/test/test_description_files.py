@@ -45,10 +45,11 @@ def test_planar_prototype_has_the_two_cables_of_the_dynamic_model() -> None:
 
 @pytest.fixture
 def desktop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Stand-ins for packages that no wheel has, whose programs show their parameter files and end."""
-    for package in ("robot_state_publisher", "joint_state_publisher_gui", "rviz2"):
+    """Stand-ins for the node of the frames and packages that no wheel has, which show their parameter files and end."""
+    programs = {name: name for name in ("joint_state_publisher_gui", "rviz2")}
+    for package, name in (programs | {"continuum_manipulator": "forward_kinematics"}).items():
         marker = tmp_path / "share" / "ament_index" / "resource_index" / "packages" / package
-        program = tmp_path / "lib" / package / package
+        program = tmp_path / "lib" / package / name
         for path in (marker, program):
             path.parent.mkdir(parents=True, exist_ok=True)
             path.touch(0o755)
@@ -74,9 +75,9 @@ def test_launch_file_describes_the_arm_it_is_given_where_paths_have_spaces(tmp_p
     arm.write_text(content)
     result = launch(f"arm:={arm}", "gui:=false", "rviz:=false")
     assert result.returncode == 1
-    assert "robot_state_publisher ended with exit code 0; the launch requires it" in result.stdout
+    assert "forward_kinematics ended with exit code 0; the launch requires it" in result.stdout
     assert result.stderr.count("warning: ") == len(result.stderr.splitlines()) == 2  # mass and inertia are left out
-    said = [line for line in result.stdout.splitlines() if line.startswith("[robot_state_publisher-1]")]
+    said = [line for line in result.stdout.splitlines() if line.startswith("[forward_kinematics-1]")]
     files = yaml.safe_load_all("\n".join(line.partition("] ")[2] for line in said))
     given = [entry["ros__parameters"] for file in files for entry in file.values()]
     (description,) = (one["robot_description"] for one in given if "robot_description" in one)
@@ -88,8 +89,10 @@ def test_launch_file_describes_the_arm_it_is_given_where_paths_have_spaces(tmp_p
 def test_launch_file_starts_sliders_and_rviz_with_its_configuration() -> None:
     lines = launch("--print").stdout.splitlines()
     assert [line.partition(":")[0] for line in lines] == [
-        "robot_state_publisher", "joint_state_publisher_gui", "rviz2",
+        "forward_kinematics", "joint_state_publisher_gui", "rviz2",
     ]  # fmt: skip
+    alone = launch("gui:=false", "frames:=false", "--print").stdout.splitlines()
+    assert [line.partition(":")[0] for line in alone] == ["rviz2"]
     (config,) = (word for word in lines[-1].split() if word.endswith(".rviz"))
     assert Path(config).is_file()
 

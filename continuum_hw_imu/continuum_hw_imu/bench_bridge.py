@@ -32,8 +32,7 @@ from continuum_manipulator.nodekit import tension_parameters
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.faults import MessageFault
 from continuum_manipulator.nodekit.planar_arm import PlanarArm
-from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
-from continuum_manipulator.nodekit.tension_commands import read_tensions
+from continuum_manipulator.nodekit.tension_commands import held_for, read_tensions
 from continuum_msgs.msg import CableStates
 
 COMMANDS = "cable_tension_cmd"
@@ -91,8 +90,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._to_come = self.values["autostart"] != AUTOSTARTS[0]
         self._autostart_at = 0.0
         self._waits_for = ""
-        self._reported_lost: set[int] = set()
-        self.listen(CableStates, COMMANDS, self._on_command)
+        self.listen(CableStates, COMMANDS, self._on_command, timed=True)
         rest_time = self.values["rest_time"]
         services: dict[str, Callable[[], str]] = {
             "zero": partial(self._calibrate, lambda watch: watch.find_zero(rest_time)),
@@ -215,7 +213,8 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
     def _autostart(self, now: float) -> None:
         """Advance to the state of ``autostart`` once; after that, the node never activates by itself again.
 
-        What is not there yet, a port or a calibration, is waited for; everything else is tried again now and then.
+        A port that is not there yet is waited for, and everything else is tried again now and then. Without a
+        calibration the node stays inactive: at its end hands are on the arm.
         """
         if not self._to_come or now < self._autostart_at:
             return
@@ -225,7 +224,11 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             self._commander.refused = missing or self._commander.refused
             go_on = self.trigger_configure
         elif state == State.PRIMARY_STATE_INACTIVE:
-            missing, go_on = self._uncalibrated(), self.trigger_activate
+            missing, go_on = "", self.trigger_activate
+            if uncalibrated := self._uncalibrated():
+                self._to_come = False
+                self.get_logger().info(f"stays inactive: {uncalibrated}; then activate the node")
+                return
         else:
             return
         if missing:
@@ -281,30 +284,28 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         return f"not calibrated: no {', no '.join(missing)}; call {calls}, or set the parameter allow_uncalibrated"
 
     def _tell_of_sensors(self) -> None:
-        """Log each loss and each return of a sensor in one line."""
+        """Log each loss, those of a burst together, and each return of a sensor in one line."""
         watch = self._streams.watch
         while watch is not None and watch.news:
             news = watch.news.popleft()
             if news.lost:
-                if self.diagnostics.warnings.note(
+                self.diagnostics.warnings.note(
                     f"imu {news.link} is lost", f"no data of {news.name} for {news.gap:.2f} s"
-                ):
-                    self._reported_lost.add(news.link)
-            elif news.link in self._reported_lost:
-                self._reported_lost.remove(news.link)
+                )
+            else:
                 self.get_logger().info(f"imu {news.link} is back: {news.name} was lost for {news.gap:.2f} s")
 
     def _on_command(self, message: CableStates) -> None:
         speakers = self.count_publishers(self.resolve_topic_name(COMMANDS))
         if speakers > 1:
             raise MessageFault("several commanders", f"{speakers} publishers; only one may command at a time")
-        now = self.get_clock().now().nanoseconds
-        wanted = read_tensions(message, self._planar.cables, self.arrival(), self.values["command_timeout"])
-        age = max(0, now - nanoseconds(message.header.stamp)) / NANOSECONDS
+        arrival, patience = self.arrival(), self.values["command_timeout"]
+        wanted = read_tensions(message, self._planar.cables, arrival, patience)
+        held = held_for(message, arrival, self.get_clock().now().nanoseconds, patience)
         blind = self._blind() if self._commander.gate.is_open else ""
         if blind:
             raise MessageFault("angles lost", blind)
-        if not self._commander.gate.command(wanted, time.monotonic() - age):
+        if not self._commander.gate.command(wanted, time.monotonic() - held):
             raise MessageFault("not active", "a tension command arrived; activate the node first")
         tension_parameters.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
 

@@ -22,7 +22,7 @@ from continuum_hw_imu.latency_meter import LatencyMeter
 from continuum_hw_imu.link.received import Received
 from continuum_hw_imu.protocol.device_time import MICROSECONDS
 from continuum_hw_imu.protocol.messages import Hello, ImuFrame, TensionFrame
-from continuum_hw_imu.sensor_watch import SensorWatch
+from continuum_hw_imu.sensor_watch import LOST, SensorWatch
 from continuum_manipulator.nodekit.planar_arm import PlanarArm
 from continuum_manipulator.nodekit.stamps import NANOSECONDS
 from continuum_manipulator.nodekit.two_clocks import read_together
@@ -41,12 +41,16 @@ RIGHT = np.radians(1.5)
 MOST_ACCELERATION = np.radians(13_000.0)
 """Largest angular acceleration of a joint of the prototype, pulled suddenly or let go [rad/s^2]."""
 
+LONGEST_ERROR = np.sqrt(2.0 * RIGHT / MOST_ACCELERATION)
+"""Error of a stamp beyond which nothing is published [s]: in it, an arm at rest reaches a wrong angle."""
+
 
 class BenchStreams:
     """Publishes joint and cable states and the sensors' raw data.
 
     Joint states are published only if the angles of all joints are right at their stamp, by the errors of estimate and
-    stamp. Stamps are ROS times, without the jitter of the transmission.
+    stamp, and nothing is while the error of the stamps is not known or large. Stamps are ROS times, without the jitter
+    of the transmission.
 
     Args:
         planar: the arm's names and messages.
@@ -63,7 +67,8 @@ class BenchStreams:
         problem: description of why the bench does not match.
         latency: latency from the last byte of a frame to its published joint states.
         doubt: why the angles of the latest sample are not known; empty if they are.
-        lost_for: time since the latest sample with known angles, by the device's clock [s].
+        lost_for: time from the latest sample with known angles to the latest frame of any kind, by the device's clock
+            [s].
         withheld: number of samples whose joint states were not published for that reason.
         age: age of the newest sample when its bytes arrived [s].
         oldest: largest such age since the last diagnostics [s].
@@ -84,7 +89,8 @@ class BenchStreams:
         self._planar, self._sensors, self._clock = planar, sensors, clock
         self._joints, self._cables, self._imus = joints, cables, imus
         self._conversation = 0
-        self._known_at: float | None = None  # device time [s]
+        self._known_at: float | None = None  # device time of the latest sample with known angles [s]
+        self._sampled_at: float | None = None  # device time of the latest sample [s]
         self.publishing = False
         self.steps = steps
         self.watch: SensorWatch | None = None
@@ -111,16 +117,20 @@ class BenchStreams:
                 self.age = received.read - received.time
                 self.oldest = max(self.oldest, self.age)
                 self._judge(watch, received)
+                self._note_lost(received)
                 if self.publishing:
                     stamp = self._stamp(received)
                     self._publish_joints(watch, received, stamp)
-                    self._publish_imus(sample, stamp)
+                    if received.error <= LONGEST_ERROR:
+                        self._publish_imus(sample, stamp)
             case TensionFrame() as frame if len(frame.set_points) == len(self._planar.cables):
+                self._note_lost(received)
                 self.tension = frame
-                if self.publishing:
+                if self.publishing and received.error <= LONGEST_ERROR:
                     self._publish_cables(watch, received, frame)
-            case ImuFrame() | TensionFrame():
-                self.unfit += 1
+            case message:
+                self._note_lost(received)
+                self.unfit += isinstance(message, ImuFrame | TensionFrame)
 
     def forget(self) -> None:
         """Forget the bench after the line was closed."""
@@ -135,15 +145,24 @@ class BenchStreams:
         """Start over with another bench, or with the same one after its restart."""
         self.problem = mismatch(hello, len(self._sensors), len(self._planar.cables))
         self.watch = None if self.problem else SensorWatch(hello, self.steps)
-        self.tension, self._known_at = None, None
+        self.tension, self._known_at, self._sampled_at = None, None, None
 
     def _judge(self, watch: SensorWatch, received: Received) -> None:
-        """Note whether the angles of the latest sample are known, and since when they are not."""
-        now = received.device_time / MICROSECONDS
-        self.doubt = _doubt(watch.estimate, now, received.error if self.publishing else 0.0)
-        if self._known_at is None or not self.doubt:
-            self._known_at = now
-        self.lost_for = now - self._known_at
+        """Note whether the angles of a sample are known."""
+        self._sampled_at = received.device_time / MICROSECONDS
+        self.doubt = _doubt(watch.estimate, self._sampled_at, received.error if self.publishing else 0.0)
+        if not self.doubt:
+            self._known_at = self._sampled_at
+
+    def _note_lost(self, received: Received) -> None:
+        """Note for how long no angles are known at a frame of any kind: frames of the sensors may fail to come."""
+        now, known_at = received.device_time / MICROSECONDS, self._known_at  # another thread may forget it
+        if known_at is None:
+            known_at = self._known_at = now
+        self.lost_for = max(0.0, now - known_at)
+        self._sampled_at = now if self._sampled_at is None else self._sampled_at
+        if now - self._sampled_at > LOST:
+            self.doubt = "no frames of the sensors"
 
     def _stamp(self, received: Received) -> TimeMessage:
         """Return the ROS time of a received message."""

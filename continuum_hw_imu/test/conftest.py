@@ -29,7 +29,9 @@ def benches(domain, tmp_path_factory):
 def bench(benches, failed):
     """An emulated bench without faults, at whose port nobody is."""
     yield (bench := benches.get())
+    crashed = not failed() and not bench.process.running
     if failed() or not bench.process.running:
         benches.replace()
     else:
         bench.tell("clear")
+    assert not crashed, f"the emulator ended: {bench.process.stderr}"

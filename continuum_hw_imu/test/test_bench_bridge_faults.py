@@ -22,6 +22,7 @@ from test_bench_bridge_node import ROW, angles_and_truth
 
 from continuum_hw_imu.bench_bridge import AUTOSTART_PERIOD
 from continuum_hw_imu.protocol.messages import GuardState, ReceiverLimits
+from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
 
 pytestmark = pytest.mark.ros
 
@@ -173,14 +174,35 @@ def test_a_bad_line_is_reported_and_survived(pulling, order):
     assert pulling.bench.status["largest_set_point"] < 8.01  # what is pulled here
 
 
+def test_a_line_without_a_whole_frame_is_silent_and_no_tension_comes_back_by_itself(pulling):
+    """Bytes come all the time, and the bench hears the bridge."""
+    bench, probe = pulling.bench, pulling.probe
+    bench.tell("damage share=1 for=1000")
+    pulling.command_until([8.0, 0.0], lambda: pulling.state == "inactive")
+    pulling.node.wait_for_line("fell back to inactive, cables slack: the bench is silent for")
+    probe.wait_until(lambda: int(pulling.diagnostic("link").get("times opened", 0)) > 1, "the port, opened again")
+    bench.tell("clear")
+    probe.wait_until(lambda: pulling.diagnostic("link")["level"] in ("OK", "WARN"), lambda: pulling.diagnostic("link"))
+    go_on(pulling, 0.5)
+    assert pulling.state == "inactive"
+    assert not any(bench.status["set_points"])
+    pull(pulling)
+
+
 def test_late_frames_have_the_stamps_of_their_measurement(pulling):
+    """All of them: the frames before tell the clock, and until its error grows too large there are joint states."""
     pulling.joints.clear()
     pulling.bench.tell("late by=0.2 for=1000")
+    begin = pulling.bench.status["monotonic"]
     pulling.command_until([8.0, 0.0], lambda: "ms late" in pulling.diagnostic("clock")["message"])
     go_on(pulling, 0.5)
+    end = pulling.bench.status["monotonic"]
     pulling.bench.tell("clear")
     pull(pulling)
     pulling.wait_for_joints(60)
+    late = sum(begin < pulling.monotonic(message) < end for message in pulling.joints)
+    if late < 10:
+        pytest.skip(f"{late} joint states of late frames: this machine is too busy to say anything by them")
     assert_no_wrong_angle(pulling, pulling.joints)
 
 
@@ -197,8 +219,9 @@ def test_a_bridge_without_a_processor_publishes_no_wrong_angle(bridge_here):
             bridge.let_hand_move("hand bend=60 over=0.3 hold=1", 1.5)
             if moves() > 60:
                 break
-        if bridge.joints:
-            assert_no_wrong_angle(bridge, bridge.joints)
+        if moves() <= 60:
+            pytest.skip(f"{moves()} joint states of a moving arm: this machine is too busy to say anything by them")
+        assert_no_wrong_angle(bridge, bridge.joints)
 
 
 def test_a_lost_sensor_is_reported_once_and_the_cables_are_let_go(pulling, record_property):
@@ -206,10 +229,16 @@ def test_a_lost_sensor_is_reported_once_and_the_cables_are_let_go(pulling, recor
     bench.tell("drop sensor=3 for=1000")
     lost = bench.status["monotonic"]
     pulling.command_until([8.0, 0.0], lambda: pulling.state == "inactive")
-    node.wait_for_line("fell back to inactive, cables slack: the angles are lost since 1.0")
-    assert "s: sensor 3 is missing" in node.stderr
+    node.wait_for_line("fell back to inactive, cables slack: the angles are lost since ")
+    assert re.search(
+        r"the angles are lost since \d+\.\d\d s: (sensor 3 is missing|no frames of the sensors)", node.stderr
+    )
     begins = release_begins(bench)
-    assert begins >= lost + 0.9  # 1 s by the bench's clock; the order came a moment before
+    if (
+        pulling.joints
+    ):  # 1 s after the last angles that were known; on a busy machine these may be from before the order
+        known = pulling.monotonic_of(nanoseconds(pulling.joints[-1].header.stamp) / NANOSECONDS)
+        assert begins >= known + 0.9
     pulling.probe.wait_until(lambda: not np.any(bench.truth()["set_point"][-1]), "slack")
     assert slack_time_after(bench, begins) <= LIMITS.slack_time + 2 * ROW
     dropped = "dropped: angles lost"
@@ -218,16 +247,35 @@ def test_a_lost_sensor_is_reported_once_and_the_cables_are_let_go(pulling, recor
     assert not any(bench.status["set_points"])
     bench.tell("clear")
     node.wait_for_line("imu 3 is back: DOT-3 was lost for ")
+    for returns in (2, 3):  # within a burst of losses, too
+        bench.tell("drop sensor=3 for=0.3")
+        pulling.probe.wait_until(lambda n=returns: node.stderr.count("imu 3 is back") == n, lambda: node.stderr)
     pulling.wait_for_joints()
     pull(pulling)
     assert_no_wrong_angle(pulling, pulling.joints)
-    (line,) = [line for line in node.stderr.splitlines() if "imu 3 is lost" in line]
-    (_,) = [line for line in node.stderr.splitlines() if "imu 3 is back" in line]
+    line = next(line for line in node.stderr.splitlines() if "imu 3 is lost" in line)
     assert "no data of DOT-3 for 0.1" in line
     said = pulling.monotonic_of(float(re.search(r"\[(\d+\.\d+)\]", line)[1]))
     record_property("from loss to line [s]", round(said - lost, 3))
     record_property("from loss to release [s]", round(begins - lost, 3))
     print(f"from loss to line {said - lost:.3f} s, to release {begins - lost:.3f} s")
+
+
+def test_cables_are_let_go_when_no_frames_of_the_sensors_come(pulling):
+    """While the bench reports its state and its tensions."""
+    bench, node = pulling.bench, pulling.node
+    bench.tell("mute for=1000")
+    pulling.command_until([8.0, 0.0], lambda: pulling.state == "inactive")
+    node.wait_for_line("fell back to inactive, cables slack: the angles are lost since ")
+    assert re.search(r"the angles are lost since \d+\.\d\d s: no frames of the sensors", node.stderr)
+    pulling.wait_for_level("angles", "ERROR", "no frames of the sensors")
+    pulling.activate()
+    refused = pulling.probe.count(pulling.name, "dropped: angles lost")
+    pulling.command_until([8.0, 0.0], lambda: pulling.probe.count(pulling.name, "dropped: angles lost") > refused + 3)
+    assert not any(bench.status["set_points"])
+    bench.tell("clear")
+    pulling.wait_for_joints()
+    pull(pulling)
 
 
 def test_the_start_of_an_emulated_bench_has_no_warnings(domain, latency_probe, calibration, tmp_path):
@@ -238,7 +286,7 @@ def test_the_start_of_an_emulated_bench_has_no_warnings(domain, latency_probe, c
     with ended_in_any_case(early), emulated_bench(domain, tmp_path):
         early.wait_for_line(f"waiting: {port} does not exist")
         early.wait_for_line("bench_emulator 0.1.0 at")
-        early.wait_for_line("waiting: not calibrated: no bias; call ~/calibrate_bias (at rest)")
+        early.wait_for_line("stays inactive: not calibrated: no bias; call ~/calibrate_bias (at rest)")
         assert early.stop() == 0
         assert all(line.startswith("[INFO]") for line in early.stderr.splitlines()), early.stderr
 
@@ -272,10 +320,15 @@ def test_what_was_stopped_becomes_active_by_a_persons_word_alone(bridge_here, pr
 
 
 def test_the_bias_of_a_file_is_of_another_day(bridge_here):
-    with bridge_here(keep_bias=False, autostart="configure") as bridge:
+    """With hands still on the arm, the end of the calibration does not activate the node, whatever `autostart`."""
+    with bridge_here(keep_bias=False) as bridge:
         bridge.wait_for_level("angles", "ERROR", "not calibrated: no bias")
         assert not bridge.change("activate")
         bridge.wait_for_success("calibrate_bias")
+        go_on(bridge, 3 * AUTOSTART_PERIOD)
+        assert bridge.state == "inactive"
+        (line,) = [line for line in bridge.node.stderr.splitlines() if "stays inactive: not calibrated" in line]
+        assert line.endswith("; then activate the node")
         bridge.wait_for_joints()
         assert_no_wrong_angle(bridge, bridge.joints)
         assert bridge.node.stop() == 0

@@ -140,6 +140,8 @@ def test_angles_of_a_release_are_the_true_ones(active):
     """Criterion 1 of the bench in small: 0.5 degrees RMS in motion, 0.3 at rest."""
     active.joints.clear()
     active.let_hand_move("hand bend=90 over=1 hold=0.5", 3.5)
+    if len(active.joints) < 0.8 * 60 * 3.5:
+        pytest.skip(f"{len(active.joints)} joint states in 3.5 s: the machine is too busy to know their times")
     measured, real = angles_and_truth(active, active.joints)
     assert np.degrees(real.sum(axis=1)).max() > 85
     assert rms_degrees(measured - real) < 0.5

@@ -119,6 +119,15 @@ def test_a_device_that_begins_again_is_another_conversation(bench):
     assert bench.received[-1].conversation == number + 1
 
 
+def test_a_port_that_is_not_read_excuses_a_silence_for_as_long_as_a_bench_pulls_on(bench):
+    bench.link.emptied = last = bench.now
+    bench.say(bench.controller.status())
+    assert bench.client.silent_for(last + 1.9) == 0.0
+    assert bench.client.silent_for(last + 2.1) == pytest.approx(2.1)
+    bench.link.emptied = last + 1.0
+    assert bench.client.silent_for(last + 1.9) == pytest.approx(1.0)
+
+
 def test_times_of_the_device_become_the_hosts(bench):
     for _ in range(10):
         bench.now += 0.1

@@ -167,22 +167,31 @@ def test_angles_whose_time_is_not_known_are_withheld():
     assert not published.joints
     assert published.status("angles").level == DiagnosticStatus.ERROR
     assert "the time of the sample is not known" in published.status("angles").message
-    assert [len(imu) for imu in published.imus] == [60] * N
+    published.bench.say(TensionFrame((1.0, 0.0), (1.02, 0.0)))
+    assert not any((published.cables, *published.imus))
     published.measure(1)
-    assert len(published.joints) == 1
+    published.bench.say(TensionFrame((1.0, 0.0), (1.02, 0.0)))
+    assert len(published.joints) == len(published.cables) == 1
+    assert [len(imu) for imu in published.imus] == [1] * N
 
 
 @pytest.mark.parametrize(("late", "speed", "known"), [(0.008, 0.1, True), (0.008, 3.5, False), (0.02, 0.0, False)])
 def test_angles_are_withheld_where_the_error_of_their_time_makes_them_wrong(late, speed, known):
-    """Here link 1 turns so fast [rad/s], and all frames come later than they could by so much [s]."""
+    """Here link 1 turns so fast [rad/s], and all frames come later than they could by so much [s].
+
+    Raw data and cable states are withheld where even the angles of an arm at rest are.
+    """
     published = Published()
     published.measure(60, answers=False)
     bench = published.bench
     bench.client._now = lambda: bench.now - late  # of each request, which the bench answers when it hears it
     published.measure(1)
-    published.joints.clear()
+    for seen in (published.joints, *published.imus):
+        seen.clear()
     published.measure(3, link_rates=[speed] * N)
+    bench.say(TensionFrame((1.0, 0.0), (1.02, 0.0)))
     assert bool(published.joints) is known
+    assert bool(published.cables) is bool(published.imus[0]) is (late < 0.015)
 
 
 def test_nothing_is_published_while_the_node_is_not_active():
@@ -209,6 +218,27 @@ def test_the_time_of_lost_angles_is_counted_by_the_clock_of_the_bench():
     assert published.streams.lost_for == 0.0
 
 
+@pytest.mark.parametrize("unfit", [False, True])
+def test_angles_are_lost_when_no_frames_of_the_sensors_come(unfit):
+    """But others do: the task of the sensors hangs, or it reports another number of them."""
+    published = Published()
+    published.measure(60)
+    bench, streams = published.bench, published.streams
+    for _ in range(10):
+        bench.pass_time(0.1)
+        bench.say(bench.controller.status())
+        if unfit:
+            bench.say(ImuFrame.of(6, np.zeros((3, 3)), UP[:3], np.full(3, PRESENT)))
+    assert streams.lost_for == pytest.approx(1.0, abs=1e-3)
+    assert published.status("angles").level == DiagnosticStatus.ERROR
+    assert "no frames of the sensors" in published.status("angles").message
+    bench.say(TensionFrame((1.0, 0.0), (1.02, -0.03)))
+    assert not published.cables[-1].position
+    published.measure(120)
+    assert streams.lost_for == 0.0
+    assert not streams.doubt
+
+
 def test_what_is_clipped_has_the_covariance_of_anything_in_range():
     published = Published()
     flags = np.full(N, PRESENT)
@@ -232,6 +262,7 @@ def test_without_calibration_there_are_raw_data_and_no_joint_states():
 
 def test_measured_tensions_are_reported_with_lengths_that_are_known():
     published = Published()
+    published.bench.client.beat()  # from the answer, the error of stamps is known
     published.bench.say(TensionFrame((1.0, 0.0), (1.02, -0.03)))
     assert published.cables[-1].effort.tolist() == [1.02, 0.0]  # a cable never pushes
     assert not published.cables[-1].position

@@ -77,6 +77,26 @@ def test_waiting_for_bytes_differs_from_waiting_for_the_processor(port, tmp_path
         wait_until(lambda: line.link.emptied > line.times[-1] + 2 * CHECK, "that nothing more comes")
 
 
+def test_a_line_that_never_pauses_is_emptied_between_its_bytes(port, tmp_path):
+    """As a bad one, whose bytes are no frames: the bench is silent."""
+    times, emptied = [], []
+
+    def take(data: bytes, now: float) -> None:
+        times.append(now)
+        emptied.append(link.emptied)
+        port.write(data)
+
+    link = SerialLink(str(tmp_path / "port"), 921_600, take)
+    link.start()
+    try:
+        wait_until(lambda: link.is_open, "the port")
+        port.write(b"x")
+        wait_until(lambda: len(emptied) > 20, "bytes")
+    finally:
+        link.close()
+    assert all(empty >= now for empty, now in zip(emptied[1:], times, strict=False))
+
+
 def test_a_port_that_comes_later_or_back_is_opened(tmp_path):
     with line_at(tmp_path / "port") as line:
         wait_until(lambda: "does not exist" in line.link.problem, "a word about the missing port")

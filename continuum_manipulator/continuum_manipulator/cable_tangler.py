@@ -37,6 +37,9 @@ LOSSES = {
 }
 """Cause and detail that are reported for states that do not enter a sum."""
 
+WAITING_PERIOD = 2.0
+"""Time by the machine's clock for which an instant waits before the missing sections are reported [s]."""
+
 
 class CableTanglerNode(CheckedNode):
     """Adds ``section_cable_states`` to ``cable_states``; converts ``cable_commands`` to ``section_cable_commands``.
@@ -62,6 +65,9 @@ class CableTanglerNode(CheckedNode):
         self.listen(CableStates, "cable_commands", self._on_commands)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._patience_timer = self.create_timer(PATIENCE, self._report_missing, clock=steady)
+        self._waited_for: tuple[int, frozenset[int]] | None = None
+        self._reported = self._waited_for
+        self._waiting_timer = self.create_timer(WAITING_PERIOD, self._report_waiting, clock=steady)
 
     def _report_missing(self) -> None:
         """Report missing sections once, so that a launch file for another arm is noticed before poses arrive."""
@@ -70,6 +76,15 @@ class CableTanglerNode(CheckedNode):
         if speakers < wanted and len(self._received) < wanted:
             detail = f"the arm has {wanted} sections, publishers on {self._sections.topic_name}: {speakers}"
             self.diagnostics.warnings.note("sections without a node", detail)
+
+    def _report_waiting(self) -> None:
+        """Report the sections that an instant still misses after `WAITING_PERIOD`: a dead node, or a busy machine."""
+        before, self._waited_for = self._waited_for, self._instants.first_waiting
+        if self._waited_for is None or before != self._waited_for or self._reported == self._waited_for:
+            return
+        stamp, numbers = self._reported = self._waited_for
+        detail = f"at {seconds(stamp)}: no state of {_listed(numbers)} yet; {self._instants.waiting} instants wait"
+        self.diagnostics.warnings.note("section states missing", detail)
 
     def _on_section(self, message: CableStates) -> None:
         number = checked_section(message.section, self.arm)
@@ -87,8 +102,7 @@ class CableTanglerNode(CheckedNode):
 
     def _report_loss(self, loss: Loss, stamp: int, numbers: frozenset[int]) -> None:
         cause, detail = LOSSES[loss]
-        sections = ", ".join(f"section {number}" for number in sorted(numbers))
-        self.diagnostics.warnings.note(cause, f"at {seconds(stamp)}: {detail.format(sections=sections)}")
+        self.diagnostics.warnings.note(cause, f"at {seconds(stamp)}: {detail.format(sections=_listed(numbers))}")
 
     def _tangle(self, instant: dict[int, CableStates]) -> None:
         total = CableStates(section=CableStates.WHOLE_ARM, name=self._names)
@@ -130,3 +144,7 @@ class CableTanglerNode(CheckedNode):
             if w_rate is not None:
                 command.velocity = section_length_rates(w[i], w_rate[i], self.arm, i)[:n_actuating]
             self._publish_commands(command)
+
+
+def _listed(numbers: frozenset[int]) -> str:
+    return ", ".join(f"section {number}" for number in sorted(numbers))

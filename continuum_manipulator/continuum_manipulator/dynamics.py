@@ -22,8 +22,8 @@ from continuum_manipulator.load_meter import LoadMeter, Mark
 from continuum_manipulator.nodekit import tension_parameters
 from continuum_manipulator.nodekit.checked_node import CheckedNode
 from continuum_manipulator.nodekit.planar_arm import SECTION, PlanarArm
-from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
-from continuum_manipulator.nodekit.tension_commands import read_tensions
+from continuum_manipulator.nodekit.stamps import NANOSECONDS
+from continuum_manipulator.nodekit.tension_commands import held_for, read_tensions
 from continuum_manipulator.pace import Pace
 from continuum_manipulator.postures import checked_posture, initial_posture
 from continuum_msgs.msg import CableStates
@@ -43,7 +43,8 @@ class DynamicsNode(CheckedNode):
     """Converts ``cable_tension_cmd`` to ``joint_states`` and ``cable_states`` by integrating a model.
 
     Simulated time is ROS time and has no gaps: on a slow machine the simulation lags behind, warns and catches up.
-    A command is stale if it is old on arrival, not if it is handled late; it times out by its stamp in simulated time.
+    A command is stale if it is old on arrival, not if it is handled late; it times out by its stamp in simulated time,
+    and one that has timed out before it is handled is dropped.
     Commands are clipped to ``max_tension``; invalid ones are dropped, and the previous one remains in force. Without a
     valid command for ``command_timeout``, tension falls linearly to zero within ``slack_time``. The service
     ``~/release`` drops all tension at once, and ``~/reset`` sets a posture; later commands pull again.
@@ -86,7 +87,7 @@ class DynamicsNode(CheckedNode):
         }
         self._publish_joints = self.offer(JointState, "joint_states")
         self._publish_cables = self.offer(CableStates, "cable_states")
-        self.listen(CableStates, "cable_tension_cmd", self._on_command)
+        self.listen(CableStates, "cable_tension_cmd", self._on_command, timed=True)
         self.create_service(Trigger, "~/release", self._release)
         self.create_service(ResetArm, "~/reset", self._reset)
         steady = Clock(clock_type=ClockType.STEADY_TIME)  # ROS time may jump forwards or backwards
@@ -170,8 +171,10 @@ class DynamicsNode(CheckedNode):
         wanted = read_tensions(message, self._planar.cables, arrival, self.values["command_timeout"])
         if self._pace is None:
             return  # within the first period
+        now = self._pace.last
+        held = held_for(message, arrival, now, self.values["command_timeout"])
         tension_parameters.report_limited(self.diagnostics, self._planar.cables, wanted, self._limits.max_tension)
-        self._tensions.command(wanted, self._pace.seconds(min(arrival, nanoseconds(message.header.stamp))))
+        self._tensions.command(wanted, self._pace.seconds(now) - held)
 
     def _release(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._tensions.release()

@@ -52,9 +52,10 @@ class ForwardKinematicsNode(CheckedNode):
         ParameterSpec(
             "publish_tf", bool, "publish description and frames; false where robot_state_publisher does", default=True
         ),
+        ParameterSpec("publish_tip", bool, "publish pose and twist of the tip", default=True),
         ParameterSpec(
             "publish_frequency", float, "most transforms of a joint per second", "Hz", 0.0, 1e4, lower_open=True,
-            default=30.0,
+            default=20.0,
         ),
         ParameterSpec("frame_prefix", str, "prefix of the name of every frame on /tf", default=""),
     )  # fmt: skip
@@ -69,9 +70,10 @@ class ForwardKinematicsNode(CheckedNode):
             "instants given up with a section missing": lambda: self._instants.incomplete + self._instants.late,
         }
         self._interval = (1.0 - SLACK) * NANOSECONDS / self.values["publish_frequency"]
-        self._shown: dict[tuple[int, ...], int] = {}
-        self._publish_pose = self.offer(PoseStamped, "tip_pose")
-        self._publish_twist = self.offer(TwistStamped, "tip_twist")
+        self._shown: dict[tuple[str, ...], int] = {}
+        if self.values["publish_tip"]:
+            self._publish_pose = self.offer(PoseStamped, "tip_pose")
+            self._publish_twist = self.offer(TwistStamped, "tip_twist")
         self._links = LinkTransforms(self.values["robot_description"], self.values["frame_prefix"])
         if self.values["publish_tf"]:
             self._publish_frames = self.offer(TFMessage, "/tf", TRANSFORMS)
@@ -85,6 +87,10 @@ class ForwardKinematicsNode(CheckedNode):
 
     def _on_joints(self, message: JointState) -> None:
         messages.stamped(message.header.stamp)
+        stamp = nanoseconds(message.header.stamp)
+        is_due = self.values["publish_tf"] and self._is_due(tuple(message.name), stamp)
+        if not is_due and not self.values["publish_tip"]:
+            return
         index, found = read_names(message), dict[int, _Joints]()
         for i, section in enumerate(self.arm.sections):
             bends = read_bends(index, message.position, section)
@@ -95,21 +101,22 @@ class ForwardKinematicsNode(CheckedNode):
                 found[i] = _Joints(bends, rates)
         if not found:
             raise messages.nothing_known("joint", message.name, arm_joint_names(self.arm))
-        stamp = nanoseconds(message.header.stamp)
-        if self.values["publish_tf"] and self._is_due(tuple(found), stamp):
+        if is_due:
             angles = {name: message.position[i] for name, i in index.items() if math.isfinite(message.position[i])}
             self._publish_frames(self._links.moved(angles, message.header.stamp))
+        if not self.values["publish_tip"]:
+            return
         for i, joints in found.items():
             instant = self._instants.add(i, stamp, joints)
             if instant is not None and (self._publish_pose.subscribers or self._publish_twist.subscribers):
                 self._answer([instant[k] for k in range(self.arm.n_sections)], message)
 
-    def _is_due(self, sections: tuple[int, ...], stamp: int) -> bool:
-        """Return whether the frames of these sections are to be published at a stamp [ns], which may also go back."""
-        last = self._shown.get(sections)
+    def _is_due(self, joints: tuple[str, ...], stamp: int) -> bool:
+        """Return whether the frames of these joints are to be published at a stamp [ns], which may also go back."""
+        last = self._shown.get(joints)
         if last is not None and 0 <= stamp - last < self._interval:
             return False
-        self._shown[sections] = stamp
+        self._shown[joints] = stamp
         return True
 
     def _answer(self, sections: list[_Joints], message: JointState) -> None:

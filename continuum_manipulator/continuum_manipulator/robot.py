@@ -25,9 +25,6 @@ from continuum_msgs.msg import IkStatus as IkStatusMessage
 TWIST_PATIENCE = 0.5
 """Time by the machine's clock for which a pose waits for its twist [s]."""
 
-CAPACITY = 1000
-"""Most poses and twists that may wait for their partner."""
-
 WORDS = {
     IkStatus.LIMIT_REACHED: "a bend limit keeps the arm from the pose",
     IkStatus.UNREACHABLE: "pose out of reach",
@@ -75,7 +72,7 @@ class RobotNode(CheckedNode):
         self._joints = list(arm_joint_names(self.arm))
         self._max_gap = round(self.values["max_twist_gap"] * NANOSECONDS)
         self._last: int | None = None
-        self._pairs: StampJoiner[str, TipPose | TipTwist] = StampJoiner(("pose", "twist"), CAPACITY)
+        self._pairs: StampJoiner[str, TipPose | TipTwist] = StampJoiner(("pose", "twist"))
         self._waiting: deque[tuple[float, TipPose]] = deque()
         self.diagnostics.values |= {
             "poses and twists given up without their partner": lambda: self._pairs.incomplete + self._pairs.late,

@@ -95,6 +95,14 @@ def test_lost_and_late_partners(bench):
     bench.node.wait_for_line("instants given up with a section missing: at 120.020000000 s: no state of section 1")
 
 
+def test_a_section_that_is_silent_is_named_and_nothing_is_given_up(bench):
+    base = 2200
+    bench.totals_after([part(-1, section, base) for section in (1, 2, 3)])  # what others left waiting is given up
+    bench.totals_after([part(i, section, base) for i in range(400) for section in (1, 3)])
+    bench.node.wait_for_line("section states missing: at 122.000000000 s: no state of section 2 yet; 400 instants wait")
+    check_totals(bench.totals_after([part(i, 2, base) for i in range(400)]), list(range(400)), base)
+
+
 def test_an_instant_sent_again_is_warned_of(bench):
     """As by one who publishes by hand, always with the same stamp."""
     base = 2500

@@ -50,7 +50,7 @@ def test_quality_of_service_from_parameters_and_lost_messages(node):
 
 def test_a_message_that_waits_in_the_node_has_the_time_of_its_arrival(node):
     arrivals: list[int] = []
-    node.listen(String, "waits", lambda _: arrivals.append(node.arrival()))
+    node.listen(String, "waits", lambda _: arrivals.append(node.arrival()), timed=True)
     publisher = node.create_publisher(String, "waits", STREAM)
     executor = EventsExecutor()
     executor.add_node(node)

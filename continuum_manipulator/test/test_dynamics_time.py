@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from sensor_msgs.msg import JointState
 from continuum.dynamics.model_file import load_model, save_model
 from continuum_manipulator.dynamics import DynamicsNode
 from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds
+from continuum_manipulator.nodekit.tension_commands import LATE, STALE
 from continuum_msgs.msg import CableStates
 from continuum_msgs.srv import ResetArm
 
@@ -55,6 +57,21 @@ class SimulatedTime:
 
 def dynamics(domain: int, **parameters) -> NodeProcess:
     return NodeProcess("continuum_manipulator", "dynamics", domain, parameters={"integrator": "esdirk", **parameters})
+
+
+@contextmanager
+def dynamics_here(domain: int, **parameters):
+    """The node in this process, and its executor."""
+    words = [word for name, value in parameters.items() for word in ("-p", f"{name}:={value}")]
+    rclpy.init(args=["--ros-args", "-p", "integrator:=esdirk", *words], domain_id=domain)
+    node, executor = DynamicsNode(), EventsExecutor()
+    executor.add_node(node)
+    try:
+        yield node, executor
+    finally:
+        executor.remove_node(node)
+        node.destroy_node()
+        rclpy.shutdown()
 
 
 def stamps(messages) -> np.ndarray:
@@ -120,16 +137,11 @@ def test_who_asks_is_answered_while_the_simulation_is_behind(domain, probe):
 def test_a_late_node_does_not_blame_the_sender_and_pulls_no_longer_than_the_command_holds(domain, probe):
     """A command waits in the node for longer than it holds."""
     holds, cables = 0.1, probe.hear(CableStates, "cable_states")
-    parameters = {"command_timeout": holds, "slack_time": holds, "integrator": "esdirk"}
-    rclpy.init(args=["--ros-args", *(word for item in parameters.items() for word in ("-p", "{}:={}".format(*item)))],
-               domain_id=domain)  # fmt: skip
-    node, executor = DynamicsNode(), EventsExecutor()
-    executor.add_node(node)
+    with dynamics_here(domain, command_timeout=holds, slack_time=holds) as (node, executor):
 
-    def spin_until(condition: Callable[[], object]) -> None:
-        probe.wait_until(lambda: (executor.spin_once(timeout_sec=0.01), condition())[1], "states of the node")
+        def spin_until(condition: Callable[[], object]) -> None:
+            probe.wait_until(lambda: (executor.spin_once(timeout_sec=0.01), condition())[1], "states of the node")
 
-    try:
         publisher = probe.speaker(CableStates, "cable_tension_cmd")
         spin_until(lambda: cables)
         command = CableStates(name=["section_1_cable_1", "section_1_cable_2"], effort=[10.0, 0.0])
@@ -139,13 +151,34 @@ def test_a_late_node_does_not_blame_the_sender_and_pulls_no_longer_than_the_comm
         given = nanoseconds(command.header.stamp)
         wait_until(lambda: time.time_ns() > given + 3 * holds * NANOSECONDS, "work of the node's elsewhere")
         spin_until(lambda: stamps(cables)[-1] > given + 4 * holds * NANOSECONDS)
-        assert node.diagnostics.faults.counts == {}
+        assert STALE not in node.diagnostics.faults.counts
         pulling = stamps(cables)[[any(one.effort) for one in cables]]
         assert given < pulling.max() <= given + 2 * holds * NANOSECONDS + 2 * PERIOD
-    finally:
-        executor.remove_node(node)
-        node.destroy_node()
-        rclpy.shutdown()
+
+
+def test_a_command_that_timed_out_in_the_node_does_not_begin_another_release(domain, probe):
+    """Each of them would make what is left of the tension last for another slack time."""
+    holds, cables = 0.1, probe.hear(CableStates, "cable_states")
+    with dynamics_here(domain, command_timeout=holds, slack_time=holds) as (node, executor):
+
+        def spin_until(condition: Callable[[], object]) -> None:
+            probe.wait_until(lambda: (executor.spin_once(timeout_sec=0.01), condition())[1], "states of the node")
+
+        def handle() -> bool:
+            node._received_at = given  # the time at which it arrived
+            node.checked("cable_tension_cmd", node._on_command)(command)
+            return True
+
+        spin_until(lambda: cables)
+        command = CableStates(name=["section_1_cable_1", "section_1_cable_2"], effort=[10.0, 0.0])
+        command.header.stamp = probe.node.get_clock().now().to_msg()
+        given = nanoseconds(command.header.stamp)
+        handle()
+        spin_until(lambda: stamps(cables)[-1] > given + holds * NANOSECONDS + 3 * PERIOD)
+        spin_until(lambda: handle() and stamps(cables)[-1] > given + 4 * holds * NANOSECONDS)
+        assert node.diagnostics.faults.counts.keys() == {LATE}
+        pulling = stamps(cables)[[any(one.effort) for one in cables]]
+        assert given + holds * NANOSECONDS < pulling.max() <= given + 2 * holds * NANOSECONDS + 2 * PERIOD
 
 
 def test_a_model_file_of_another_arm_is_simulated(domain, probe, tmp_path):

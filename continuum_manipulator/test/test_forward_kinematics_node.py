@@ -121,7 +121,10 @@ def test_frames_of_discs_are_on_tf_and_the_description_is_there_for_who_comes_la
 
 def test_frames_may_have_a_prefix_and_a_frequency_or_stay_out(probe, domain):
     """As with a second arm, or where robot_state_publisher runs."""
-    parameters = {"second": {"frame_prefix": "second/", "publish_frequency": 20.0}, "quiet": {"publish_tf": "false"}}
+    parameters = {
+        "second": {"frame_prefix": "second/", "publish_frequency": 20.0, "publish_tip": False},
+        "quiet": {"publish_tf": "false"},
+    }
     topics = ("tf", "tf_static", "robot_description", "tip_pose", "tip_twist")
     remaps = {name: [word for topic in topics for word in ("-r", f"/{topic}:=/{name}/{topic}")] for name in parameters}
     nodes = [
@@ -147,6 +150,7 @@ def test_frames_may_have_a_prefix_and_a_frequency_or_stay_out(probe, domain):
         np.testing.assert_allclose(found, np.concatenate(arm_disc_poses(bends, ARM)), atol=1e-12)
         said = dict(probe.node.get_topic_names_and_types())
         assert said.keys().isdisjoint({"/quiet/tf", "/quiet/tf_static", "/quiet/robot_description"})
+        assert said.keys().isdisjoint({"/second/tip_pose", "/second/tip_twist"})
 
 
 def test_bad_joints_are_dropped_and_counted_and_the_node_lives(probe):

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from continuum_manipulator.nodekit.faults import MessageFault
-from continuum_manipulator.nodekit.tension_commands import read_tensions
+from continuum_manipulator.nodekit.tension_commands import held_for, read_tensions
 from continuum_msgs.msg import CableStates
 
 CABLES = ("left", "right")
@@ -76,3 +76,17 @@ def test_what_is_read_is_safe(names, effort, age):
 def test_good_commands_of_the_last_moment_pass():
     for age in (-0.4, 0.0, 0.49):
         read_tensions(command(age=age), CABLES, NOW, 0.5)
+
+
+@pytest.mark.parametrize("age", [0.0, 0.3, -0.3])
+def test_a_command_holds_from_its_stamp_but_never_from_after_its_arrival(age):
+    """Handled 0.1 s after it arrived."""
+    late = NOW + 10**8
+    assert held_for(command(age=age), NOW, late, 0.5) == pytest.approx(max(age, 0.0) + 0.1)
+
+
+def test_a_command_that_timed_out_in_the_node_is_dropped_and_the_sender_not_blamed():
+    timed_out = NOW + 4 * 10**8
+    read_tensions(command(age=0.2), CABLES, NOW, 0.5)
+    with pytest.raises(MessageFault, match=r"^handled too late: this node came to it when it was 0.600 s old"):
+        held_for(command(age=0.2), NOW, timed_out, 0.5)

@@ -56,6 +56,7 @@ def generate_launch_description() -> LaunchDescription:
             "solver", "newton", "inverse kinematics: Gauss-Newton with restarts, or the thesis's FABRIKc",
             ["newton", "fabrikc"],
         ),
+        switch("tip", "false", "pose and twist of the tip, also to be recorded"),
         switch("markers", "true", "markers of cables and curvature"),
         switch("rviz", "false", "RViz with the arm"),
         switch("use_sim_time", "false", "take the time from /clock"),
@@ -81,7 +82,7 @@ def nodes(given: Mapping[str, str]) -> list[Node]:
 
     started = [of_arm("section", {"section": number}, f"section_{number}") for number in numbers]
     started += [of_arm("robot", {"target": given["target"], "solver": given["solver"]})]
-    started += [of_arm("cable_tangler"), frames(arm, clock)]
+    started += [of_arm("cable_tangler"), frames(arm, {"publish_tip": is_true(given["tip"])}, clock)]
     needed = [*(f"section_{number}" for number in numbers), "robot", "cable_tangler", "forward_kinematics"]
     if is_true(given["markers"]):
         started += [of_arm("markers")]

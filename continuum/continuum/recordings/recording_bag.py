@@ -152,7 +152,7 @@ def _arm(bag: Bag, topic: str, every: Sequence[Any], model: Model | None, given:
         return _Joints(wanted, None)
     first = theta_joints("", 1)[0]
     sections = [name.removesuffix(first) for name in found if name.endswith(first)]
-    if len(sections) == 1 and not given:
+    if len(sections) == 1 and not given and not any(one.name in found for one in wanted):
         names = [name for name in theta_joints(sections[0], len(found)) if name in found]
         return _Joints(tuple(map(NamedJoint, names)), sections[0])
     there = f"has the joints {', '.join(found) or 'none'} on {topic}"

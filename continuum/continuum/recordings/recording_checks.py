@@ -56,7 +56,9 @@ def repaired(samples: Samples) -> tuple[Samples, tuple[str, ...]]:
     refuse_bursts(good.chosen(~outliers(good)))
     good = leave_out(np.diff(good.times, prepend=-np.inf) < _SAME_TIME, same_time)
     good = leave_out(_clipped(good), Message("{rows} with a clipped rate"))
-    refuse_jumps(good)
+    spikes = outliers(good)
+    spikes &= ~np.concatenate([[False], spikes[:-1]]) & ~np.concatenate([spikes[1:], [False]])
+    refuse_jumps(good.chosen(~spikes))  # one row is a fault of the sensor
     good = leave_out(outliers(good), Message("{rows} with a value that no arm has"))
     if good.times.size < _FEWEST_ROWS:
         summary = "; ".join(["", *notes])

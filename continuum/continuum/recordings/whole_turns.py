@@ -3,6 +3,9 @@
 A step from row to row jumps by a whole turn if the rest of it is a motion of the joint: at most twice as fast as its
 fastest step that is not beside a jump, since a joint hardly changes its speed from one row to the next. Any other step
 by more than half a turn is a fault of the sensor; the step back from it is beside it.
+
+The same pose may be logged as 350 or as -10 degrees. In every recording a joint that can turn round begins within half
+a turn of zero, whether the log jumps or not, so that recordings of one arm have the same angles for the same pose.
 """
 
 from __future__ import annotations
@@ -39,7 +42,7 @@ def refuse_jumps(samples: Samples) -> None:
 
 
 def unwrapped(samples: Samples) -> tuple[Samples, list[Message]]:
-    """Return angles without jumps, which begin within half a turn of zero, and a note on each joint that had some.
+    """Return angles without jumps, which begin within half a turn of zero, and a note on each joint that changed.
 
     Raises:
         FileError: a joint steps by more than half a turn, and not by a whole one.
@@ -48,12 +51,11 @@ def unwrapped(samples: Samples) -> tuple[Samples, list[Message]]:
     if np.any(faults):
         question = "does the sensor fail there, or does the log wrap at less than a turn?"
         raise FileError(samples.path, f"{_step(samples, *_first(faults))}, as fast as no other step: {question}")
-    if not np.any(jumps):
+    begin = np.round(samples.theta[0] / (2 * np.pi)) if samples.turns else np.zeros(samples.theta.shape[1])
+    if not np.any(jumps) and not np.any(begin):
         return samples, []
-    theta = samples.theta.copy()
+    theta = samples.theta - 2 * np.pi * begin
     theta[1:] -= 2 * np.pi * np.cumsum(jumps, axis=0)
-    from_zero = np.min(theta) >= -_BEYOND  # then a log of all joints wraps at 0 and 360 degrees
-    begin = np.where(np.any(jumps, axis=0) | from_zero, 2 * np.pi * np.round(theta[0] / (2 * np.pi)), 0.0)
     notes = []
     for joint in np.flatnonzero(np.any(jumps, axis=0)):
         after = np.concatenate([[False], jumps[:, joint] != 0])
@@ -64,7 +66,14 @@ def unwrapped(samples: Samples) -> tuple[Samples, list[Message]]:
             rows=samples.described(after), letter=ANGLE.letter, joint=joint + 1, first=first, then=then,
         )  # fmt: skip
         notes.append(note)
-    return replace(samples, theta=theta - begin), notes
+    for joint in np.flatnonzero(begin):
+        first, then = np.degrees([samples.theta[0, joint], theta[0, joint]])
+        note = Message(
+            "{letter}{joint} begins at {first:.1f} degrees, taken for {then:.1f}: within half a turn of zero",
+            letter=ANGLE.letter, joint=joint + 1, first=first, then=then,
+        )  # fmt: skip
+        notes.append(note)
+    return replace(samples, theta=theta), notes
 
 
 def _jumps(samples: Samples) -> tuple[Array, NDArray[np.bool_]]:

@@ -64,6 +64,7 @@ class Bench:
         sensors, actuators, arm: parts of the bench.
         hand: hand that holds the arm, if any.
         deaf: whether bytes from the host are ignored.
+        mute: whether no frames of the sensors are sent, as if their task hung.
         failed: reason why the simulation of the arm failed; None while it runs.
 
     Raises:
@@ -85,6 +86,7 @@ class Bench:
         self.tick_rate = settings.sample_rate * self.ticks_per_sample
         self.hand: Hand | None = None
         self.deaf = False
+        self.mute = False
         self.failed: SimulationStatus | None = None
         self._sample = 0
         self._ticks = 0
@@ -163,4 +165,5 @@ class Bench:
         )
         self._sample += 1
         self._ticks, self._forces, self._angles = 0, np.zeros((self.n_joints, 3)), angles
-        return [frame, self.controller.tension_frame(self.actuators.measured().tolist())]
+        tension = self.controller.tension_frame(self.actuators.measured().tolist())
+        return [tension] if self.mute else [frame, tension]

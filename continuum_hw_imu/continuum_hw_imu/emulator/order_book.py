@@ -76,6 +76,9 @@ class OrderBook:
             case "drop":
                 bench.sensors.lost.add(sensor)
                 self._later(order, now, lambda _: bench.sensors.lost.discard(sensor))
+            case "mute":
+                bench.mute = True
+                self._later(order, now, lambda _: setattr(bench, "mute", False))
             case "clip":
                 bench.sensors.narrowed[sensor] = np.radians(numbers["range"])
                 self._later(order, now, lambda _: bench.sensors.widen(sensor))

@@ -41,6 +41,7 @@ ON_THE_LINE: Mapping[str, Mapping[str, Number]] = {
 ACTIONS: Mapping[str, Mapping[str, Number]] = {
     **ON_THE_LINE,
     "drop": {"sensor": _SENSOR, "for": _FOR},
+    "mute": {"for": Number(1.0, 0.0, 1e6, "time for which no frames of the sensors are sent [s]")},
     "clip": {"sensor": _SENSOR, "for": _FOR, "range": Number(20.0, 0.0, 2000.0, "range of its rates [deg/s]")},
     "battery": {"sensor": _SENSOR, "percent": Number(10.0, 0.0, 100.0, "charge of its battery [%]")},
     "drift": {"ppm": Number(None, -1000.0, 1000.0, "drift of the controller's clock, positive if fast [1e-6]")},

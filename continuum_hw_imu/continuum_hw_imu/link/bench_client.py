@@ -11,6 +11,7 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 
+from continuum_hw_imu.bench_fit import LONGEST_PATIENCE
 from continuum_hw_imu.link.received import Conversation, Received, Results
 from continuum_hw_imu.link.serial_link import SerialLink
 from continuum_hw_imu.protocol.clock_map import ClockMap
@@ -112,9 +113,11 @@ class BenchClient:
     def silent_for(self, now: float) -> float:
         """Return the time since the last valid frame [s]; infinite before the first on this link.
 
-        Time in which this process did not get round to reading the port is no silence of the bench.
+        Time in which this process did not get round to reading the port is no silence of the bench, unless it is so
+        long that any bench has let the cables go.
         """
-        return max(0.0, min(now, self.link.emptied) - self.conversation.last)
+        last = self.conversation.last
+        return now - last if now - last > LONGEST_PATIENCE else max(0.0, min(now, self.link.emptied) - last)
 
     def wait_for(self, condition: Callable[[], bool], timeout: float) -> bool:
         """Wait until a condition on the received data holds; return whether it did within ``timeout`` [s]."""

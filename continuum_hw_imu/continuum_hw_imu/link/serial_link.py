@@ -133,10 +133,11 @@ class SerialLink:
                 if data:
                     data += port.read(min(port.in_waiting, MOST))
                 now = time.monotonic()  # last: whoever waits for the processor here must not take a byte for earlier
+                emptied = not data or not port.in_waiting
                 if data:
                     self._received(data, now)
-                else:
-                    self.emptied = now
+                if emptied:
+                    self.emptied = now  # only now: what was received is no silence up to then
         except FAILURES as error:
             problem = _in_words(self._port, error)
         self._shut(problem)

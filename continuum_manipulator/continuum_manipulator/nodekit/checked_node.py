@@ -150,20 +150,31 @@ class CheckedNode(Node):
         return cls.parameter_specs({})
 
     def listen(
-        self, message_type: type, topic: str, handle: Callable[[Any], None], qos: QoSProfile = STREAM
+        self,
+        message_type: type,
+        topic: str,
+        handle: Callable[[Any], None],
+        qos: QoSProfile = STREAM,
+        timed: bool = False,
     ) -> Subscription:
-        """Subscribe to a topic; message faults that ``handle`` raises are counted and logged without stopping."""
+        """Subscribe to a topic; message faults that ``handle`` raises are counted and logged without stopping.
+
+        With ``timed``, ``handle`` may ask for the `arrival` of its message, which costs time for every message.
+        """
         received = self.diagnostics.received
         received[topic] = 0
         checked = self.checked(topic, handle)
 
-        def on_message(*given: Any) -> None:
-            message, info = given if len(given) == 2 else given[0]
+        def on_message(message: object) -> None:
             received[topic] += 1
-            self._received_at = info["received_timestamp"]
             checked(message)
 
-        on_message.__signature__ = _WITH_INFO  # type: ignore[attr-defined]
+        def on_timed_message(*given: Any) -> None:
+            message, info = given if len(given) == 2 else given[0]
+            self._received_at = info["received_timestamp"]
+            on_message(message)
+
+        on_timed_message.__signature__ = _WITH_INFO  # type: ignore[attr-defined]
 
         def on_loss(event: Any) -> None:
             cause, now = "messages lost on the way", event.total_count_change
@@ -172,14 +183,14 @@ class CheckedNode(Node):
         return self.create_subscription(
             message_type,
             topic,
-            on_message,
+            on_timed_message if timed else on_message,
             self._overridden(qos, topic, "subscription"),
             event_callbacks=SubscriptionEventCallbacks(message_lost=on_loss),
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
 
     def arrival(self) -> int:
-        """Return the ROS time [ns] at which the message under handling arrived, however late the node handles it.
+        """Return the ROS time [ns] at which the timed message under handling arrived, however late the node handles it.
 
         The middleware notes the arrival by the machine's clock in a thread of its own. A middleware that does not (it
         gives 0) leaves the present. In simulated time, the wait within the node is taken as long as by the machine's

@@ -6,6 +6,8 @@ from collections.abc import Callable, Hashable, Iterable
 from enum import Enum, auto
 from typing import Protocol
 
+from continuum_manipulator.nodekit.qos import STREAM
+
 NANOSECONDS = 1_000_000_000
 
 
@@ -45,7 +47,8 @@ class StampJoiner[Key: Hashable, Message]:
 
     Args:
         keys: the sources of a complete set.
-        capacity: stamps kept open at once; beyond it the set that was opened first is given up.
+        capacity: stamps kept open at once; beyond it the set that was opened first is given up. By default as many as
+            wait in the queue of a source on a busy machine: what a queue still holds is not given up.
         restart_gap: time past the old run from which a message belongs to the new one in any case [ns].
         on_loss: called for every loss with its stamp [ns] and keys: the missing keys of an incomplete set, otherwise
             the keys of unused messages.
@@ -59,7 +62,7 @@ class StampJoiner[Key: Hashable, Message]:
     def __init__(
         self,
         keys: Iterable[Key],
-        capacity: int = 200,
+        capacity: int = STREAM.depth,
         restart_gap: int = NANOSECONDS,
         on_loss: Callable[[Loss, int, frozenset[Key]], object] = lambda _loss, _stamp, _keys: None,
     ) -> None:
@@ -80,6 +83,13 @@ class StampJoiner[Key: Hashable, Message]:
     def waiting(self) -> int:
         """Number of incomplete sets."""
         return len(self._open)
+
+    @property
+    def first_waiting(self) -> tuple[int, frozenset[Key]] | None:
+        """Stamp [ns] and missing keys of the set that was opened first; None if no set is incomplete."""
+        for stamp, parts in self._open.items():
+            return stamp, self._keys - parts.keys()
+        return None
 
     def add(self, key: Key, stamp: int, message: Message) -> dict[Key, Message] | None:
         """Add a message of ``key`` at ``stamp`` [ns]; return the set that it completes, or None.

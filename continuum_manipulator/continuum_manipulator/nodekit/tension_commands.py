@@ -18,13 +18,14 @@ from continuum_manipulator.nodekit.stamps import NANOSECONDS, nanoseconds, secon
 from continuum_msgs.msg import CableStates
 
 STALE = "stale stamp"
+LATE = "handled too late"
 
 
 def read_tensions(message: CableStates, cables: Sequence[str], arrival: int, patience: float) -> Array:
     """Return the commanded tension of each cable, (n_cables,) [N], finite and not negative.
 
-    A command is as old as it was on its arrival: a node that handles it late does not blame the sender. It then holds
-    no longer for that: whoever pulls counts the command's time-out from its stamp.
+    A command is as old as it was on its arrival: a node that handles it late does not blame the sender. It holds no
+    longer for that, see `held_for`.
 
     Args:
         message: the command.
@@ -49,3 +50,20 @@ def read_tensions(message: CableStates, cables: Sequence[str], arrival: int, pat
         where = f"{age:.3f} s old" if age > 0 else f"{-age:.3f} s in the future"
         raise MessageFault(STALE, f"{where} on arrival at {seconds(max(0, arrival))}; allowed: {patience:g} s")
     return tensions
+
+
+def held_for(message: CableStates, arrival: int, now: int, patience: float) -> float:
+    """Return for how long a command of `read_tensions` has held at a time ``now`` [ns], in s.
+
+    It holds from its stamp on, or from its arrival if that was earlier. One that has timed out while it waited in this
+    node would pull no longer, but begin anew a release that is under way.
+
+    Raises:
+        MessageFault: the command has timed out.
+    """
+    held = (now - min(arrival, nanoseconds(message.header.stamp))) / NANOSECONDS
+    if held > patience:
+        raise MessageFault(
+            LATE, f"this node came to it when it was {held:.3f} s old; a command holds for {patience:g} s"
+        )
+    return held

@@ -37,6 +37,8 @@ TRIES = 5
 GAP = 0.25
 """Longest time without joint states in a run [s]: `continuum diagnose` refuses recordings with longer gaps."""
 
+TOO_BUSY = "the machine is too busy for a bench"
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the demo; return 0 if all of it was completed and a hidden effect was found, 1 if not."""
@@ -75,7 +77,7 @@ def record_runs(port: str, out: Path) -> None:
             launched(_launch_command(port, out.resolve()), domain, log.fileno()) as launch,
             Conductor(domain, checker(launch, log_file)) as conductor,
         ):
-            _calibrate(conductor)
+            _calibrate(conductor, by_hand=bool(port))
             for run in RUNS:
                 _until_whole(conductor, run.name, partial(_record, run, out / run.name, domain, conductor))
                 _report(run, conductor, None if port else out / "truth.csv")
@@ -108,7 +110,7 @@ def _until_whole(conductor: Conductor, what: str, act: Callable[[], None]) -> No
             return
         why = f"joint states are missing for {gap:.1f} s" if math.isfinite(gap) else "the bridge became inactive"
         print(f"{what}, once more: {why}; nodes.log may have the reason", flush=True)
-    raise DemoError(f"{what}: {why}, the last of {TRIES} times; the machine is too busy for a bench")
+    raise DemoError(f"{what}: {why}, the last of {TRIES} times; {TOO_BUSY}")
 
 
 def diagnosed(out: Path) -> int:
@@ -122,10 +124,11 @@ def diagnosed(out: Path) -> int:
 
 def _launch_command(port: str, out: Path) -> list[str]:
     """Return the launch command of bridge and simulated arm, and without a port of an emulated bench."""
-    words = ["ros2", "launch", "continuum_hw_imu", "bench.launch.py", "simulated:=true", "allow_uncalibrated:=true"]
+    words = ["ros2", "launch", "continuum_hw_imu", "bench.launch.py", "simulated:=true"]
     words.append(f"calibration:={out / 'sensors.yaml'}")
     if port:
-        return [*words, f"port:={port}"]
+        return [*words, f"port:={port}"]  # no cable of a real arm is pulled before its angles are known
+    words.append("allow_uncalibrated:=true")  # its axes are found from a bend by a cable
     save_model(with_hidden_effect(load_model("lamecc_prototype.yaml")), out / "arm.yaml")
     return [
         *words,
@@ -136,12 +139,17 @@ def _launch_command(port: str, out: Path) -> list[str]:
     ]
 
 
-def _calibrate(conductor: Conductor) -> None:
+def _calibrate(conductor: Conductor, by_hand: bool) -> None:
+    """Calibrate the sensors; the arm is bent by hand or, without a calibration, by a cable."""
     print("calibration: bias and zero at rest, axes from a bend towards cable 1 and back", flush=True)
     conductor.trigger("bench_bridge/calibrate_bias", patient=True)
     conductor.trigger("bench_bridge/zero", patient=True)
-    _until_whole(conductor, BEND.name, partial(conductor.carry_out, BEND))
+    if by_hand:
+        input("bend the arm by hand towards cable 1, by 30 degrees or more, and back; then press Enter ")
+    else:
+        _until_whole(conductor, BEND.name, partial(conductor.carry_out, BEND))
     print(f"  {conductor.trigger('bench_bridge/find_axes', patient=True)}", flush=True)
+    conductor.activate()
     conductor.wait_for_states()
 
 

@@ -3,7 +3,9 @@
 import ast
 import dataclasses
 import sys
+from contextlib import nullcontext
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import yaml
@@ -171,11 +173,30 @@ def test_launch_files_of_the_workspace_refuse_unknown_arguments_where_the_stock_
     """Of the command line alone: who includes the file has arguments of its own."""
     with python_api.importable():
         from continuum_description.launching import refuse_unknown
+    file = Path("/opt/ws/share/trajectory_generator/launch/arm.launch.py")
     words = ["/opt/ros/bin/ros2", "launch", "trajectory_generator", "arm.launch.py", "mode:=cables", "trajektory:=a"]
     known = ["arm", "mode", "trajectory"]
-    with pytest.raises(RuntimeError, match=r"arm\.launch\.py has no argument 'trajektory'; did you mean trajectory\?"):
-        refuse_unknown("arm.launch.py", known, words)
+    for named in (words, [*words[:2], str(file), *words[4:]]):
+        with pytest.raises(
+            RuntimeError, match=r"arm\.launch\.py has no argument 'trajektory'; did you mean trajectory\?"
+        ):
+            refuse_unknown(file, known, named)
     with pytest.raises(RuntimeError, match="known: arm, mode, trajectory"):
-        refuse_unknown("arm.launch.py", known, [*words[:-1], "x:=1"])
-    refuse_unknown("arm.launch.py", known, words[:-1])
-    refuse_unknown("part.launch.py", known, words)
+        refuse_unknown(file, known, [*words[:-1], "x:=1"])
+    refuse_unknown(file, known, words[:-1])
+    refuse_unknown(file.with_name("part.launch.py"), known, words)
+    refuse_unknown(file, known, [*words[:2], "my_bench", *words[3:]])  # a file of the same name in another package
+    refuse_unknown(file, known, [*words[:2], "/home/me/arm.launch.py", *words[4:]])
+
+
+@pytest.mark.parametrize(
+    ("process", "code", "ends"),
+    [("rviz2-3", -6, False), ("joint_state_publisher_gui-2", 1, False), ("trajectory_publisher-1", 0, False),
+     ("trajectory_publisher-1", 1, True), ("robot-1", 0, True)],
+)  # fmt: skip
+def test_a_launch_outlives_its_windows_however_they_end(process: str, code: int, ends: bool) -> None:
+    with python_api.importable():
+        from continuum_description.launching import miss
+    event, context = SimpleNamespace(process_name=process, returncode=code), SimpleNamespace(is_shutdown=False)
+    with pytest.raises(RuntimeError, match="requires it") if ends else nullcontext():
+        miss(event, context)
