@@ -85,8 +85,10 @@ class FaultyLine:
                 return [(delay, self._random.bytes(size) + piece) for delay, piece in pieces]
 
     def _damaged(self, piece: bytes) -> bytes:
-        """Return a piece with flipped bits, truncated, or with extra bytes."""
-        spoiled, at = bytearray(piece), int(self._random.integers(0, max(len(piece), 1)))
+        """Return a piece with flipped bits, truncated, or with extra bytes: between the zeros, so that it is no frame."""
+        content = piece.strip(b"\0")
+        before, _, after = piece.partition(content) if content else (piece, b"", b"")
+        spoiled, at = bytearray(content), int(self._random.integers(0, max(len(content), 1)))
         way = self._random.integers(0, 3)
         if way == 0 and spoiled:
             spoiled[at] ^= int(self._random.integers(1, 256))
@@ -94,7 +96,7 @@ class FaultyLine:
             del spoiled[at:]
         else:
             spoiled[at:at] = self._random.bytes(int(self._random.integers(1, 9)))
-        return bytes(spoiled)
+        return before + bytes(spoiled) + after
 
 
 def pieces_of(data: bytes) -> list[bytes]:
