@@ -85,12 +85,14 @@ class FaultyLine:
                 return [(delay, self._random.bytes(size) + piece) for delay, piece in pieces]
 
     def _damaged(self, piece: bytes) -> bytes:
-        """Return a piece with flipped bits, truncated, or with extra bytes: between the zeros, so that it is no frame."""
+        """Return a piece with flipped bits, truncated, or with extra bytes: within a frame, of which nothing is left."""
         content = piece.strip(b"\0")
-        before, _, after = piece.partition(content) if content else (piece, b"", b"")
-        spoiled, at = bytearray(content), int(self._random.integers(0, max(len(content), 1)))
+        if len(content) < 2:
+            return piece
+        before, _, after = piece.partition(content)
+        spoiled, at = bytearray(content), int(self._random.integers(1, len(content)))
         way = self._random.integers(0, 3)
-        if way == 0 and spoiled:
+        if way == 0:
             spoiled[at] ^= int(self._random.integers(1, 256))
         elif way == 1:
             del spoiled[at:]
