@@ -85,7 +85,7 @@ class FaultyLine:
                 return [(delay, self._random.bytes(size) + piece) for delay, piece in pieces]
 
     def _damaged(self, piece: bytes) -> bytes:
-        """Return a piece with flipped bits, truncated, or with extra bytes: within a frame, of which nothing is left."""
+        """Return a piece with flipped bits, truncated, or with extra bytes, within a frame: nothing is left of it."""
         content = piece.strip(b"\0")
         if len(content) < 2:
             return piece
