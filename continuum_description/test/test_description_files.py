@@ -1,6 +1,7 @@
 """The shipped arms, the launch file and RViz's configuration."""
 
 import os
+import shlex
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -93,7 +94,7 @@ def test_launch_file_starts_sliders_and_rviz_with_its_configuration() -> None:
     ]  # fmt: skip
     alone = launch("gui:=false", "frames:=false", "--print").stdout.splitlines()
     assert [line.partition(":")[0] for line in alone] == ["rviz2"]
-    (config,) = (word for word in lines[-1].split() if word.endswith(".rviz"))
+    (config,) = (word for word in shlex.split(lines[-1]) if word.endswith(".rviz"))
     assert Path(config).is_file()
 
 

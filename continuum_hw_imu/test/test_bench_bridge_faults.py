@@ -256,8 +256,8 @@ def test_a_lost_sensor_is_reported_once_and_the_cables_are_let_go(pulling, recor
     line = next(line for line in node.stderr.splitlines() if "imu 3 is lost" in line)
     assert "no data of DOT-3 for 0.1" in line
     said = pulling.monotonic_of(float(re.search(r"\[(\d+\.\d+)\]", line)[1]))
-    record_property("from loss to line [s]", round(said - lost, 3))
-    record_property("from loss to release [s]", round(begins - lost, 3))
+    record_property("from loss to line [s]", round(float(said - lost), 3))
+    record_property("from loss to release [s]", round(float(begins - lost), 3))
     print(f"from loss to line {said - lost:.3f} s, to release {begins - lost:.3f} s")
 
 

@@ -1,5 +1,6 @@
 """The serial link on a pseudo-terminal that goes and comes: what arrives, what is told, who holds the port."""
 
+import threading
 import time
 from contextlib import contextmanager
 from pathlib import Path
@@ -80,17 +81,22 @@ def test_waiting_for_bytes_differs_from_waiting_for_the_processor(port, tmp_path
 def test_a_line_that_never_pauses_is_emptied_between_its_bytes(port, tmp_path):
     """As a bad one, whose bytes are no frames: the bench is silent."""
     times, emptied = [], []
+    lock = threading.Lock()  # the port is written to by one thread at a time
+
+    def write(data: bytes) -> None:
+        with lock:
+            port.write(data)
 
     def take(data: bytes, now: float) -> None:
         times.append(now)
         emptied.append(link.emptied)
-        port.write(data)
+        write(data)
 
     link = SerialLink(str(tmp_path / "port"), 921_600, take)
     link.start()
     try:
         wait_until(lambda: link.is_open, "the port")
-        port.write(b"x")
+        write(b"x")
         wait_until(lambda: len(emptied) > 20, "bytes")
     finally:
         link.close()

@@ -85,16 +85,20 @@ class FaultyLine:
                 return [(delay, self._random.bytes(size) + piece) for delay, piece in pieces]
 
     def _damaged(self, piece: bytes) -> bytes:
-        """Return a piece with flipped bits, truncated, or with extra bytes."""
-        spoiled, at = bytearray(piece), int(self._random.integers(0, max(len(piece), 1)))
+        """Return a piece with flipped bits, truncated, or with extra bytes, within a frame: nothing is left of it."""
+        content = piece.strip(b"\0")
+        if len(content) < 2:
+            return piece
+        before, _, after = piece.partition(content)
+        spoiled, at = bytearray(content), int(self._random.integers(1, len(content)))
         way = self._random.integers(0, 3)
-        if way == 0 and spoiled:
+        if way == 0:
             spoiled[at] ^= int(self._random.integers(1, 256))
         elif way == 1:
             del spoiled[at:]
         else:
             spoiled[at:at] = self._random.bytes(int(self._random.integers(1, 9)))
-        return bytes(spoiled)
+        return before + bytes(spoiled) + after
 
 
 def pieces_of(data: bytes) -> list[bytes]:
