@@ -65,23 +65,23 @@ class Paths(NamedTuple):
 
 
 class Pull(NamedTuple):
-    """State of the cables' friction; entries of first holes are unused.
+    """State of the cables' friction in a step; entries of first holes are unused.
 
     Attributes:
-        slip: speed w towards the base at which the friction of each hole but the last is linearised, (n_holes,) [m/s].
-        rest: that speed minus the one predicted for the end of the step, (n_holes,) [m/s].
-        slope: ds/dw at that speed, (n_holes,) [s/m].
-        tension: of the segment that ends at each hole, (n_holes,) [N].
+        slip: speed w towards the base about which the friction of each hole but the last is linearised, (n_holes,) [m/s].
+        turns: whether the slip turns within the step, so that ``slip`` is 0, (n_holes,).
+        tension: of the segment that ends at each hole, at those speeds, (n_holes,) [N].
+        damping: derivative of the friction at each hole by its slip, (n_holes,) [N s/m].
         base: of each cable between its motor and its first hole, (n_cables,) [N].
-        base_slope: derivative of ``base`` by the rate of the path's length at the end of the step, (n_cables,) [N s/m].
+        base_damping: derivative of ``base`` by the rate of the path's length at the end, (n_cables,) [N s/m].
     """
 
     slip: Array
-    rest: Array
-    slope: Array
+    turns: Array
     tension: Array
+    damping: Array
     base: Array
-    base_slope: Array
+    base_damping: Array
 
 
 @inner
@@ -95,7 +95,7 @@ def new_paths(cables: Cables, n: int) -> Paths:
 def new_pull(cables: Cables) -> Pull:
     """Return storage for the tensions."""
     n, c = cables.body.size, cables.first.size - 1
-    return Pull(np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(c), np.zeros(c))
+    return Pull(np.zeros(n), np.zeros(n, np.bool_), np.zeros(n), np.zeros(n), np.zeros(c), np.zeros(c))
 
 
 @inner

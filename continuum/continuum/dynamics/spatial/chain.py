@@ -175,7 +175,7 @@ def inverse_dynamics(chain: Chain, placed: Placed, v: Array, a: Array, moving: M
 
 @inner
 def mass_matrix(placed: Placed, M: Array) -> None:
-    """M(q) without rotors, (n, n) [kg m2], both triangles."""
+    """Upper triangle of M(q) without rotors, (n, n) [kg m2]."""
     n = M.shape[0]
     composite, momentum = np.zeros(10), np.empty(6)
     for j in range(n - 1, -1, -1):
@@ -183,7 +183,7 @@ def mass_matrix(placed: Placed, M: Array) -> None:
             composite[k] += placed.inertia[j, k]
         inertia_times(composite, placed.screw[j], momentum)
         for i in range(j + 1):
-            M[i, j] = M[j, i] = dot(placed.screw[i], momentum)
+            M[i, j] = dot(placed.screw[i], momentum)
 
 
 class Slopes(NamedTuple):

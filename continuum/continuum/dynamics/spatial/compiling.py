@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numba
+
+from continuum import compiled_code
 
 FAST = {"reassoc", "contract", "nsz", "arcp"}
 """LLVM's flags: without ``nnan`` and ``ninf``, so that a state that is not finite is seen."""
@@ -12,3 +16,6 @@ inner = numba.njit(error_model="numpy", fastmath=FAST)
 
 merged = numba.njit(error_model="numpy", fastmath=FAST, inline="always")
 """As `inner`, for functions with one caller: passing the arrays of an arm would take as long as their work."""
+
+entry_point = compiled_code.entry_point(Path(__file__).parent)
+"""Decorator of a function that Python calls: compiled at its first call, and kept on disk until a file here changes."""

@@ -1,7 +1,4 @@
-"""Small linear systems in compiled loops: factors of the leading (n, n) of a matrix, four pivots at a time.
-
-No pivot is exchanged: the matrices are positive definite, or positive definite plus the slopes of friction.
-"""
+"""Symmetric positive definite systems in compiled loops: upper triangles of the leading (n, n), four pivots at a time."""
 
 from __future__ import annotations
 
@@ -10,7 +7,7 @@ from continuum.dynamics.spatial.compiling import inner
 
 
 @inner
-def factor_symmetric(A: Array, n: int) -> bool:
+def factor(A: Array, n: int) -> bool:
     """Replace the upper triangle by D L^T of A = L D L^T; return whether all pivots are positive."""
     k = 0
     while k + 3 < n:
@@ -41,8 +38,8 @@ def factor_symmetric(A: Array, n: int) -> bool:
 
 
 @inner
-def solve_symmetric(A: Array, b: Array, n: int) -> None:
-    """Solve L D L^T x = b in place with the factors of `factor_symmetric`."""
+def solve(A: Array, b: Array, n: int) -> None:
+    """Solve L D L^T x = b in place with the factors of `factor`."""
     for k in range(n):
         b[k] /= A[k, k]
         f = b[k]
@@ -53,55 +50,3 @@ def solve_symmetric(A: Array, b: Array, n: int) -> None:
         for j in range(k + 1, n):
             total += A[k, j] * b[j]
         b[k] -= total / A[k, k]
-
-
-@inner
-def factor(A: Array, n: int) -> bool:
-    """Replace A by its factors L U, L with a unit diagonal; return whether all pivots are positive."""
-    k = 0
-    while k + 3 < n:
-        for a in range(k, k + 4):
-            if not A[a, a] > 0.0:
-                return False
-            scale = 1.0 / A[a, a]
-            for i in range(a + 1, k + 4):
-                f = A[i, a] * scale
-                A[i, a] = f
-                for j in range(a + 1, n):
-                    A[i, j] -= f * A[a, j]
-        r0, r1, r2, r3 = 1.0 / A[k, k], 1.0 / A[k + 1, k + 1], 1.0 / A[k + 2, k + 2], 1.0 / A[k + 3, k + 3]
-        for i in range(k + 4, n):
-            f0 = A[i, k] * r0
-            f1 = (A[i, k + 1] - f0 * A[k, k + 1]) * r1
-            f2 = (A[i, k + 2] - f0 * A[k, k + 2] - f1 * A[k + 1, k + 2]) * r2
-            f3 = (A[i, k + 3] - f0 * A[k, k + 3] - f1 * A[k + 1, k + 3] - f2 * A[k + 2, k + 3]) * r3
-            A[i, k], A[i, k + 1], A[i, k + 2], A[i, k + 3] = f0, f1, f2, f3
-            for j in range(k + 4, n):
-                A[i, j] -= f0 * A[k, j] + f1 * A[k + 1, j] + f2 * A[k + 2, j] + f3 * A[k + 3, j]
-        k += 4
-    while k < n:
-        if not A[k, k] > 0.0:
-            return False
-        scale = 1.0 / A[k, k]
-        for i in range(k + 1, n):
-            f = A[i, k] * scale
-            A[i, k] = f
-            for j in range(k + 1, n):
-                A[i, j] -= f * A[k, j]
-        k += 1
-    return True
-
-
-@inner
-def solve(A: Array, b: Array, n: int) -> None:
-    """Solve L U x = b in place with the factors of `factor`."""
-    for i in range(n):
-        total = b[i]
-        for k in range(i):
-            total -= A[i, k] * b[k]
-        b[i] = total
-    for i in range(n - 1, -1, -1):
-        total = b[i]
-        for k in range(i + 1, n):
-            total -= A[i, k] * b[k]
-        b[i] = total / A[i, i]

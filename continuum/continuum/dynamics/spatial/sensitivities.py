@@ -24,8 +24,8 @@ from continuum.dynamics.spatial.chain import (
     new_slopes,
     shift_rates,
 )
-from continuum.dynamics.spatial.compiling import inner
-from continuum.dynamics.spatial.linear_systems import factor, factor_symmetric
+from continuum.dynamics.spatial.compiling import entry_point, inner
+from continuum.dynamics.spatial.linear_systems import factor
 from continuum.dynamics.spatial.time_stepping import COMPLETE, NOT_FINITE, Joints, State, Work, new_work, step
 from continuum.dynamics.spatial.vectors import dot, inertia_times, motion_cross_force, motion_cross_motion
 
@@ -70,12 +70,15 @@ class TangentWork(NamedTuple):
     matrix: Array
     force: Array
     gradient: Array
+    slip: Array
     predicted_slip: Array
     end_slip: Array
     bend: Array
     length: Array
+    friction: Array
+    steepness: Array
     logarithm: Array
-    excess: Array
+    offset: Array
 
 
 @inner
@@ -84,9 +87,9 @@ def new_tangent_work(n: int, cables: Cables, n_free: int) -> TangentWork:
     holes = cables.body.size
     return TangentWork(
         new_slopes(n), np.empty(n), np.empty(n), np.empty((n, n_free)), np.empty((n, n_free)), np.empty((n, n_free)),
-        np.empty((n, n_free)), np.empty((n, n)), np.empty((n, 6, n_free)), np.empty((n, n_free)),
+        np.empty((n, n_free)), np.empty((n, n)), np.empty((n, 6, n_free)), np.empty((n, n_free)), np.empty(holes),
         np.empty((holes, n_free)), np.empty((holes, n_free)), np.empty((holes, n_free)), np.empty(n_free),
-        np.empty(n_free), np.empty(n_free),
+        np.empty(n_free), np.empty(n_free), np.empty(n_free), np.empty(n_free),
     )  # fmt: skip
 
 
@@ -263,115 +266,119 @@ def _by_cable(
     chain: Chain, cables: Cables, holds: Array, free: Free, before: State, state: State, h: float, c: int, work: Work,
     tangent: Tangent, storage: TangentWork,
 ) -> None:  # fmt: skip
-    """Subtract the derivative of the torque of cable c, but for its part by the rates at the end of the step."""
+    """Subtract the derivative of the impulse of cable c, but for its part by the change of the rates.
+
+    The tension of segment j is T_j + e_j (see `time_stepping`): T_j as of the slips w0, whose logarithm is summed up
+    along the cable, and e_j = b sum_l dL/dq_l (dv_l - dv_p,l) - sum_{k < j} D_k (w_k - w0_k).
+    """
     begin, end, body, mu, steep = cables.first[c], cables.first[c + 1], cables.body, cables.friction[c], cables.slope[c]
-    base, base_slope = work.pull.base[c], work.pull.base_slope[c]
+    base, base_damping = work.pull.base[c], work.pull.base_damping[c]
     if base <= 0.0:
         return
-    paths = work.paths
-    gradient, slope, tension, bend = paths.gradient, work.pull.slope, work.pull.tension, paths.bend
+    paths, pull = work.paths, work.pull
+    gradient, tension, bend, damping = paths.gradient, pull.tension, paths.bend, pull.damping
     right, turned, n_free = storage.right, storage.gradient, storage.right.shape[1]
-    slip_p, slip_e, bent = storage.predicted_slip, storage.end_slip, storage.bend
-    logarithm, excess, whole = storage.logarithm, storage.excess, storage.length
+    slip, slip_p, slip_e, bent = storage.slip, storage.predicted_slip, storage.end_slip, storage.bend
+    by_mu, by_steep, logarithm, offset = storage.friction, storage.steepness, storage.logarithm, storage.offset
     _path_tangent(cables, chain.base, c, work, storage, free)
-    # slip at the predicted and at the found end of the step
     for column in range(n_free):
-        slip_p[end - 1, column] = slip_e[end - 1, column] = 0.0
-    for k in range(end - 1, begin, -1):
-        if k > begin + 1:
-            for column in range(n_free):
-                slip_p[k - 1, column], slip_e[k - 1, column] = slip_p[k, column], slip_e[k, column]
-            for i in range(body[k - 1] + 1, body[k] + 1):
-                g = gradient[c, i]
-                predicted = before.v[i] + h * before.acceleration[i]
-                for column in range(n_free):
-                    slip_p[k - 1, column] -= turned[i, column] * predicted + g * (
-                        tangent.v[i, column] + h * tangent.acceleration[i, column]
-                    )
-                    slip_e[k - 1, column] -= turned[i, column] * state.v[i] + g * tangent.v[i, column]
-    # tension at the base
-    extra = 0.0
-    for column in range(n_free):
-        logarithm[column] = excess[column] = 0.0
-    if holds[c]:
-        stiffness, damping = cables.stiffness[c], cables.damping[c]
-        for column in range(n_free):
-            logarithm[column] = stiffness * whole[column] / base
-        for i in range(body[begin] + 1, body[end - 1] + 1):
-            g, change = gradient[c, i], h * before.acceleration[i]
-            late = state.v[i] - before.v[i] - change
-            extra += base_slope / base * g * late
-            for column in range(n_free):
-                d_change = h * tangent.acceleration[i, column]
-                rate = turned[i, column] * (before.v[i] + 0.5 * change) + g * (tangent.v[i, column] + 0.5 * d_change)
-                logarithm[column] += damping * rate / base
-                excess[column] += base_slope / base * (turned[i, column] * late - g * d_change)
+        by_mu[column] = by_steep[column] = logarithm[column] = offset[column] = 0.0
     for e in range(free.kind.size):
-        if free.index[e] == c:
-            column, size = free.column[e], free.factor[e]
-            if free.kind[e] == COMMAND:
-                logarithm[column] += size * (-cables.stiffness[c] if holds[c] else 1.0) / base
-            elif holds[c] and (free.kind[e] == CABLE_STIFFNESS or free.kind[e] == CABLE_DAMPING):
-                _by_spring(cables, work, before, state, h, c, free.kind[e], column, size, logarithm, excess)
-    if holds[c]:  # excess has base in its denominator
-        for column in range(n_free):
-            excess[column] -= extra * logarithm[column]
-    # along the cable
+        if free.index[e] == c and free.kind[e] == CABLE_FRICTION:
+            by_mu[free.column[e]] += free.factor[e]
+        elif free.index[e] == c and free.kind[e] == CABLE_SLOPE:
+            by_steep[free.column[e]] += free.factor[e]
+        elif free.index[e] == c and free.kind[e] == COMMAND:
+            logarithm[free.column[e]] += free.factor[e] * (-cables.stiffness[c] if holds[c] else 1.0) / base
+    extra = 0.0
+    if holds[c]:
+        extra = _by_held_length(cables, free, before, state, h, c, work, tangent, storage)
+    if mu > 0.0:
+        _slip_tangent(cables, before, state, h, c, work, tangent, storage)
     for k in range(begin + 1, end):
-        effective = tension[k] * (1.0 + extra)
+        pulling = tension[k] + extra
         for i in range(body[k - 1] + 1, body[k] + 1):
             g = gradient[c, i]
             for column in range(n_free):
-                by_tension = effective * logarithm[column] + tension[k] * excess[column]
-                right[i, column] -= h * (by_tension * g + effective * turned[i, column])
+                by_tension = tension[k] * logarithm[column] + offset[column]
+                right[i, column] -= h * (by_tension * g + pulling * turned[i, column])
         if mu > 0.0 and k < end - 1:
-            at, turns = work.pull.slip[k], work.pull.rest[k] != 0.0
+            at, phi = pull.slip[k], bend[k]
             x = steep * at
-            s = np.sign(x) if abs(x) > SATURATED else np.tanh(x)
-            beyond = 0.0  # slip at the found end minus the point of linearisation
-            for m in range(k + 1, end):
-                for i in range(body[m - 1] + 1, body[m] + 1):
-                    beyond -= gradient[c, i] * state.v[i]
-            beyond -= at
-            curved = -2.0 * steep * s * slope[k]  # d slope / d slip
-            if slope[k] == 0.0:
-                curved = 0.0
-            extra -= mu * bend[k] * slope[k] * beyond
+            saturated = abs(x) > SATURATED
+            s = np.sign(x) if saturated else np.tanh(x)
+            flat = 0.0 if saturated else 1.0 - s * s  # d tanh
+            beyond = slip[k] - at
+            after = tension[k + 1]
             for column in range(n_free):
-                moved = 0.0 if turns else slip_p[k, column]
-                logarithm[column] -= mu * (bent[k, column] * s + bend[k] * slope[k] * moved)
-                excess[column] -= mu * beyond * (bent[k, column] * slope[k] + bend[k] * curved * moved)
-                excess[column] -= mu * bend[k] * slope[k] * (slip_e[k, column] - moved)
-            for e in range(free.kind.size):
-                if free.index[e] == c:
-                    column, size = free.column[e], free.factor[e]
-                    if free.kind[e] == CABLE_FRICTION:
-                        logarithm[column] -= size * bend[k] * s
-                        excess[column] -= size * bend[k] * slope[k] * beyond
-                    elif free.kind[e] == CABLE_SLOPE and slope[k] != 0.0:
-                        by_steep = 1.0 - s * s
-                        logarithm[column] -= size * mu * bend[k] * by_steep * at
-                        excess[column] -= size * mu * bend[k] * beyond * (by_steep - 2.0 * steep * s * by_steep * at)
+                moved = 0.0 if pull.turns[k] else slip_p[k, column]
+                by_x = flat * (steep * moved + at * by_steep[column])  # of s
+                rising = by_mu[column] * phi + mu * bent[k, column]  # of mu phi
+                logarithm[column] -= rising * s + mu * phi * by_x
+                by_slope = flat * by_steep[column] - 2.0 * steep * s * by_x  # of ds/dw
+                by_damping = damping[k] * logarithm[column] + after * (rising * steep * flat + mu * phi * by_slope)
+                offset[column] -= by_damping * beyond + damping[k] * (slip_e[k, column] - moved)
+            extra -= damping[k] * beyond
 
 
 @inner
-def _by_spring(
-    cables: Cables, work: Work, before: State, state: State, h: float, c: int, kind: int, column: int, size: float,
-    logarithm: Array, excess: Array,
-) -> None:  # fmt: skip
-    """Add the derivatives by stiffness or damping of a cable whose motor holds a length."""
-    begin, end, base = cables.first[c], cables.first[c + 1], work.pull.base[c]
+def _by_held_length(
+    cables: Cables, free: Free, before: State, state: State, h: float, c: int, work: Work, tangent: Tangent,
+    storage: TangentWork,
+) -> float:  # fmt: skip
+    """Add the derivatives of the tension at the base of a cable whose motor holds a length; return the tension's e."""
+    gradient, turned, base, slow = work.paths.gradient, storage.gradient, work.pull.base[c], work.pull.base_damping[c]
+    stiffness, damping = cables.stiffness[c], cables.damping[c]
+    logarithm, offset, whole = storage.logarithm, storage.offset, storage.length
+    n_free = logarithm.size
     rate, late = 0.0, 0.0
-    for i in range(cables.body[begin] + 1, cables.body[end - 1] + 1):
-        change = h * before.acceleration[i]
-        rate += work.paths.gradient[c, i] * (before.v[i] + 0.5 * change)
-        late += work.paths.gradient[c, i] * (state.v[i] - before.v[i] - change)
-    if kind == CABLE_STIFFNESS:
-        logarithm[column] += size * (base - cables.damping[c] * rate) / cables.stiffness[c] / base
-        excess[column] += size * 0.25 * h * late / base
-    else:
-        logarithm[column] += size * rate / base
-        excess[column] += size * 0.5 * late / base
+    for column in range(n_free):
+        logarithm[column] += stiffness * whole[column] / base
+    for i in range(cables.body[cables.first[c]] + 1, cables.body[cables.first[c + 1] - 1] + 1):
+        g, change = gradient[c, i], h * before.acceleration[i]
+        middle, left = before.v[i] + 0.5 * change, state.v[i] - before.v[i] - change
+        rate += g * middle
+        late += g * left
+        for column in range(n_free):
+            d_change = h * tangent.acceleration[i, column]
+            d_rate = turned[i, column] * middle + g * (tangent.v[i, column] + 0.5 * d_change)
+            logarithm[column] += damping * d_rate / base
+            offset[column] += slow * (turned[i, column] * left - g * d_change)
+    for e in range(free.kind.size):
+        if free.index[e] == c and free.kind[e] == CABLE_STIFFNESS:
+            logarithm[free.column[e]] += free.factor[e] * (base - damping * rate) / stiffness / base
+            offset[free.column[e]] += free.factor[e] * 0.25 * h * late
+        elif free.index[e] == c and free.kind[e] == CABLE_DAMPING:
+            logarithm[free.column[e]] += free.factor[e] * rate / base
+            offset[free.column[e]] += free.factor[e] * 0.5 * late
+    return slow * late
+
+
+@inner
+def _slip_tangent(
+    cables: Cables, before: State, state: State, h: float, c: int, work: Work, tangent: Tangent, storage: TangentWork
+) -> None:
+    """Slips of cable c at the end of the step, and derivatives of the predicted ones and of those at the end.
+
+    The derivative of the slip at the end leaves out that of the change of the rates, which is still to be solved for.
+    """
+    begin, end, body, gradient, turned = cables.first[c], cables.first[c + 1], cables.body, work.paths.gradient, storage.gradient
+    slip, slip_p, slip_e, n_free = storage.slip, storage.predicted_slip, storage.end_slip, storage.right.shape[1]
+    slip[end - 1] = 0.0
+    for column in range(n_free):
+        slip_p[end - 1, column] = slip_e[end - 1, column] = 0.0
+    for k in range(end - 1, begin + 1, -1):
+        slip[k - 1] = slip[k]
+        for column in range(n_free):
+            slip_p[k - 1, column], slip_e[k - 1, column] = slip_p[k, column], slip_e[k, column]
+        for i in range(body[k - 1] + 1, body[k] + 1):
+            g = gradient[c, i]
+            predicted = before.v[i] + h * before.acceleration[i]
+            slip[k - 1] -= g * state.v[i]
+            for column in range(n_free):
+                d_predicted = tangent.v[i, column] + h * tangent.acceleration[i, column]
+                slip_p[k - 1, column] -= turned[i, column] * predicted + g * d_predicted
+                slip_e[k - 1, column] -= turned[i, column] * state.v[i] + g * tangent.v[i, column]
 
 
 @inner
@@ -476,14 +483,10 @@ def _velocity(screw: Array, i: int, place: Array, k: int, out: Array) -> None:
 
 
 @inner
-def _solve(
-    state: State, h: float, work: Work, tangent: Tangent, storage: TangentWork
-) -> bool:
+def _solve(state: State, h: float, work: Work, tangent: Tangent, storage: TangentWork) -> bool:
     """Solve for the derivative of the change of the rates, and advance the tangent."""
     n, n_free = tangent.q.shape
-    damped = work.counts[1] != 0
-    A = work.damped if damped else work.matrix
-    right, reduced, L, slipping = storage.right, storage.reduced, storage.matrix, work.slipping
+    A, right, reduced, U, slipping = work.matrix, storage.right, storage.reduced, storage.matrix, work.slipping
     n_slipping = 0
     for i in range(n):
         if state.mode[i] != 0:
@@ -496,22 +499,22 @@ def _solve(
         for k in range(n):
             if state.mode[k] == 0:
                 for column in range(n_free):
-                    reduced[x, column] += A[i, k] * tangent.v[k, column]
-        for y in range(n_slipping):
-            L[x, y] = A[i, slipping[y]]
-    if not (factor(L, n_slipping) if damped else factor_symmetric(L, n_slipping)):
+                    reduced[x, column] += A[min(i, k), max(i, k)] * tangent.v[k, column]
+        for y in range(x, n_slipping):
+            U[x, y] = A[i, slipping[y]]
+    if not factor(U, n_slipping):
         return False
     for x in range(n_slipping):
         for y in range(x):
-            f = L[x, y] if damped else L[y, x] / L[y, y]
+            f = U[y, x] / U[y, y]
             for column in range(n_free):
                 reduced[x, column] -= f * reduced[y, column]
     for x in range(n_slipping - 1, -1, -1):
         for y in range(x + 1, n_slipping):
             for column in range(n_free):
-                reduced[x, column] -= L[x, y] * reduced[y, column]
+                reduced[x, column] -= U[x, y] * reduced[y, column]
         for column in range(n_free):
-            reduced[x, column] /= L[x, x]
+            reduced[x, column] /= U[x, x]
     x = 0
     for i in range(n):
         slips = state.mode[i] != 0
@@ -526,7 +529,7 @@ def _solve(
     return True
 
 
-@inner
+@entry_point
 def simulate_tangent(
     chain: Chain, joints: Joints, cables: Cables, holds: Array, free: Free, state: State, tangent: Tangent,
     durations: Array, steps: Array, before: Array, after: Array, drive_before: Array, drive_after: Array, q_out: Array,

@@ -12,7 +12,9 @@ Sgn being the set-valued sign (Moreau 1988; Acary and Brogliato, Numerical Metho
 2008, ch. 10): a joint sticks with v+ = 0 as long as the impulse that this takes is within h c, c being the dry friction
 of Eq. 13. Sticking is exact and needs no small steps. The modes (sticks, slips forward, slips backward) are found by
 an active set that starts from the modes of the step before. The friction of cables, Eq. 15, is linearised about the
-rates that are predicted for the end of the step, v + dv_p, where it is a damping that may be arbitrarily stiff.
+rates that are predicted for the end of the step, v + dv_p, where it is a damping that may be arbitrarily stiff. Of
+the derivative of a cable's torque only the symmetric part is implicit: what a hole takes from the tension depends on the
+slip there, and little on that at the holes before it.
 
 Linear springs and dampers cancel from the prediction, so that they are integrated by the implicit midpoint rule, which
 keeps their energy; all else is of second order in h while the modes stay.
@@ -36,8 +38,8 @@ from continuum.dynamics.spatial.chain import (
     new_placed,
     place,
 )
-from continuum.dynamics.spatial.compiling import inner, merged
-from continuum.dynamics.spatial.linear_systems import factor, factor_symmetric, solve, solve_symmetric
+from continuum.dynamics.spatial.compiling import entry_point, inner, merged
+from continuum.dynamics.spatial.linear_systems import factor, solve
 
 COMPLETE, NOT_FINITE, NO_MODES = 0, 1, 2
 """Status of a simulation: done; a state is not finite, or the mass matrix is singular; no modes satisfy their laws."""
@@ -103,8 +105,6 @@ class Work(NamedTuple):
     impulse: Array
     level: Array
     matrix: Array
-    damped: Array
-    shared: Array
     factor: Array
     right: Array
     step: Array
@@ -119,7 +119,7 @@ def new_work(n: int, cables: Cables) -> Work:
     integers = np.zeros(n, np.int64)
     return Work(
         new_placed(n), new_moving(n), new_paths(cables, n), new_pull(cables), np.empty(n), np.empty(n), np.empty(n),
-        np.empty(n), np.zeros(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty((n, n)), np.empty((n, n)), np.empty(n),
+        np.empty(n), np.zeros(n), np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.empty((n, n)),
         np.empty((n, n)), np.empty(n), np.empty(n), integers, integers.copy(), np.zeros(2, np.int64),
     )  # fmt: skip
 
@@ -176,7 +176,8 @@ def step(
         before[i] = mode[i]
     if cables.first.size > 1:
         trace(cables, chain.base, work.placed, work.paths)
-    status = _solve_for_change(joints, cables, holds, state, command, h, work)
+    _add_cables(cables, holds, state, command, h, work)
+    status = _solve_for_change(joints, state, h, work)
     if status != COMPLETE:
         return status
     for i in range(n):
@@ -195,16 +196,11 @@ def step(
 
 
 @merged
-def _solve_for_change(
-    joints: Joints, cables: Cables, holds: Array, state: State, command: Array, h: float, work: Work
-) -> int:
+def _solve_for_change(joints: Joints, state: State, h: float, work: Work) -> int:
     """Find modes and ``work.end_v`` that satisfy the step's equation and the laws of friction."""
     n = state.q.size
     mode, v, right, level, change, end_v = state.mode, state.v, work.right, work.level, work.step, work.end_v
-    factors, slipping, counts = work.factor, work.slipping, work.counts
-    damped = _linearise_cables(cables, holds, state, command, h, work)
-    matrix = work.damped if damped else work.matrix
-    counts[1] = damped
+    factors, slipping, counts, matrix = work.factor, work.slipping, work.counts, work.matrix
     for attempt in range(_MOST_SETS):
         n_slipping = 0
         for i in range(n):
@@ -214,35 +210,32 @@ def _solve_for_change(
         for x in range(n_slipping):
             i = slipping[x]
             total = right[i] - h * mode[i] * level[i]
-            for k in range(n):
-                if mode[k] == 0:
-                    total += matrix[i, k] * v[k]
+            if n_slipping < n:
+                for k in range(n):
+                    if mode[k] == 0:
+                        total += matrix[min(i, k), max(i, k)] * v[k]
             change[x] = total
-            for y in range(0 if damped else x, n_slipping):
+            for y in range(x, n_slipping):
                 factors[x, y] = matrix[i, slipping[y]]
-        if damped:
-            if not factor(factors, n_slipping):
-                return NOT_FINITE
-            solve(factors, change, n_slipping)
-        else:
-            if not factor_symmetric(factors, n_slipping):
-                return NOT_FINITE
-            solve_symmetric(factors, change, n_slipping)
+        if not factor(factors, n_slipping):
+            return NOT_FINITE
+        solve(factors, change, n_slipping)
         for i in range(n):
             end_v[i] = 0.0
         for x in range(n_slipping):
             end_v[slipping[x]] = v[slipping[x]] + change[x]
         counts[0] += 1
-        if not _change_modes(joints, state, matrix, h, work, attempt >= _AT_ONCE):
+        if not _change_modes(joints, state, h, work, attempt >= _AT_ONCE):
             return COMPLETE
     return NO_MODES
 
 
 @merged
-def _change_modes(joints: Joints, state: State, matrix: Array, h: float, work: Work, one_at_a_time: bool) -> bool:
+def _change_modes(joints: Joints, state: State, h: float, work: Work, one_at_a_time: bool) -> bool:
     """Change the modes of joints that violate their law; return whether there were any."""
     n, changed = state.q.size, False
     modes, coulomb, v, end_v, right, level = state.mode, joints.coulomb, state.v, work.end_v, work.right, work.level
+    matrix = work.matrix
     for i in range(n):
         mode = modes[i]
         if coulomb[i] == 0.0:
@@ -254,7 +247,7 @@ def _change_modes(joints: Joints, state: State, matrix: Array, h: float, work: W
         else:
             needed = right[i]  # impulse that would move the joint
             for k in range(n):
-                needed -= matrix[i, k] * (end_v[k] - v[k])
+                needed -= matrix[min(i, k), max(i, k)] * (end_v[k] - v[k])
             if abs(needed) > h * level[i] * (1.0 + 1e-9):
                 new = 1 if needed > 0.0 else -1
         if new != mode:
@@ -266,104 +259,81 @@ def _change_modes(joints: Joints, state: State, matrix: Array, h: float, work: W
 
 
 @merged
-def _linearise_cables(
-    cables: Cables, holds: Array, state: State, command: Array, h: float, work: Work
-) -> bool:
-    """Linearise the cables' torque by the rates at the end: fill ``work.right``, and ``work.damped`` if it depends on them.
+def _add_cables(cables: Cables, holds: Array, state: State, command: Array, h: float, work: Work) -> None:
+    """Fill ``work.right`` with the impulses of joints and cables; add the cables' damping to the matrix.
 
-    The friction at a hole is linearised at the slip that is predicted for the end of the step, or at zero where the slip
-    turns within the step: there the law is steepest, and the cable comes to rest instead of turning to and fro.
+    Hole k takes F_k = T_k (1 - exp(-mu phi_k s(w_k))) from the tension. Linearised about the slip w0, which is the one
+    predicted for the end of the step, the tension of segment j at the end is
 
-    Returns:
-        Whether the torque depends on the rates at the end.
+        T_j - sum_{k < j} D_k (w_k - w0_k),    D_k = dF_k/dw_k,    w_k = -sum_{l beyond k} dL/dq_l v+_l,
+
+    so that the damping of the angles i, l in segments j(i) <= j(l) is dL/dq_i dL/dq_l sum_{k < j(i)} D_k. Where the slip
+    turns within the step, w0 is zero: there the law is steepest, and the cable comes to rest instead of turning to and
+    fro. The spring of a cable whose motor holds a length damps all pairs of angles alike.
     """
     n = state.q.size
     first, body, friction, steepness = cables.first, cables.body, cables.friction, cables.slope
     paths, pull, v, end_v, change = work.paths, work.pull, state.v, work.end_v, work.change
     gradient, length, bend = paths.gradient, paths.length, paths.bend
-    slip, rest, slope, tension = pull.slip, pull.rest, pull.slope, pull.tension
-    base, base_slope, right, impulse = pull.base, pull.base_slope, work.right, work.impulse
-    undamped, damped = work.matrix, work.damped
+    slip, turns, tension, damping = pull.slip, pull.turns, pull.tension, pull.damping
+    base, base_damping, right, impulse, matrix = pull.base, pull.base_damping, work.right, work.impulse, work.matrix
     for i in range(n):
         right[i] = impulse[i]
-    is_damped = False
     for c in range(first.size - 1):
         begin, end, mu, steep = first[c], first[c + 1], friction[c], steepness[c]
-        base[c], base_slope[c] = command[c], 0.0
+        base[c], base_damping[c] = command[c], 0.0
+        inmost, outmost = body[begin] + 1, body[end - 1] + 1
+        offset = 0.0
         if holds[c]:
-            stretch, rate = -command[c], 0.0
+            stretch, rate, late = -command[c], 0.0, 0.0
             for k in range(begin + 1, end):
                 stretch += length[k]
-                for i in range(body[k - 1] + 1, body[k] + 1):
-                    rate += 0.5 * gradient[c, i] * (v[i] + end_v[i])
+            for i in range(inmost, outmost):
+                rate += 0.5 * gradient[c, i] * (v[i] + end_v[i])
+                late += gradient[c, i] * change[i]
             pulled = cables.stiffness[c] * stretch + cables.damping[c] * rate
-            base[c] = max(pulled, 0.0)
-            base_slope[c] = 0.25 * h * cables.stiffness[c] + 0.5 * cables.damping[c] if pulled > 0.0 else 0.0
-        rubs = mu > 0.0 and base[c] > 0.0
+            if pulled > 0.0:
+                base[c], base_damping[c] = pulled, 0.25 * h * cables.stiffness[c] + 0.5 * cables.damping[c]
+                offset = -base_damping[c] * late
+            else:
+                base[c] = 0.0
+        if base[c] <= 0.0:
+            continue
+        rubs = mu > 0.0
         if rubs:
             beyond, before = 0.0, 0.0
             for k in range(end - 1, begin, -1):
-                turns = beyond * before < 0.0
-                slip[k] = 0.0 if turns else beyond
-                rest[k] = -beyond if turns else 0.0
+                turns[k] = beyond * before < 0.0
+                slip[k] = 0.0 if turns[k] else beyond
+                damping[k] = before  # the slip at the begin of the step, until the damping is known
                 for i in range(body[k - 1] + 1, body[k] + 1):
                     beyond -= gradient[c, i] * end_v[i]
                     before -= gradient[c, i] * v[i]
-        pulling, sticks = base[c], base_slope[c] != 0.0
+        pulling, shared = base[c], base_damping[c]
         for k in range(begin + 1, end):
             tension[k] = pulling
             for i in range(body[k - 1] + 1, body[k] + 1):
-                right[i] -= h * pulling * gradient[c, i]
+                g = gradient[c, i]
+                right[i] -= h * (pulling + offset) * g
+                if shared != 0.0:
+                    g *= h * shared
+                    for j in range(i, outmost):
+                        matrix[i, j] += g * gradient[c, j]
             if rubs and k < end - 1:
                 x = steep * slip[k]
+                before = damping[k]
                 if abs(x) > SATURATED:
-                    sign, slope[k] = np.sign(x), 0.0
+                    pulling *= np.exp(-mu * bend[k] if x > 0.0 else mu * bend[k])
+                    damping[k] = 0.0
                 else:
                     sign = np.tanh(x)
-                    slope[k] = steep * (1.0 - sign * sign)
-                    sticks = True
-                pulling *= np.exp(-mu * bend[k] * sign)
-        if sticks:
-            if not is_damped:
-                is_damped = True
-                for i in range(n):
-                    for k in range(n):
-                        damped[i, k] = undamped[i, k]
-            _add_damping(cables, h, work, c)
-    return is_damped
+                    pulling *= np.exp(-mu * bend[k] * sign)
+                    damping[k] = pulling * mu * bend[k] * steep * (1.0 - sign * sign)
+                    shared += damping[k]
+                    offset -= damping[k] * (before - slip[k])
 
 
-@merged
-def _add_damping(cables: Cables, h: float, work: Work, c: int) -> None:
-    """Add the slope of cable c's torque by the rates at the end to the matrix, and its value there to the right side.
-
-    Segment j is slowed by the rates of all segments m that lie beyond a hole k < min(j, m), with the weight
-    T_j mu phi_k ds/dw; a tension at the base that depends on the rate of the whole length slows every pair.
-    """
-    begin, end, body, gradient = cables.first[c], cables.first[c + 1], cables.body, work.paths.gradient
-    tension, slope, rest, bend, mu = work.pull.tension, work.pull.slope, work.pull.rest, work.paths.bend, cables.friction[c]
-    damped, shared, right, predicted = work.damped, work.shared, work.right, work.change
-    share = h * work.pull.base_slope[c] / work.pull.base[c] if work.pull.base[c] > 0.0 else 0.0
-    turned = 0.0  # what the slip at the predicted end would change beyond the point of linearisation
-    inmost, outmost = body[begin] + 1, body[end - 1] + 1
-    for j in range(begin + 1, end):
-        inside, outside = body[j - 1] + 1, body[j] + 1
-        for i in range(inside, outside):
-            along, value = tension[j] * gradient[c, i], 0.0
-            shared[i] = share * gradient[c, i]
-            for k in range(inmost, inside):
-                damped[i, k] += along * shared[k]
-                value += shared[k] * predicted[k]
-            for k in range(inside, outmost):
-                damped[i, k] += along * share * gradient[c, k]
-                value += share * gradient[c, k] * predicted[k]
-            right[i] += along * (value + turned)
-        weight = h * mu * bend[j] * slope[j]
-        share += weight
-        turned -= weight * rest[j]
-
-
-@inner
+@entry_point
 def simulate(
     chain: Chain, joints: Joints, cables: Cables, holds: Array, state: State, durations: Array, steps: Array,
     before: Array, after: Array, drive_before: Array, drive_after: Array, q_out: Array, v_out: Array,
