@@ -430,47 +430,55 @@ def _path_tangent(cables: Cables, base: Array, c: int, work: Work, storage: Tang
                 for column in range(n_free):
                     bent[k - 1, column] -= cosine / np.sin(bend[k - 1]) * q_p[m, column]
     for e in range(free.kind.size):
-        k = free.index[e]
-        if free.kind[e] == HOLE and begin <= k < end:
-            _move_hole(cables, base, c, k, free.part[e], free.column[e], free.factor[e], work, storage)
+        kind, index, part, column, size = free.kind[e], free.index[e], free.part[e], free.column[e], free.factor[e]
+        if kind == HOLE and begin <= index < end:
+            on = body[index]
+            for a in range(3):
+                across[a] = size * (placed.rotation[on, a, part] if on >= 0 else base[a, part])
+            _move_end(cables, c, index, 1.0, across, on + 1, column, work, storage)
+            _move_end(cables, c, index + 1, -1.0, across, 0, column, work, storage)
+        elif kind == OFFSET:
+            for k in range(begin + 1, end):
+                if body[k - 1] < index <= body[k]:
+                    for a in range(3):
+                        across[a] = size * (placed.rotation[index - 1, a, part] if index else base[a, part])
+                    _move_end(cables, c, k, 1.0, across, index, column, work, storage)
 
 
 @inner
-def _move_hole(
-    cables: Cables, base: Array, c: int, k: int, part: int, column: int, size: float, work: Work,
+def _move_end(
+    cables: Cables, c: int, s: int, sign: float, moved: Array, fixed: int, column: int, work: Work,
     storage: TangentWork,
-) -> None:
-    """Derivatives of gradients, bends and length of cable c by the position of its hole k."""
+) -> None:  # fmt: skip
+    """Add derivatives of gradients, bends and length of cable c as an end of its segment s moves by ``moved`` (3,).
+
+    It is the outer end with ``sign`` 1 and the inner one with -1. The axes of the degrees of freedom before ``fixed``
+    stay where they are, those of the others move along.
+    """
     begin, end, body = cables.first[c], cables.first[c + 1], cables.body
+    if s <= begin or s >= end:
+        return
     paths, placed = work.paths, work.placed
-    moved, change, u = np.empty(3), np.empty(3), np.empty(3)
+    change, u = np.empty(3), np.empty(3)
+    E, L = paths.direction[s], paths.length[s]
+    along = E[0] * moved[0] + E[1] * moved[1] + E[2] * moved[2]
+    storage.length[column] += sign * along
     for a in range(3):
-        turn = placed.rotation[body[k], a, part] if body[k] >= 0 else base[a, part]
-        moved[a] = size * turn
-    for side in range(2):  # the segment that ends at the hole, then the one that begins there
-        s = k + side
-        if s <= begin or s >= end:
-            continue
-        sign = 1.0 - 2.0 * side
-        E, L = paths.direction[s], paths.length[s]
-        along = E[0] * moved[0] + E[1] * moved[1] + E[2] * moved[2]
-        storage.length[column] += sign * along
-        for a in range(3):
-            change[a] = sign * (moved[a] - along * E[a]) / L
-        for i in range(body[s - 1] + 1, body[s] + 1):
-            _velocity(placed.screw, i, paths.place, s, u)
-            value = change[0] * u[0] + change[1] * u[1] + change[2] * u[2]
-            if side == 0:
-                S = placed.screw[i]
-                value += E[0] * (S[1] * moved[2] - S[2] * moved[1]) + E[1] * (S[2] * moved[0] - S[0] * moved[2])
-                value += E[2] * (S[0] * moved[1] - S[1] * moved[0])
-            storage.gradient[i, column] += value
-        for other in (s - 1, s + 1):
-            at = s - 1 if other < s else s  # the hole between the two segments
-            if begin < other < end and paths.bend[at] > 0.0:
-                F = paths.direction[other]
-                cosine = change[0] * F[0] + change[1] * F[1] + change[2] * F[2]
-                storage.bend[at, column] -= cosine / np.sin(paths.bend[at])
+        change[a] = sign * (moved[a] - along * E[a]) / L
+    for i in range(body[s - 1] + 1, body[s] + 1):
+        _velocity(placed.screw, i, paths.place, s, u)
+        value = change[0] * u[0] + change[1] * u[1] + change[2] * u[2]
+        if i < fixed:
+            S = placed.screw[i]
+            value += E[0] * (S[1] * moved[2] - S[2] * moved[1]) + E[1] * (S[2] * moved[0] - S[0] * moved[2])
+            value += E[2] * (S[0] * moved[1] - S[1] * moved[0])
+        storage.gradient[i, column] += value
+    for other in (s - 1, s + 1):
+        at = s - 1 if other < s else s  # the hole between the two segments
+        if begin < other < end and paths.bend[at] > 0.0:
+            F = paths.direction[other]
+            cosine = change[0] * F[0] + change[1] * F[1] + change[2] * F[2]
+            storage.bend[at, column] -= cosine / np.sin(paths.bend[at])
 
 
 @inner
