@@ -231,7 +231,7 @@ def test_a_lost_sensor_is_reported_once_and_the_cables_are_let_go(pulling, recor
     pulling.command_until([8.0, 0.0], lambda: pulling.state == "inactive")
     node.wait_for_line("fell back to inactive, cables slack: the angles are lost since ")
     assert re.search(
-        r"the angles are lost since \d+\.\d\d s: (sensor 3 is missing|no frames of the sensors)", node.stderr
+        r"the angles are lost since \d+\.\d\d s: .*(sensor 3 is missing|no frames of the sensors)", node.stderr
     )
     begins = release_begins(bench)
     if (
@@ -271,8 +271,12 @@ def test_cables_are_let_go_when_no_frames_of_the_sensors_come(pulling):
     pulling.wait_for_level("angles", "ERROR", "no frames of the sensors")
     pulling.activate()
     refused = pulling.probe.count(pulling.name, "dropped: angles lost")
-    pulling.command_until([8.0, 0.0], lambda: pulling.probe.count(pulling.name, "dropped: angles lost") > refused + 3)
-    assert not any(bench.status["set_points"])
+    pulling.command_until(
+        [8.0, 0.0],
+        # at most a second after the activation, in which a busy node knew of nothing yet
+        lambda: pulling.probe.count(pulling.name, "dropped: angles lost") > refused + 3 or pulling.state == "inactive",
+    )
+    pulling.probe.wait_until(lambda: not any(bench.status["set_points"]), "slack cables")
     bench.tell("clear")
     pulling.wait_for_joints()
     pull(pulling)
