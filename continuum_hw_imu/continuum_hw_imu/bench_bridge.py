@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from functools import partial
@@ -269,10 +270,12 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             tension_parameters.report_abandoned(self.diagnostics, self._limits)
 
     def _blind(self) -> str:
-        """Describe why angles are lost for too long; empty if they are not, and without a calibration."""
+        """Describe why angles are lost for too long or not known yet; empty without a calibration."""
         streams = self._streams
         if streams.steps.missing or streams.lost_for <= self.values["lost_angles_timeout"]:
             return ""
+        if math.isinf(streams.lost_for):
+            return f"no angles are known yet: {streams.doubt}"
         return f"the angles are lost since {streams.lost_for:.2f} s: {streams.doubt}"
 
     def _uncalibrated(self) -> str:

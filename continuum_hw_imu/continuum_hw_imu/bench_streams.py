@@ -5,6 +5,7 @@ All of it happens in the thread that reads the port, so that nothing delays it.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Sequence
 
@@ -68,7 +69,7 @@ class BenchStreams:
         latency: latency from the last byte of a frame to its published joint states.
         doubt: why the angles of the latest sample are not known; empty if they are.
         lost_for: time from the latest sample with known angles to the latest frame of any kind, by the device's clock
-            [s].
+            [s]; infinite before the first such sample of a bench.
         withheld: number of samples whose joint states were not published for that reason.
         age: age of the newest sample when its bytes arrived [s].
         oldest: largest such age since the last diagnostics [s].
@@ -91,13 +92,14 @@ class BenchStreams:
         self._conversation = 0
         self._known_at: float | None = None  # device time of the latest sample with known angles [s]
         self._sampled_at: float | None = None  # device time of the latest sample [s]
+        self._latest_at: float | None = None  # device time of the latest frame of any kind [s]
         self.publishing = False
         self.steps = steps
         self.watch: SensorWatch | None = None
         self.problem = ""
         self.latency = LatencyMeter()
         self.doubt = ""
-        self.lost_for = 0.0
+        self.lost_for = math.inf
         self.withheld = 0
         self.unfit = 0
         self.age = self.oldest = 0.0
@@ -138,14 +140,15 @@ class BenchStreams:
         self.publishing = False
 
     def calibrated(self, steps: CalibrationSteps) -> None:
-        """Use other steps from now on; the angles have to be found anew."""
-        self.steps, self._known_at = steps, None
+        """Use other steps from now on; the angles have to be found anew, and count as known until now."""
+        self.steps, self._known_at = steps, self._latest_at
 
     def _greet(self, hello: Hello) -> None:
         """Start over with another bench, or with the same one after its restart."""
         self.problem = mismatch(hello, len(self._sensors), len(self._planar.cables))
         self.watch = None if self.problem else SensorWatch(hello, self.steps)
-        self.tension, self._known_at, self._sampled_at = None, None, None
+        self.tension, self._known_at, self._sampled_at, self._latest_at = None, None, None, None
+        self.lost_for = math.inf
 
     def _judge(self, watch: SensorWatch, received: Received) -> None:
         """Note whether the angles of a sample are known."""
@@ -156,10 +159,9 @@ class BenchStreams:
 
     def _note_lost(self, received: Received) -> None:
         """Note for how long no angles are known at a frame of any kind: frames of the sensors may fail to come."""
-        now, known_at = received.device_time / MICROSECONDS, self._known_at  # another thread may forget it
-        if known_at is None:
-            known_at = self._known_at = now
-        self.lost_for = max(0.0, now - known_at)
+        self._latest_at = now = received.device_time / MICROSECONDS
+        known_at = self._known_at  # another thread may move it
+        self.lost_for = math.inf if known_at is None else max(0.0, now - known_at)
         self._sampled_at = now if self._sampled_at is None else self._sampled_at
         if now - self._sampled_at > LOST:
             self.doubt = "no frames of the sensors"

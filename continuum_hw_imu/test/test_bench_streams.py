@@ -80,8 +80,10 @@ def test_nothing_is_known_before_a_rest_and_then_everything_is():
     published.measure(5)
     assert not published.joints
     assert published.streams.withheld == 5
+    assert published.streams.lost_for == np.inf
     published.measure(60)
     assert published.joints
+    assert published.streams.lost_for == 0.0
     np.testing.assert_allclose(published.joints[-1].position, np.zeros(N + 2), atol=1e-6)
     assert [len(imu) for imu in published.imus] == [65] * N
 
@@ -292,6 +294,7 @@ def test_a_bench_that_begins_again_has_to_rest_again():
     published.joints.clear()
     published.measure(5)
     assert not published.joints
+    assert published.streams.lost_for == np.inf
     published.measure(60)
     assert published.joints
 
