@@ -232,11 +232,13 @@ def test_angles_are_lost_when_no_frames_of_the_sensors_come(unfit):
         if unfit:
             bench.say(ImuFrame.of(6, np.zeros((3, 3)), UP[:3], np.full(3, PRESENT)))
     assert streams.lost_for == pytest.approx(1.0, abs=1e-3)
+    assert streams.silent
     assert published.status("angles").level == DiagnosticStatus.ERROR
     assert "no frames of the sensors" in published.status("angles").message
     bench.say(TensionFrame((1.0, 0.0), (1.02, -0.03)))
     assert not published.cables[-1].position
     published.measure(120)
+    assert not streams.silent
     assert streams.lost_for == 0.0
     assert not streams.doubt
 
