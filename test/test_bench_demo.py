@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from harness.marked import Mark
+from harness.waiting import LONG
 
 from continuum.inertial.calibration_values import load_calibration
 from continuum.recordings.recording_bag import read_recording_bag
@@ -25,7 +27,12 @@ def test_bench_is_calibrated_pulled_released_and_recorded(domain, tmp_path):
     out = tmp_path / "out"
     words = [sys.executable, "-m", "tools.demo.bench", "--no-diagnosis", "--out", str(out)]
     environment = os.environ | {"ROS_DOMAIN_ID": str(domain)}
-    done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=300)
+    mark = Mark()
+    try:
+        environment |= mark.environment
+        done = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=2 * LONG)
+    finally:
+        mark.kill()
     if TOO_BUSY in done.stderr:
         pytest.skip(done.stderr.strip())
     assert done.returncode == 0, done.stderr + (out / "nodes.log").read_text()

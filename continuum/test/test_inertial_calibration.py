@@ -134,7 +134,7 @@ def test_a_zero_from_a_known_posture_is_the_straight_one(recording: ImuRecording
 
 def test_steps_say_what_is_missing_and_what_each_was_found_from(recording: ImuRecording, rest: ImuRecording) -> None:
     nothing = CalibrationSteps()
-    assert nothing.missing == ("bias", "axis", "zero")
+    assert nothing.missing == ("bias", "zero", "axis")
     assert nothing.complete() is None
     with pytest.raises(MeasurementError, match="no axes without the bias"):
         nothing.with_axis(recording)

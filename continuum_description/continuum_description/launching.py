@@ -60,13 +60,13 @@ def launch_file(
         processes: returns what is started, from the values of the arguments.
     """
 
-    def checked(context: LaunchContext) -> Sequence[Node | ExecuteProcess]:
+    def checked(context: LaunchContext) -> Sequence[RegisterEventHandler | Node | ExecuteProcess]:
         refuse_unknown(Path(file), [one.name for one in arguments], sys.argv)
-        return processes(context.launch_configurations)
+        started = processes(context.launch_configurations)
+        handlers = [OnProcessExit(target_action=process, on_exit=miss) for process in started]
+        return [*map(RegisterEventHandler, handlers), *started]
 
-    return LaunchDescription(
-        [*arguments, RegisterEventHandler(OnProcessExit(on_exit=miss)), OpaqueFunction(function=checked)]
-    )
+    return LaunchDescription([*arguments, OpaqueFunction(function=checked)])
 
 
 def refuse_unknown(file: Path, known: Sequence[str], words: Sequence[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from functools import partial
@@ -47,8 +48,8 @@ AUTOSTART_PERIOD = 1.0
 
 CALIBRATE = {
     "bias": "~/calibrate_bias (at rest)",
-    "axis": "~/find_axes (after a bend towards cable 1 and back)",
     "zero": "~/zero (at rest and straight)",
+    "axis": "~/find_axes (after a bend towards cable 1 and back)",
 }
 """Service that finds each step of the calibration."""
 
@@ -90,6 +91,8 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         self._to_come = self.values["autostart"] != AUTOSTARTS[0]
         self._autostart_at = 0.0
         self._waits_for = ""
+        self._all_lost = False
+        self._link_problem = ""
         self.listen(CableStates, COMMANDS, self._on_command, timed=True)
         rest_time = self.values["rest_time"]
         services: dict[str, Callable[[], str]] = {
@@ -158,6 +161,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             self._refuse("activate", problem)
             return FAILED
         self._streams.publishing = True
+        self.get_logger().info("active: publishes, and passes tension commands on")
         return self._reached("activate")
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002
@@ -255,7 +259,8 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         if commander.keep_up(now):
             self._to_come = False
             self.diagnostics.warnings.note("stopped", "by the bench, until ~/reset_stop")
-        self._tell_of_sensors()
+        self._report_link()
+        self._report_sensors()
         if self._state != State.PRIMARY_STATE_ACTIVE:
             return
         problem = commander.problem() or (self._blind() if commander.gate.is_tight else "")
@@ -269,11 +274,15 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
             tension_parameters.report_abandoned(self.diagnostics, self._limits)
 
     def _blind(self) -> str:
-        """Describe why angles are lost for too long; empty if they are not, and without a calibration."""
+        """Describe why angles are lost for too long or not known yet; empty without a calibration."""
         streams = self._streams
-        if streams.steps.missing or streams.lost_for <= self.values["lost_angles_timeout"]:
+        unread = max(0.0, time.monotonic() - streams.frame_read)  # for which the thread of the port had no turn
+        lost_for = streams.lost_for + unread
+        if streams.steps.missing or lost_for <= self.values["lost_angles_timeout"]:
             return ""
-        return f"the angles are lost since {streams.lost_for:.2f} s: {streams.doubt}"
+        if math.isinf(lost_for):
+            return f"no angles are known yet: {streams.doubt}"
+        return f"the angles are lost since {lost_for:.2f} s: {streams.doubt or 'the port is not read'}"
 
     def _uncalibrated(self) -> str:
         """Describe what is missing of the calibration that an active node needs; empty if nothing is."""
@@ -283,9 +292,23 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         calls = ", ".join(CALIBRATE[step] for step in missing)
         return f"not calibrated: no {', no '.join(missing)}; call {calls}, or set the parameter allow_uncalibrated"
 
-    def _tell_of_sensors(self) -> None:
-        """Log each loss, those of a burst together, and each return of a sensor in one line."""
-        watch = self._streams.watch
+    def _report_link(self) -> None:
+        """Log the loss and the return of the link in one line each; an active node falls back with a line."""
+        problem = "" if self._commander.client is None else self._commander.line_problem()
+        if problem and not self._link_problem and self._state == State.PRIMARY_STATE_INACTIVE:
+            self.diagnostics.warnings.note("the link is lost", problem)
+        elif self._link_problem and not problem and self._commander.client is not None:
+            self.get_logger().info("the link is back")
+        self._link_problem = problem
+
+    def _report_sensors(self) -> None:
+        """Log each loss, those of a burst together, and each return of a sensor, or of all, in one line."""
+        watch, silent = self._streams.watch, self._streams.silent
+        if silent and not self._all_lost:
+            self.diagnostics.warnings.note("all sensors are lost", "no frames of the sensors, while others come")
+        elif self._all_lost and not silent:
+            self.get_logger().info("the frames of the sensors are back")
+        self._all_lost = silent
         while watch is not None and watch.news:
             news = watch.news.popleft()
             if news.lost:
@@ -315,6 +338,7 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         """Carry out a request, and answer with the result or the reason of the failure."""
         try:
             response.message, response.success = carry_out(), True
+            self.get_logger().info(response.message)
         except ContinuumError as error:
             response.message = str(error)
         return response
@@ -324,6 +348,8 @@ class BenchBridgeNode(LifecycleNodeMixin, CheckedNode):
         if watch is None or problem:
             raise InvalidValueError("bench", problem or "unknown", "a matching bench that is configured and connected")
         step(watch)
+        if watch is not self._streams.watch:
+            raise InvalidValueError("bench", "restarted during the calibration", "a bench that stays; repeat the step")
         self._streams.calibrated(watch.steps)
         calibration, file = watch.steps.complete(), self.values["calibration"]
         if calibration is None:

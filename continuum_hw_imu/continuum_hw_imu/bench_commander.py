@@ -10,7 +10,7 @@ from continuum.dynamics.live.tension_limit import TensionLimits
 from continuum.errors import ContinuumError
 from continuum_hw_imu.command_gate import CommandGate
 from continuum_hw_imu.link.bench_client import BenchClient
-from continuum_hw_imu.protocol.messages import GuardState, Result
+from continuum_hw_imu.protocol.messages import Cause, GuardState, Result
 
 SILENT = 0.5
 """Time without a frame after which a bench counts as silent [s]."""
@@ -67,7 +67,13 @@ class BenchCommander:
     def problem(self) -> str:
         """Problem that blocks tension to a claimed bench; empty if there is none."""
         problem = self.line_problem() or (STOPPED if self.gate.stopped else "")
-        return problem or ("" if self.client.commands else "this node is no longer the bench's commander")
+        return problem or ("" if self.client.commands else self._why_no_commander())
+
+    def _why_no_commander(self) -> str:
+        status = self.client.conversation.status
+        if status is not None and status.cause is Cause.HEARTBEATS_STOPPED:
+            return "the bench missed this node's heartbeats, as of a machine that is too busy; activate the node again"
+        return "this node is no longer the bench's commander; activate it again"
 
     def begin(self) -> str:
         """Claim the bench, waiting for slack cables, and open the gate; return the reason of a failure, or ""."""

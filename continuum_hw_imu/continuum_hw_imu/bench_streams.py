@@ -5,6 +5,7 @@ All of it happens in the thread that reads the port, so that nothing delays it.
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Sequence
 
@@ -34,6 +35,9 @@ SAME = 1e-5
 
 FRESH = 0.1
 """Largest age of joint angles that are combined with a measured tension [s]."""
+
+SILENT = 0.5
+"""Time without frames of the sensors after which all of them count as lost [s]."""
 
 RIGHT = np.radians(1.5)
 """Error beyond which an angle is wrong [rad]."""
@@ -67,8 +71,10 @@ class BenchStreams:
         problem: description of why the bench does not match.
         latency: latency from the last byte of a frame to its published joint states.
         doubt: why the angles of the latest sample are not known; empty if they are.
+        frame_read: time at which the latest frame was read from the port, by `time.monotonic` [s].
         lost_for: time from the latest sample with known angles to the latest frame of any kind, by the device's clock
-            [s].
+            [s]; infinite before the first such sample of a bench.
+        silent: whether no frames of the sensors come for `SILENT` while others do.
         withheld: number of samples whose joint states were not published for that reason.
         age: age of the newest sample when its bytes arrived [s].
         oldest: largest such age since the last diagnostics [s].
@@ -91,13 +97,16 @@ class BenchStreams:
         self._conversation = 0
         self._known_at: float | None = None  # device time of the latest sample with known angles [s]
         self._sampled_at: float | None = None  # device time of the latest sample [s]
+        self._latest_at: float | None = None  # device time of the latest frame of any kind [s]
         self.publishing = False
         self.steps = steps
         self.watch: SensorWatch | None = None
         self.problem = ""
         self.latency = LatencyMeter()
         self.doubt = ""
-        self.lost_for = 0.0
+        self.frame_read = math.inf
+        self.lost_for = math.inf
+        self.silent = False
         self.withheld = 0
         self.unfit = 0
         self.age = self.oldest = 0.0
@@ -108,7 +117,7 @@ class BenchStreams:
         if isinstance(received.message, Hello) and received.conversation != self._conversation:
             self._greet(received.message)
             self._conversation = received.conversation
-        watch = self.watch
+        watch, publishing = self.watch, self.publishing
         if watch is None or received.conversation != self._conversation:
             return
         match received.message:
@@ -116,9 +125,9 @@ class BenchStreams:
                 sample = watch.take(received, frame)
                 self.age = received.read - received.time
                 self.oldest = max(self.oldest, self.age)
-                self._judge(watch, received)
+                self._judge(watch, received, publishing)
                 self._note_lost(received)
-                if self.publishing:
+                if publishing:
                     stamp = self._stamp(received)
                     self._publish_joints(watch, received, stamp)
                     if received.error <= LONGEST_ERROR:
@@ -126,7 +135,7 @@ class BenchStreams:
             case TensionFrame() as frame if len(frame.set_points) == len(self._planar.cables):
                 self._note_lost(received)
                 self.tension = frame
-                if self.publishing and received.error <= LONGEST_ERROR:
+                if publishing and received.error <= LONGEST_ERROR:
                     self._publish_cables(watch, received, frame)
             case message:
                 self._note_lost(received)
@@ -138,29 +147,31 @@ class BenchStreams:
         self.publishing = False
 
     def calibrated(self, steps: CalibrationSteps) -> None:
-        """Use other steps from now on; the angles have to be found anew."""
-        self.steps, self._known_at = steps, None
+        """Use other steps from now on; the angles have to be found again, and count as known until now."""
+        self.steps, self._known_at = steps, self._latest_at
 
     def _greet(self, hello: Hello) -> None:
         """Start over with another bench, or with the same one after its restart."""
         self.problem = mismatch(hello, len(self._sensors), len(self._planar.cables))
         self.watch = None if self.problem else SensorWatch(hello, self.steps)
-        self.tension, self._known_at, self._sampled_at = None, None, None
+        self.tension, self._known_at, self._sampled_at, self._latest_at = None, None, None, None
+        self.lost_for = math.inf
 
-    def _judge(self, watch: SensorWatch, received: Received) -> None:
+    def _judge(self, watch: SensorWatch, received: Received, publishing: bool) -> None:
         """Note whether the angles of a sample are known."""
         self._sampled_at = received.device_time / MICROSECONDS
-        self.doubt = _doubt(watch.estimate, self._sampled_at, received.error if self.publishing else 0.0)
+        self.doubt = _doubt(watch.estimate, self._sampled_at, received.error if publishing else 0.0)
         if not self.doubt:
             self._known_at = self._sampled_at
 
     def _note_lost(self, received: Received) -> None:
         """Note for how long no angles are known at a frame of any kind: frames of the sensors may fail to come."""
-        now, known_at = received.device_time / MICROSECONDS, self._known_at  # another thread may forget it
-        if known_at is None:
-            known_at = self._known_at = now
-        self.lost_for = max(0.0, now - known_at)
+        self._latest_at = now = received.device_time / MICROSECONDS
+        known_at = self._known_at  # another thread may move it
+        self.frame_read = received.read
+        self.lost_for = math.inf if known_at is None else max(0.0, now - known_at)
         self._sampled_at = now if self._sampled_at is None else self._sampled_at
+        self.silent = now - self._sampled_at > SILENT
         if now - self._sampled_at > LOST:
             self.doubt = "no frames of the sensors"
 

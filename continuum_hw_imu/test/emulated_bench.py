@@ -11,9 +11,11 @@ from contextlib import AbstractContextManager, ExitStack, contextmanager, suppre
 from pathlib import Path
 
 import numpy as np
+import pytest
 from harness import NodeProcess, Probe, ended_in_any_case, wait_until
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetState
+from scipy.interpolate import CubicHermiteSpline
 from sensor_msgs.msg import Imu, JointState
 from std_srvs.srv import Trigger
 
@@ -30,6 +32,9 @@ from continuum_manipulator.nodekit.two_clocks import read_together
 from continuum_msgs.msg import CableStates
 
 COMMAND_PERIOD = 1 / 30  # s
+FARTHEST = np.radians(1.5)
+"""A single angle that is further off the truth is wrong: five times what the sensors may err at rest."""
+TOO_BUSY = 60.0  # s; without known times of the samples
 ASK_AGAIN = 3.0  # s; longer than the bridge waits for the bench
 CABLES = ["section_1_cable_1", "section_1_cable_2"]
 N_SENSORS = 5
@@ -213,14 +218,35 @@ class Bridge:
         )
 
     def wait_while_active(self, condition, what) -> None:
-        """Wait for what an active node does, and activate it again where it loses its claim, as on a busy machine."""
+        """Wait for what an active node does, and activate it again where it loses its claim, as on a busy machine.
+
+        The test is skipped where this machine is too busy for the bridge to know when the samples were taken; the
+        angles that it did publish have to be right.
+        """
+        too_long = time.monotonic() + TOO_BUSY
 
         def holds() -> bool:
-            if not condition() and self.state != "active":
+            if condition():
+                return True
+            if self.state != "active":
                 self.activate()
-            return condition()
+            doubt = self.diagnostic("angles").get("message", "") if time.monotonic() > too_long else ""
+            if "the time of the sample is" in doubt:
+                assert_no_wrong_angle(self, self.joints)
+                skip_if_busy(doubt)
+            return bool(condition())
 
-        self.probe.wait_until(holds, what)
+        self._wait_if_not_busy(holds, what)
+
+    def _wait_if_not_busy(self, condition, what) -> None:
+        """Wait; where the machine is too busy for it, skip the test if all angles so far were right."""
+        try:
+            self.probe.wait_until(condition, what)
+        except AssertionError as error:
+            assert_no_wrong_angle(self, self.joints)
+            if is_busy():
+                pytest.skip(f"this machine is too busy: {error}")
+            raise
 
     def wait_for_state(self, label: str) -> None:
         self.probe.wait_until(lambda: self.state == label, lambda: f"{label}; {self.node.stderr}")
@@ -268,6 +294,7 @@ class Bridge:
         The bench lets go of a commander that was silent, as on a machine that was busy for long, also before this
         begins.
         """
+        due = time.monotonic()
 
         def dropped() -> int:
             return self.probe.count(self.name, "dropped: not active")
@@ -275,13 +302,16 @@ class Bridge:
         seen = dropped()
 
         def done() -> bool:
-            nonlocal seen
+            nonlocal seen, due
+            if time.monotonic() >= due:
+                self.command(effort)
+                due = time.monotonic() + COMMAND_PERIOD
             if dropped() > seen:
                 seen = dropped()
                 self.activate()
             return until()
 
-        self.command_until(effort, done)
+        self._wait_if_not_busy(done, lambda: f"what is pulled for; {self.bench.status}; {self.node.stderr}")
 
     def calibrate(self) -> list[str]:
         """At rest, straight, and after a bend towards cable 1; what the services answered."""
@@ -306,6 +336,43 @@ class Bridge:
 
         self.probe.wait_until(succeeded, lambda: f"{name}: {answers[-1].message}")
         return answers[-1].message
+
+
+def angles_and_truth(bridge, joints):
+    """Joint angles as published, (n, n_joints), and the true ones at their stamps, each [rad].
+
+    Between two rows of the truth, 17 ms apart, by angles and rates: a line would be half a degree off where an arm is
+    let go.
+    """
+    truth = bridge.bench.truth()
+    at = np.array([bridge.monotonic(message) for message in joints])
+    inside = (at > truth["monotonic_s"][0]) & (at < truth["monotonic_s"][-1])
+    real = CubicHermiteSpline(truth["monotonic_s"], truth["theta"], truth["theta_rate"])(at[inside])
+    return np.array([message.position[1:-1] for message in joints])[inside], real
+
+
+def rms_degrees(difference) -> float:
+    return float(np.degrees(np.sqrt(np.mean(difference**2))))
+
+
+def assert_no_wrong_angle(bridge: Bridge, joints) -> None:
+    if not joints:
+        return  # as of a starved bridge
+    off = np.abs(np.subtract(*angles_and_truth(bridge, joints)))
+    assert off.max() < FARTHEST, np.degrees(off.max(axis=1))
+
+
+def is_busy() -> bool:
+    """Whether twice as many processes want a processor as there are."""
+    return os.getloadavg()[0] > 2.0 * len(os.sched_getaffinity(0))
+
+
+def skip_if_busy(reason: str) -> None:
+    """Skip the test where the machine is too busy for it; fail elsewhere."""
+    load = f"load {os.getloadavg()[0]:.1f} on {len(os.sched_getaffinity(0))} processors"
+    if is_busy():
+        pytest.skip(f"{reason}; {load}")
+    pytest.fail(f"{reason}; {load}")
 
 
 def save_true_calibration(file: Path) -> Path:

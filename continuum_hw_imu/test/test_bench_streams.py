@@ -80,8 +80,10 @@ def test_nothing_is_known_before_a_rest_and_then_everything_is():
     published.measure(5)
     assert not published.joints
     assert published.streams.withheld == 5
+    assert published.streams.lost_for == np.inf
     published.measure(60)
     assert published.joints
+    assert published.streams.lost_for == 0.0
     np.testing.assert_allclose(published.joints[-1].position, np.zeros(N + 2), atol=1e-6)
     assert [len(imu) for imu in published.imus] == [65] * N
 
@@ -230,11 +232,13 @@ def test_angles_are_lost_when_no_frames_of_the_sensors_come(unfit):
         if unfit:
             bench.say(ImuFrame.of(6, np.zeros((3, 3)), UP[:3], np.full(3, PRESENT)))
     assert streams.lost_for == pytest.approx(1.0, abs=1e-3)
+    assert streams.silent
     assert published.status("angles").level == DiagnosticStatus.ERROR
     assert "no frames of the sensors" in published.status("angles").message
     bench.say(TensionFrame((1.0, 0.0), (1.02, -0.03)))
     assert not published.cables[-1].position
     published.measure(120)
+    assert not streams.silent
     assert streams.lost_for == 0.0
     assert not streams.doubt
 
@@ -292,6 +296,7 @@ def test_a_bench_that_begins_again_has_to_rest_again():
     published.joints.clear()
     published.measure(5)
     assert not published.joints
+    assert published.streams.lost_for == np.inf
     published.measure(60)
     assert published.joints
 

@@ -88,7 +88,8 @@ class ForwardKinematicsNode(CheckedNode):
     def _on_joints(self, message: JointState) -> None:
         messages.stamped(message.header.stamp)
         stamp = nanoseconds(message.header.stamp)
-        is_due = self.values["publish_tf"] and self._is_due(tuple(message.name), stamp)
+        names = tuple(message.name)
+        is_due = self.values["publish_tf"] and self._is_due(names, stamp)
         if not is_due and not self.values["publish_tip"]:
             return
         index, found = read_names(message), dict[int, _Joints]()
@@ -104,6 +105,7 @@ class ForwardKinematicsNode(CheckedNode):
         if is_due:
             angles = {name: message.position[i] for name, i in index.items() if math.isfinite(message.position[i])}
             self._publish_frames(self._links.moved(angles, message.header.stamp))
+            self._shown[names] = stamp
         if not self.values["publish_tip"]:
             return
         for i, joints in found.items():
@@ -114,10 +116,7 @@ class ForwardKinematicsNode(CheckedNode):
     def _is_due(self, joints: tuple[str, ...], stamp: int) -> bool:
         """Return whether the frames of these joints are to be published at a stamp [ns], which may also go back."""
         last = self._shown.get(joints)
-        if last is not None and 0 <= stamp - last < self._interval:
-            return False
-        self._shown[joints] = stamp
-        return True
+        return last is None or not 0 <= stamp - last < self._interval
 
     def _answer(self, sections: list[_Joints], message: JointState) -> None:
         bends, rates = [one.bends for one in sections], [one.rates for one in sections if one.rates is not None]

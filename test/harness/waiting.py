@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable
 
-LONG = 120.0
+LONG = 300.0
 """Deadline that only a broken or hopelessly overloaded run reaches [s]."""
 
 

@@ -35,8 +35,8 @@ class CalibrationSteps:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """Steps that are still to be done."""
-        return tuple(name for name in ("bias", "axis", "zero") if getattr(self, name) is None)
+        """Steps that are still to be done, in their order."""
+        return tuple(name for name in ("bias", "zero", "axis") if getattr(self, name) is None)
 
     def complete(self) -> Calibration | None:
         """Return the calibration once every step is done, else None.

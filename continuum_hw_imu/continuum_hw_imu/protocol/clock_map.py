@@ -9,7 +9,7 @@ of late frames lie above it and do not change it.
 The shortest delay cannot be determined from one side: it remains in the offset, a millisecond on a serial port, and
 more if every frame so far was late. Answers limit it from the other side: a device answers no request before it was
 sent. So at a frame that arrives at r the map is at most r - host_time early, at an answer to a request of the time s at
-most host_time - s late, and from there on it goes wrong no faster than the two drifts may differ.
+most host_time - s late, and from there on it goes wrong no faster than its drift and the true one may differ.
 """
 
 from __future__ import annotations
@@ -32,7 +32,10 @@ _SETTLING = 4.0
 """Shortest time from which a drift is estimated [s]."""
 
 _LEAP = 0.05
-"""Frames that arrive earlier than possible by more than this indicate that a clock was set [s]."""
+"""Before any answer, frames that arrive earlier than possible by more than this indicate that a clock was set [s]."""
+
+_ROUNDING = 1e-5
+"""Error of times by rounding, to 1 us on the line [s]."""
 
 
 class ClockMap:
@@ -40,14 +43,14 @@ class ClockMap:
 
     Args:
         window: length of the history that is used [s].
-        most_drift: largest possible drift; that of a quartz is within 1e-4.
+        most_drift: largest possible drift: two quartzes of 1e-4 each, and 5e-4 by which NTP may slew the host's clock.
 
     Attributes:
         drift: drift of the device's clock relative to the host's, positive if the device's is slow; 0 until known.
         leaps: number of times that a clock was set.
     """
 
-    def __init__(self, window: float = 20.0, most_drift: float = 1e-3) -> None:
+    def __init__(self, window: float = 20.0, most_drift: float = 7e-4) -> None:
         self._most_drift = most_drift
         self._points: deque[Point] = deque()
         self._window = window
@@ -73,7 +76,7 @@ class ClockMap:
 
         For an answer, ``asked`` is the host time at which its request was sent.
         """
-        if self._origin is not None and host - self.host_time(device) < -_LEAP:
+        if self._origin is not None and self._is_impossible(device, host, asked):
             self.leaps += 1
             self.forget()
         if self._origin is None:
@@ -83,6 +86,14 @@ class ClockMap:
         self._latest = self._closer(self._latest, (device, host))
         if asked is not None:
             self._earliest = self._closer(self._earliest, (device, asked))
+
+    def _is_impossible(self, device: int, host: float, asked: float | None) -> bool:
+        """Return whether a frame arrived earlier, or a request was sent later, than the map and its error allow."""
+        mapped, error = self.host_time(device), self.error(device)
+        if math.isinf(error):
+            return host < mapped - _LEAP
+        error += _ROUNDING
+        return host < mapped - error or (asked is not None and asked > mapped + error)
 
     def _add(self, t: float, host: float) -> None:
         """Take a point into the history if it is the least delayed of its interval, and fit the line."""
@@ -102,14 +113,15 @@ class ClockMap:
 
     def error(self, device: int) -> float:
         """Return the largest possible error of `host_time` at a device time [us], in s; infinite before any answer."""
-        if self._latest is None or self._earliest is None:
+        latest, earliest = self._latest, self._earliest  # another thread may forget them
+        if latest is None or earliest is None:
             return math.inf
-        return max(self._distance(limit, device) for limit in (self._latest, self._earliest))
+        return max(self._distance(latest, device), self._distance(earliest, device))
 
     def _distance(self, limit: _Limit, device: int) -> float:
         """Return how far the map may be beyond a limit, seen from a device time [us]; in s."""
         away = abs(device - limit[0]) / MICROSECONDS
-        return abs(limit[1] - self.host_time(limit[0])) + 2.0 * self._most_drift * away
+        return abs(limit[1] - self.host_time(limit[0])) + (abs(self.drift) + self._most_drift) * away
 
     def _closer(self, kept: _Limit | None, new: _Limit) -> _Limit:
         """Return the limit that says more at the device time of the new one."""

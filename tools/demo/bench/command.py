@@ -11,6 +11,8 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
 import tools.demo.bench
 from continuum.cli import main as continuum
 from continuum.cli.diagnose import EXIT_CODES
@@ -145,12 +147,30 @@ def _calibrate(conductor: Conductor, by_hand: bool) -> None:
     conductor.trigger("bench_bridge/calibrate_bias", patient=True)
     conductor.trigger("bench_bridge/zero", patient=True)
     if by_hand:
-        input("bend the arm by hand towards cable 1, by 30 degrees or more, and back; then press Enter ")
+        _wait_for_enter(
+            "within a minute from now, bend the arm by hand towards cable 1, by 30 degrees or more, and back; "
+            "then press Enter"
+        )
     else:
         _until_whole(conductor, BEND.name, partial(conductor.carry_out, BEND))
     print(f"  {conductor.trigger('bench_bridge/find_axes', patient=True)}", flush=True)
+    if by_hand:
+        most = max(run.pull(t).max() for run in RUNS for t in np.linspace(0.0, run.pulled, 100))
+        _wait_for_enter(f"hands off: the cables will pull with up to {most:g} N; press Enter to start")
     conductor.activate()
     conductor.wait_for_states()
+
+
+def _wait_for_enter(prompt: str) -> None:
+    """Ask the user to do something.
+
+    Raises:
+        DemoError: nobody can answer.
+    """
+    try:
+        input(f"{prompt} ")
+    except EOFError:
+        raise DemoError("a real bench needs somebody at the terminal, who bends the arm and presses Enter") from None
 
 
 def _report(run: Run, conductor: Conductor, truth: Path | None) -> None:

@@ -169,6 +169,30 @@ def generate_launch_description():
     assert errors == ["[ERROR] [launch]: Caught exception in launch (see debug for traceback): short-2 gave 1"]
 
 
+def test_an_exit_handler_of_an_action_sees_no_other_process(ros2, tmp_path: Path) -> None:
+    """As of a file that another one includes, whose processes may end."""
+    file = tmp_path / "test.launch.py"
+    file.write_text("""
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+
+def on_exit(event, context):
+    raise RuntimeError(f"{event.process_name} ended")
+
+def generate_launch_description():
+    required = ExecuteProcess(cmd=["sleep", "0.5"], name="required")
+    return LaunchDescription([
+        RegisterEventHandler(OnProcessExit(target_action=required, on_exit=on_exit)),
+        ExecuteProcess(cmd=["false"], name="foreign"),
+        required,
+    ])
+""")
+    launch = ros2("launch", file, code=1)
+    assert "required-2 ended" in launch.stdout
+    assert "foreign-1 ended" not in launch.stdout
+
+
 def test_launch_files_of_the_workspace_refuse_unknown_arguments_where_the_stock_launch_takes_them() -> None:
     """Of the command line alone: who includes the file has arguments of its own."""
     with python_api.importable():

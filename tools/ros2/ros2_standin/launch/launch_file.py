@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,9 +18,9 @@ from ros2_standin.launch.python_api import (
     LaunchContext,
     LaunchDescription,
     Node,
+    OnProcessExit,
     OpaqueFunction,
     ParameterValue,
-    ProcessExited,
     RegisterEventHandler,
     importable,
 )
@@ -63,7 +63,7 @@ class LaunchFile:
     Attributes:
         arguments: by name.
         processes: in their order.
-        exit_handlers: functions that are called whenever a process has ended.
+        exit_handlers: what is called when a process has ended.
     """
 
     files: ParameterFiles
@@ -71,7 +71,7 @@ class LaunchFile:
     only_arguments: bool = False
     arguments: dict[str, DeclareLaunchArgument] = field(default_factory=dict)
     processes: list[ProcessSpec] = field(default_factory=list)
-    exit_handlers: list[Callable[[ProcessExited, LaunchContext], object]] = field(default_factory=list)
+    exit_handlers: list[OnProcessExit] = field(default_factory=list)
 
     def read(self, file: Path) -> None:
         """Evaluate a file.
@@ -95,7 +95,7 @@ class LaunchFile:
                         further = entity.function(context) or ()
                     self._evaluate(further, context, file)
                 case RegisterEventHandler():
-                    self.exit_handlers.append(entity.event_handler.on_exit)
+                    self.exit_handlers.append(entity.event_handler)
                 case Node():
                     self.processes.append(node_process(entity, self.files))
                 case ExecuteProcess():
@@ -171,14 +171,14 @@ def node_process(node: Node, files: ParameterFiles) -> ProcessSpec:
     for source, target in node.remappings:
         words += ["-r", f"{source}:={target}"]
     command = [str(program), *node.arguments, "--ros-args", *words]
-    return ProcessSpec(node.exec_name or program.name, command, stdout, stderr)
+    return ProcessSpec(node.exec_name or program.name, command, stdout, stderr, action=node)
 
 
 def program_process(program: ExecuteProcess) -> ProcessSpec:
     """Process of a program that is no node."""
     stdout, stderr = _shown(program)
     times = float(program.sigterm_timeout), float(program.sigkill_timeout)
-    return ProcessSpec(program.name or Path(program.cmd[0]).name, list(program.cmd), stdout, stderr, *times)
+    return ProcessSpec(program.name or Path(program.cmd[0]).name, list(program.cmd), stdout, stderr, *times, program)
 
 
 def _shown(entity: Node | ExecuteProcess) -> tuple[bool, bool]:

@@ -16,6 +16,7 @@ class ProcessSpec:
         stdout_to_screen, stderr_to_screen: which of its lines are shown; all go to the log file.
         interrupt_time: time after SIGINT before SIGTERM is sent [s].
         terminate_time: time after SIGTERM before SIGKILL is sent [s].
+        action: what asked for it in the launch file.
     """
 
     name: str
@@ -24,6 +25,7 @@ class ProcessSpec:
     stderr_to_screen: bool = True
     interrupt_time: float = 5.0
     terminate_time: float = 5.0
+    action: object = None
 
     @property
     def line(self) -> str:

@@ -57,8 +57,9 @@ class OpaqueFunction:
 
 @dataclass(kw_only=True)
 class OnProcessExit:
-    """A function that is called whenever a process has ended."""
+    """A function that is called whenever the process of an action has ended, or without one any process."""
 
+    target_action: object | None = None
     on_exit: Callable[[ProcessExited, LaunchContext], None]
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import signal
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 from ros2_standin.errors import UserError
 from ros2_standin.launch.child import Child
 from ros2_standin.launch.launch_file import errors_in_one_line
 from ros2_standin.launch.processes import ProcessSpec
-from ros2_standin.launch.python_api import LaunchContext, ProcessExited
+from ros2_standin.launch.python_api import LaunchContext, OnProcessExit, ProcessExited
 from ros2_standin.launch.screen import Screen
 
 _SIGNALS = {
@@ -20,10 +20,7 @@ _SIGNALS = {
 }
 
 
-ExitHandler = Callable[[ProcessExited, LaunchContext], object]
-
-
-async def supervise(processes: list[ProcessSpec], exit_handlers: Iterable[ExitHandler] = ()) -> int:
+async def supervise(processes: list[ProcessSpec], exit_handlers: Iterable[OnProcessExit] = ()) -> int:
     """Start everything, pass its lines on, and end when the last process ends, or all of them when asked to.
 
     Returns:
@@ -34,7 +31,7 @@ async def supervise(processes: list[ProcessSpec], exit_handlers: Iterable[ExitHa
 
 
 class _Supervisor:
-    def __init__(self, exit_handlers: Iterable[ExitHandler]) -> None:
+    def __init__(self, exit_handlers: Iterable[OnProcessExit]) -> None:
         self._exit_handlers = exit_handlers
         self._ending = asyncio.Event()
         self._screen = Screen(on_broken=self._ending.set)
@@ -89,5 +86,6 @@ class _Supervisor:
         event = ProcessExited(child.label, child.returncode)
         context = LaunchContext(is_shutdown=self._ending.is_set())
         with errors_in_one_line():
-            for handle in self._exit_handlers:
-                handle(event, context)
+            for handler in self._exit_handlers:
+                if handler.target_action is None or handler.target_action is child.spec.action:
+                    handler.on_exit(event, context)
