@@ -44,7 +44,7 @@ reproduction: setup ## make the thesis's dynamic results again; overwrites docs/
 bench-dynamics: setup ## measure the integrators (6 minutes); with docs/numerics.md, unless ARGS="--out FOLDER" or --quick
 	@$(IN_WORKSPACE) python3 -m pip install --quiet --no-deps --upgrade --target out/bench_dynamics/extra \
 	  --require-hashes -r tools/benchmarks/dynamics/requirements.txt || echo "scikit-sundae cannot be installed and is left out"
-	@$(IN_WORKSPACE) python3 -m tools.benchmarks.dynamics $(ARGS)
+	@$(IN_WORKSPACE) PYTHONPATH="continuum/test:$$PYTHONPATH" python3 -m tools.benchmarks.dynamics $(ARGS)
 
 bench-ik: setup ## measure the inverse kinematics (10 minutes)
 	@$(IN_WORKSPACE) python3 -m tools.benchmarks.ik $(ARGS)

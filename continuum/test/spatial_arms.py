@@ -88,7 +88,7 @@ def random_cables(rng: np.random.Generator, chain: Chain, n_cables: int) -> Cabl
 
 
 def in_mujoco(chain: Chain, joints: Joints | None, cables: Cables | None, step: float = 1e-3) -> mujoco.MjModel:
-    """The same arm in MuJoCo: spatial tendons without friction, motors that pull them, joint friction by ``frictionloss``."""
+    """The same arm in MuJoCo: spatial tendons without friction, motors that pull them, and ``frictionloss``."""
     n = chain.axis.shape[0]
     text, open_bodies = [], 0
     holes: dict[int, list[str]] = {}
@@ -121,12 +121,12 @@ def in_mujoco(chain: Chain, joints: Joints | None, cables: Cables | None, step: 
         tendons += f'<spatial name="t{c}">{sites}</spatial>'
         motors += f'<motor tendon="t{c}" gear="-1"/>'
     return mujoco.MjModel.from_xml_string(
-        f'<mujoco><compiler angle="degree" balanceinertia="false"/><option timestep="{step!r}" integrator="implicitfast" '
-        f'gravity="{_words(chain.gravity)}"><flag contact="disable"/></option><worldbody>{"".join(text)}'
+        f'<mujoco><compiler angle="degree" balanceinertia="false"/><option timestep="{step!r}" '
+        f'integrator="implicitfast" gravity="{_words(chain.gravity)}"><flag contact="disable"/></option>'
+        f"<worldbody>{''.join(text)}"
         f"{'</body>' * (open_bodies + 1)}</worldbody><tendon>{tendons}</tendon><actuator>{motors}</actuator></mujoco>"
     )
 
 
 def _words(numbers) -> str:
     return " ".join(repr(float(x)) for x in numbers)
-

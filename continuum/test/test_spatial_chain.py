@@ -1,4 +1,4 @@
-"""Rigid bodies and cables in space: equal to MuJoCo's, derivatives equal to differences, indifferent to a turned world."""
+"""Rigid bodies and cables in space: equal to MuJoCo's, derivatives as differences, the same in a turned world."""
 
 import mujoco
 import numpy as np

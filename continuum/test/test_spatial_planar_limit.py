@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_spatial_stepping import run
 
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.planar.cable_torque import cable_torque
@@ -24,7 +23,9 @@ def section(request):
         return p
     rng = np.random.default_rng(3)
     lengths = p.joint_spacing * rng.uniform(1.0, 1.5, p.n_joints)
-    return replace(p, link_length=lengths, rotor_inertia=rng.uniform(0.0, 1e-4, 5), hang_angle=np.array([request.param]))
+    return replace(
+        p, link_length=lengths, rotor_inertia=rng.uniform(0.0, 1e-4, 5), hang_angle=np.array([request.param])
+    )
 
 
 def test_equations_are_those_of_the_thesis(section):

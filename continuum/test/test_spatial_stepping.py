@@ -1,5 +1,6 @@
 """The step in time: energy, order, friction that sticks, and other engines."""
 
+import itertools
 from dataclasses import dataclass
 
 import mujoco
@@ -7,9 +8,9 @@ import numpy as np
 import pytest
 from spatial_arms import equal_sections, in_mujoco
 
-from continuum.dynamics.spatial.sensitivities import Free, Tangent, simulate_tangent
+from continuum.dynamics.spatial.sensitivities import Tangent, simulate_tangent
 from continuum.dynamics.spatial.terms import cable_terms, rigid_body_terms
-from continuum.dynamics.spatial.time_stepping import COMPLETE, NOT_FINITE, State, simulate, start_modes
+from continuum.dynamics.spatial.time_stepping import COMPLETE, NOT_FINITE, initial_state, simulate
 
 
 @dataclass
@@ -28,9 +29,7 @@ def run(arm, q, v, h, n_steps, command, *, holds=None, drive=None, free=None) ->
     """Simulate ``n_steps`` of ``h`` [s]; with ``free`` also the derivatives, by these and by q and v of the start."""
     chain, joints, cables = arm
     n, n_cables = q.size, cables.first.size - 1
-    mode = np.zeros(n, np.int64)
-    start_modes(joints, v, mode)
-    state = State(q.copy(), v.copy(), np.zeros(n), mode)
+    state = initial_state(joints, q, v)
     holds = np.zeros(n_cables, bool) if holds is None else holds
     inputs = np.asarray(command, float)[None], (np.zeros(n) if drive is None else drive)[None]
     given = (inputs[0], inputs[0], inputs[1], inputs[1])
@@ -38,7 +37,7 @@ def run(arm, q, v, h, n_steps, command, *, holds=None, drive=None, free=None) ->
     times = np.array([h * n_steps]), np.array([n_steps])
     if free is None:
         status, _ = simulate(chain, joints, cables, holds, state, *times, *given, q_out, v_out)
-        return Run(status, q_out[0], v_out[0], mode)
+        return Run(status, q_out[0], v_out[0], state.mode)
     n_values = free.kind.size
     at_start = np.eye(2 * n)
     tangent = Tangent(
@@ -49,7 +48,7 @@ def run(arm, q, v, h, n_steps, command, *, holds=None, drive=None, free=None) ->
     status, _ = simulate_tangent(
         chain, joints, cables, holds, free, state, tangent, *times, *given, q_out, v_out, q_by, v_by
     )
-    return Run(status, q_out[0], v_out[0], mode, q_by[0], v_by[0])
+    return Run(status, q_out[0], v_out[0], state.mode, q_by[0], v_by[0])
 
 
 def frictionless(arm):
@@ -65,7 +64,7 @@ def energy(arm, q, v, tension) -> float:
     lengths = cable_terms(chain, cables, q)[0]
     steps = np.linspace(0.0, 1.0, 9)  # of the work against gravity on the way to q, by Gauss's rule on eight pieces
     work = 0.0
-    for low, high in zip(steps[:-1], steps[1:], strict=True):
+    for low, high in itertools.pairwise(steps):
         for x, weight in zip(*np.polynomial.legendre.leggauss(8), strict=True):
             at = 0.5 * (low + high) + 0.5 * (high - low) * x
             work += 0.5 * (high - low) * weight * (rigid_body_terms(chain, at * q, 0.0 * q, 0.0 * q)[0] @ q)

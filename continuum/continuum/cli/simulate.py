@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from continuum.arrays import Array
+from continuum.cli import simulate_in_space
 from continuum.cli.models import add_model_option, read_model
 from continuum.cli.outputs import announce, check_outputs, print_json, write
 from continuum.cli.tables import print_pairs
@@ -36,11 +37,12 @@ def add_to(commands: Any) -> None:
         epilog="Exit codes: 0 done, 1 the integration failed or bends a joint by more than half a turn, 2 wrong usage, "
         "file or value.",
     )  # fmt: skip
+    parser.add_argument("file", metavar="ARM.yaml", nargs="?", help="the same as --model")
     add_model_option(parser)
     parser.add_argument(
         "--release", metavar="DEG",
         help="initial bend, at rest [degrees]: either the total, distributed equally over the joints, or one angle per "
-        "joint (q1,q2,..); default 0",
+        "joint (q1,q2,..); of several sections the bend of each, with its azimuth (40@0,30@90,..); default 0",
     )  # fmt: skip
     parser.add_argument(
         "--pulled", action="store_true",
@@ -49,8 +51,13 @@ def add_to(commands: Any) -> None:
     )  # fmt: skip
     parser.add_argument(
         "--tensions", metavar="FILE.csv",
-        help="cable tensions over time: columns t_s,u1_N,u2_N, linear between rows; if a table begins after 0 s, "
-        "its first row holds from 0 s",
+        help="cable tensions over time: columns t_s,u1_N,u2_N (of several sections all cables, from the base), linear "
+        "between rows; if a table begins after 0 s, its first row holds from 0 s",
+    )  # fmt: skip
+    parser.add_argument(
+        "--lengths", metavar="FILE.csv",
+        help="lengths of the cables that their motors hold, of an arm with several sections: columns t_s,l1_m,..; "
+        "otherwise as for --tensions",
     )  # fmt: skip
     parser.add_argument(
         "--torques", metavar="FILE.csv",
@@ -64,6 +71,11 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "--rate", metavar="HZ", type=float, default=120.0, help="samples per second; default %(default)g"
     )
+    parser.add_argument(
+        "--step", metavar="S", type=float, default=1e-3,
+        help="of several sections: step from which the error is estimated [s]; the motion itself has half of it; "
+        "default %(default)g",
+    )  # fmt: skip
     parser.add_argument(
         "--integrator", choices=("esdirk", "bdf"), default="esdirk",
         help="esdirk is faster, bdf is that of the thesis; default %(default)s",
@@ -85,18 +97,24 @@ def run(options: argparse.Namespace) -> int:
     from continuum.dynamics.trajectory import SimulationStatus
     from continuum.recordings.motion_table import write_motion_table
 
+    options.model = options.file or options.model
     if options.pulled and options.release is None:
         raise ContinuumError("--pulled needs --release, one total bend in degrees")
     if options.pulled and "," in options.release:
         raise InvalidValueError("--release", options.release, "with --pulled, one total bend in degrees")
-    check_outputs((options.model, options.tensions, options.torques), [options.csv], [options.picture])
+    given = (options.model, options.tensions, options.torques, options.lengths)
+    check_outputs(given, [options.csv], [options.picture])
+    if simulate_in_space.is_meant(options):
+        return simulate_in_space.run(options, _times)
+    if options.lengths is not None:
+        raise InvalidValueError("--lengths", options.lengths, "with an arm file of several sections")
     model = read_model(options.model, options.section)
     for option in ("tensions", "pulled"):
         if getattr(options, option):
             model.require_cables(f"--{option}")
     posture = release_posture(options.release or "0", model.n_joints)
     inputs = _inputs(options, model)
-    times = _times(options, inputs)
+    times = _times(options, inputs.times)
     for hint in hints(posture, inputs, model.parameters, times):
         print(f"continuum: {hint}", file=sys.stderr)
     held = _held(model, posture, options.release) if options.pulled else None
@@ -176,14 +194,14 @@ def _held(model: Model, posture: Array, release: str) -> PulledPosture:
         raise InvalidValueError("--release", release, f"with --pulled, {error.allowed}") from None
 
 
-def _times(options: argparse.Namespace, inputs: InputSignal) -> Array:
+def _times(options: argparse.Namespace, of_inputs: Array) -> Array:
     """Output times from the inputs' first instant on, 0 where that is later [s]."""
     for name in ("duration", "rate"):
         value = getattr(options, name)
         if value is not None and not 0 < value < math.inf:
             raise InvalidValueError(f"--{name}", value, f"a number > 0 [{'s' if name == 'duration' else 'Hz'}]")
-    begin = min(0.0, float(inputs.times[0]))
-    lasts = float(inputs.times[-1]) - begin
+    begin = min(0.0, float(of_inputs[0]))
+    lasts = float(of_inputs[-1]) - begin
     duration = options.duration or (lasts if lasts > 0 else _RELEASE_DURATION)
     samples = duration * options.rate
     if not 1 <= samples + 1e-6 <= _MOST_SAMPLES:

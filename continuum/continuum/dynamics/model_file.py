@@ -27,6 +27,7 @@ from typing import cast
 
 import yaml
 
+from continuum.arm import arm_block
 from continuum.did_you_mean import did_you_mean
 from continuum.dynamics.effect import Effect
 from continuum.dynamics.effect_lookup import effect_named
@@ -80,6 +81,24 @@ def model_of_section(path: str | Path, content: Mapping[str, object], section: s
         InvalidValueError: a value that is not allowed, or one that is required and missing.
     """
     return _model_of(section_model(path, content, section))
+
+
+def sections_in(path: str | Path) -> tuple[str, ...]:
+    """Names of the sections in an arm file; none of a model file.
+
+    Raises:
+        FileError: the file cannot be read.
+    """
+    content = read_parameter_file(find_file(path, MODELS))
+    if not is_arm_file(content):
+        return ()
+    names = arm_block(path, content)["sections"]
+    return tuple(map(str, names)) if isinstance(names, list) else ()
+
+
+def section_models(path: str | Path, content: Mapping[str, object], sections: Iterable[str]) -> list[Model]:
+    """The models of the sections of an arm in space, from an arm file's contents; as :func:`model_of_section`."""
+    return [_model_of(section_model(path, content, name, planar=False)) for name in sections]
 
 
 def _model_of(found: SectionModel) -> Model:

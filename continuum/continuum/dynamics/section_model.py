@@ -77,13 +77,16 @@ def is_arm_file(content: Mapping[str, object]) -> bool:
     return "arm" in content or "sections" in content
 
 
-def section_model(path: str | Path, content: Mapping[str, object], section: str | None = None) -> SectionModel:
+def section_model(
+    path: str | Path, content: Mapping[str, object], section: str | None = None, planar: bool = True
+) -> SectionModel:
     """The dynamic model of a section.
 
     Args:
         path: the file, as errors name it.
         content: of an arm file.
         section: name of the section; None where there is only one.
+        planar: whether the section moves alone and in the plane of its cables 1 and 2, which are opposite then.
 
     Raises:
         FileError: there is no block ``dynamics``.
@@ -109,7 +112,7 @@ def section_model(path: str | Path, content: Mapping[str, object], section: str 
         raise InvalidValueError(where + DYNAMICS, None, "a block with center_of_mass, stiffness, ..")
     given = given_dynamics(values, chosen.name)
     inputs = given.values.get("inputs", InputKind.CABLES.value)
-    if inputs == InputKind.CABLES.value:
+    if planar and inputs == InputKind.CABLES.value:
         _check_opposite(chosen)
     of_section = {"half_spacing": chosen.b, "hole_radius": chosen.a, "mass": chosen.link_mass}
     of_section["inertia"] = chosen.link_inertia

@@ -14,6 +14,7 @@ class SimulationStatus(Enum):
     COMPLETE = "complete"
     STEP_TOO_SMALL = "no step was small enough for the tolerance, or too many were needed"
     NOT_FINITE = "the equations have no finite solution"
+    NO_MODES = "no combination of sticking and slipping joints satisfies the laws of friction"
 
 
 @dataclass(frozen=True)

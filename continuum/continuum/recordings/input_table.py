@@ -34,6 +34,15 @@ def read_tension_table(path: str | Path) -> Tensions:
     return Tensions(*_read(path, columns, TENSION, "a planar section", least=0.0))
 
 
+def read_cable_table(path: str | Path, n_cables: int, quantity: Quantity) -> tuple[Array, Array]:
+    """Read times (rows,) [s], and tensions or lengths (rows, n_cables) of all cables of an arm, in the arm's order.
+
+    Raises:
+        FileError: as :func:`read_tension_table`.
+    """
+    return _read(path, [quantity.column(cable + 1) for cable in range(n_cables)], quantity, "the arm", least=0.0)
+
+
 def read_torque_table(path: str | Path, n_joints: int) -> JointTorques:
     """Read torques from a table with columns t_s, tau1_Nm, .. of each joint; else as :func:`read_tension_table`."""
     columns = [torque_column(joint + 1) for joint in range(n_joints)]

@@ -41,6 +41,7 @@ ANGLE = Quantity("q", {"deg": np.pi / 180, "rad": 1.0})
 RATE = Quantity("dq", {"deg_s": np.pi / 180, "rad_s": 1.0})
 TENSION = Quantity("u", {"N": 1.0})
 TORQUE = Quantity("tau", {"Nm": 1.0})
+LENGTH = Quantity("l", {"m": 1.0})
 QUANTITIES = (ANGLE, RATE, TENSION, TORQUE)
 
 

@@ -21,6 +21,7 @@ if os.environ.get("OPENBLAS_NUM_THREADS") != "1":  # with two threads, small sys
 sys.path.append("out/bench_dynamics/extra")  # what `make bench-dynamics` installs for itself
 
 from continuum.dynamics.integration.tolerances import Tolerances
+from tools.benchmarks.dynamics import space
 from tools.benchmarks.dynamics.growth import Size, measure
 from tools.benchmarks.dynamics.orders import convergence, slope_error
 from tools.benchmarks.dynamics.result import Result, Score, record_of
@@ -48,7 +49,8 @@ def main() -> None:
     options = parser.parse_args()
     quick: bool = options.quick
     effort = Effort(SIZES[:3], 1, 5) if quick else Effort(SIZES, 3, 30)
-    record = record_of(Result(_scores(effort), _sizes(effort), convergence(), _slope_errors()))
+    in_space = space.measure(effort.fast, list(space.ARMS)[: 2 if quick else None])
+    record = record_of(Result(_scores(effort), _sizes(effort), convergence(), _slope_errors(), in_space))
     print(as_text(record))
     if not quick:
         publish(record, options.out)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from tools.benchmarks.dynamics import space
 from tools.benchmarks.dynamics.growth import Size, exponent
 from tools.benchmarks.dynamics.orders import STEPS, Convergence
 from tools.benchmarks.dynamics.rivals import BASELINE, OURS, SUNDAE
+from tools.benchmarks.dynamics.space import InSpace
 from tools.benchmarks.record import Figure, Record, Table
 
 
@@ -29,6 +31,7 @@ class Result:
     sizes: list[Size]
     convergence: Sequence[Convergence]
     slope_errors: Mapping[float, float]
+    in_space: Sequence[InSpace] = ()
 
     @property
     def best(self) -> Score:
@@ -64,6 +67,7 @@ def record_of(result: Result) -> Record:
         ),
         *_with_sensitivities(result),
         *([Figure("time of a simulated second over joints: exponent", exponent(result.sizes))] if result.sizes else []),
+        *(space.figures(result.in_space) if result.in_space else []),
     ]  # fmt: skip
     tables = {
         "integrators": Table.of(
@@ -77,6 +81,7 @@ def record_of(result: Result) -> Record:
             ("relative tolerance", *(f"{relative:.0e}" for relative in result.slope_errors)),
             [("error", *(f"{100 * error:.2g} %" for error in result.slope_errors.values()))],
         ),
+        "space": space.table(result.in_space),
         "joints": Table.of(
             ("joints", "compiling, once [s]", "processor time of a simulated second [s]", "steps a second"),
             ((s.n_joints, f"{s.compiling:.1f}", f"{s.per_second:.3g}", f"{s.steps:.0f}") for s in result.sizes),

@@ -1,8 +1,8 @@
 """Cables as polylines through holes: lengths and their gradients, slip at every hole, tensions by the capstan law.
 
 Segment k of a cable runs from hole k - 1 to hole k. The bodies between these two holes alone change its length, so that
-each degree of freedom changes the length of one segment of a cable at most. A cable may start anywhere, pass through any number of
-sections and end at any body; a first hole behind the base plate makes the plate's hole one at which it bends.
+each degree of freedom changes the length of one segment of a cable at most. A cable may start anywhere, pass through
+any number of sections and end at any body; with a first hole behind the base plate it also bends at the plate.
 
 The tension falls from a segment to the next one by exp(-mu phi s) (Eq. 14): phi is the angle by which the cable bends
 at the hole, and s = tanh(k_l w) the smoothed sign of the speed w at which it slips towards the base (Eq. 15). The
@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.arrays import Array
+from continuum.arrays import Array, Booleans, Integers
 from continuum.dynamics.spatial.chain import Placed
 from continuum.dynamics.spatial.compiling import inner
 
@@ -36,8 +36,8 @@ class Cables(NamedTuple):
         damping: of the same, (n_cables,) [N s/m].
     """
 
-    first: Array
-    body: Array
+    first: Integers
+    body: Integers
     hole: Array
     friction: Array
     slope: Array
@@ -68,7 +68,7 @@ class Pull(NamedTuple):
     """State of the cables' friction in a step; entries of first holes are unused.
 
     Attributes:
-        slip: speed w towards the base about which the friction of each hole but the last is linearised, (n_holes,) [m/s].
+        slip: speed w towards the base about which the friction of each hole is linearised, (n_holes,) [m/s].
         turns: whether the slip turns within the step, so that ``slip`` is 0, (n_holes,).
         tension: of the segment that ends at each hole, at those speeds, (n_holes,) [N].
         damping: derivative of the friction at each hole by its slip, (n_holes,) [N s/m].
@@ -77,7 +77,7 @@ class Pull(NamedTuple):
     """
 
     slip: Array
-    turns: Array
+    turns: Booleans
     tension: Array
     damping: Array
     base: Array

@@ -103,9 +103,21 @@ def place(chain: Chain, q: Array, out: Placed) -> None:
         u00, u01, u02 = c + sx * sx * t, sx * sy * t - sz * s, sx * sz * t + sy * s
         u10, u11, u12 = sy * sx * t + sz * s, c + sy * sy * t, sy * sz * t - sx * s
         u20, u21, u22 = sz * sx * t - sy * s, sz * sy * t + sx * s, c + sz * sz * t
-        r00, r10, r20 = u00 * r00 + u01 * r10 + u02 * r20, u10 * r00 + u11 * r10 + u12 * r20, u20 * r00 + u21 * r10 + u22 * r20
-        r01, r11, r21 = u00 * r01 + u01 * r11 + u02 * r21, u10 * r01 + u11 * r11 + u12 * r21, u20 * r01 + u21 * r11 + u22 * r21
-        r02, r12, r22 = u00 * r02 + u01 * r12 + u02 * r22, u10 * r02 + u11 * r12 + u12 * r22, u20 * r02 + u21 * r12 + u22 * r22
+        r00, r10, r20 = (
+            u00 * r00 + u01 * r10 + u02 * r20,
+            u10 * r00 + u11 * r10 + u12 * r20,
+            u20 * r00 + u21 * r10 + u22 * r20,
+        )
+        r01, r11, r21 = (
+            u00 * r01 + u01 * r11 + u02 * r21,
+            u10 * r01 + u11 * r11 + u12 * r21,
+            u20 * r01 + u21 * r11 + u22 * r21,
+        )
+        r02, r12, r22 = (
+            u00 * r02 + u01 * r12 + u02 * r22,
+            u10 * r02 + u11 * r12 + u12 * r22,
+            u20 * r02 + u21 * r12 + u22 * r22,
+        )
         R[i, 0, 0], R[i, 0, 1], R[i, 0, 2] = r00, r01, r02
         R[i, 1, 0], R[i, 1, 1], R[i, 1, 2] = r10, r11, r12
         R[i, 2, 0], R[i, 2, 1], R[i, 2, 2] = r20, r21, r22
@@ -145,7 +157,7 @@ def _inertia_about_origin(chain: Chain, i: int, out: Placed) -> None:
 
 @inner
 def inverse_dynamics(chain: Chain, placed: Placed, v: Array, a: Array, moving: Moving, torque: Array) -> None:
-    """torque = M a + C v + G without rotors, (n,) [N m], at rates ``v`` and accelerations ``a`` (n,) [rad/s, rad/s2]."""
+    """torque = M a + C v + G without rotors, (n,) [N m], at rates ``v`` and accelerations ``a`` [rad/s, rad/s2]."""
     n = v.size
     momentum, carried = np.empty(6), np.empty(6)
     velocity, acceleration, force = moving.velocity, moving.acceleration, moving.force
@@ -228,7 +240,14 @@ def derivatives(chain: Chain, placed: Placed, moving: Moving, out: Slopes) -> No
         upward[3 + k] = -chain.gravity[k]
     for i in range(n):  # S' = v x S; psi' = v_parent x S; psi'' = a_parent x S + v_parent x psi'
         motion_cross_motion(velocity[i], screw[i], carried[i])
-        shift_rates(velocity[i - 1] if i else still, acceleration[i - 1] if i else upward, screw[i], first[i], second[i], scratch)
+        shift_rates(
+            velocity[i - 1] if i else still,
+            acceleration[i - 1] if i else upward,
+            screw[i],
+            first[i],
+            second[i],
+            scratch,
+        )
     x, y = np.empty(6), np.empty(6)
     for i in range(n - 1, -1, -1):
         for k in range(10):

@@ -11,7 +11,7 @@ from continuum import compiled_code
 FAST = {"reassoc", "contract", "nsz", "arcp"}
 """LLVM's flags: without ``nnan`` and ``ninf``, so that a state that is not finite is seen."""
 
-inner = numba.njit(error_model="numpy", fastmath=FAST, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+inner = numba.njit(error_model="numpy", fastmath=FAST)
 """Decorator of a function that only compiled code calls; it has no cache of its own."""
 
 merged = numba.njit(error_model="numpy", fastmath=FAST, inline="always")

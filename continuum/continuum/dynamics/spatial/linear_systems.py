@@ -1,4 +1,4 @@
-"""Symmetric positive definite systems in compiled loops: upper triangles of the leading (n, n), four pivots at a time."""
+"""Symmetric positive definite systems in compiled loops: upper triangles of the leading (n, n), four pivots at once."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.arrays import Array
+from continuum.arrays import Array, Booleans, Integers
 from continuum.dynamics.spatial.cable_paths import SATURATED, Cables
 from continuum.dynamics.spatial.chain import (
     Chain,
@@ -40,12 +40,12 @@ HOLE, CABLE_FRICTION, CABLE_SLOPE, CABLE_STIFFNESS, CABLE_DAMPING, COMMAND = ran
 
 
 class Free(NamedTuple):
-    """Entries of directions: value (kind, index, part) changes by ``factor`` times the free quantity ``column``."""
+    """Entries of directions: value (kind, item, part) changes by ``factor`` times the free quantity ``column``."""
 
-    kind: Array
-    index: Array
-    part: Array
-    column: Array
+    kind: Integers
+    item: Integers
+    part: Integers
+    column: Integers
     factor: Array
 
 
@@ -95,7 +95,7 @@ def new_tangent_work(n: int, cables: Cables, n_free: int) -> TangentWork:
 
 @inner
 def step_tangent(
-    chain: Chain, joints: Joints, cables: Cables, holds: Array, free: Free, before: State, state: State,
+    chain: Chain, joints: Joints, cables: Cables, holds: Booleans, free: Free, before: State, state: State,
     h: float, work: Work, tangent: Tangent, storage: TangentWork,
 ) -> bool:  # fmt: skip
     """Carry the tangent along with the step that has just been made.
@@ -157,7 +157,7 @@ def _by_values(
     for k in range(3):
         upward[3 + k] = -chain.gravity[k]
     for e in range(free.kind.size):
-        kind, i, part, column, size = free.kind[e], free.index[e], free.part[e], free.column[e], free.factor[e]
+        kind, i, part, column, size = free.kind[e], free.item[e], free.part[e], free.column[e], free.factor[e]
         if kind <= DRIVE:
             change = state.v[i] - before.v[i]
             excess = change - h * before.acceleration[i]
@@ -200,10 +200,7 @@ def _by_values(
             shift_rates(velocity, acceleration, screw, first, second, scratch)
             inward_force(slopes.composite[i], slopes.coriolis[i], screw, first, second, moving.force[i], six, scratch)
             for j in range(n):
-                if j < i:
-                    value = dot(placed.screw[j], six)
-                else:
-                    value = dot(slopes.BS[j], first) + dot(slopes.IS[j], second)
+                value = dot(placed.screw[j], six) if j < i else dot(slopes.BS[j], first) + dot(slopes.IS[j], second)
                 right[j, column] -= h * size * value
         elif kind <= BASE:
             screw[:] = 0.0
@@ -226,11 +223,16 @@ def _by_values(
 
 @inner
 def _inertia_slope(chain: Chain, R: Array, p: Array, kind: int, i: int, part: int, out: Array) -> None:
-    """Derivative of the ten numbers of body i's inertia about the origin by its mass, a centre's or an inertia's part."""
+    """Derivative of the ten numbers of body i's inertia by its mass, or by a part of its centre or inertia."""
     c, d = np.empty(3), np.zeros(3)
     m = chain.mass[i]
     for a in range(3):
-        c[a] = p[i, a] + R[i, a, 0] * chain.center[i, 0] + R[i, a, 1] * chain.center[i, 1] + R[i, a, 2] * chain.center[i, 2]
+        c[a] = (
+            p[i, a]
+            + R[i, a, 0] * chain.center[i, 0]
+            + R[i, a, 1] * chain.center[i, 1]
+            + R[i, a, 2] * chain.center[i, 2]
+        )
     out[:] = 0.0
     k = 4
     if kind == MASS:
@@ -263,8 +265,8 @@ def _inertia_slope(chain: Chain, R: Array, p: Array, kind: int, i: int, part: in
 
 @inner
 def _by_cable(
-    chain: Chain, cables: Cables, holds: Array, free: Free, before: State, state: State, h: float, c: int, work: Work,
-    tangent: Tangent, storage: TangentWork,
+    chain: Chain, cables: Cables, holds: Booleans, free: Free, before: State, state: State, h: float, c: int,
+    work: Work, tangent: Tangent, storage: TangentWork,
 ) -> None:  # fmt: skip
     """Subtract the derivative of the impulse of cable c, but for its part by the change of the rates.
 
@@ -272,7 +274,7 @@ def _by_cable(
     along the cable, and e_j = b sum_l dL/dq_l (dv_l - dv_p,l) - sum_{k < j} D_k (w_k - w0_k).
     """
     begin, end, body, mu, steep = cables.first[c], cables.first[c + 1], cables.body, cables.friction[c], cables.slope[c]
-    base, base_damping = work.pull.base[c], work.pull.base_damping[c]
+    base = work.pull.base[c]
     if base <= 0.0:
         return
     paths, pull = work.paths, work.pull
@@ -284,11 +286,11 @@ def _by_cable(
     for column in range(n_free):
         by_mu[column] = by_steep[column] = logarithm[column] = offset[column] = 0.0
     for e in range(free.kind.size):
-        if free.index[e] == c and free.kind[e] == CABLE_FRICTION:
+        if free.item[e] == c and free.kind[e] == CABLE_FRICTION:
             by_mu[free.column[e]] += free.factor[e]
-        elif free.index[e] == c and free.kind[e] == CABLE_SLOPE:
+        elif free.item[e] == c and free.kind[e] == CABLE_SLOPE:
             by_steep[free.column[e]] += free.factor[e]
-        elif free.index[e] == c and free.kind[e] == COMMAND:
+        elif free.item[e] == c and free.kind[e] == COMMAND:
             logarithm[free.column[e]] += free.factor[e] * (-cables.stiffness[c] if holds[c] else 1.0) / base
     extra = 0.0
     if holds[c]:
@@ -345,13 +347,13 @@ def _by_held_length(
             logarithm[column] += damping * d_rate / base
             offset[column] += slow * (turned[i, column] * left - g * d_change)
     for e in range(free.kind.size):
-        if free.index[e] == c and free.kind[e] == CABLE_STIFFNESS:
+        if free.item[e] == c and free.kind[e] == CABLE_STIFFNESS:
             logarithm[free.column[e]] += free.factor[e] * (base - damping * rate) / stiffness / base
             offset[free.column[e]] += free.factor[e] * 0.25 * h * late
-        elif free.index[e] == c and free.kind[e] == CABLE_DAMPING:
+        elif free.item[e] == c and free.kind[e] == CABLE_DAMPING:
             logarithm[free.column[e]] += free.factor[e] * rate / base
             offset[free.column[e]] += free.factor[e] * 0.5 * late
-    return slow * late
+    return float(slow * late)
 
 
 @inner
@@ -362,7 +364,13 @@ def _slip_tangent(
 
     The derivative of the slip at the end leaves out that of the change of the rates, which is still to be solved for.
     """
-    begin, end, body, gradient, turned = cables.first[c], cables.first[c + 1], cables.body, work.paths.gradient, storage.gradient
+    begin, end, body, gradient, turned = (
+        cables.first[c],
+        cables.first[c + 1],
+        cables.body,
+        work.paths.gradient,
+        storage.gradient,
+    )
     slip, slip_p, slip_e, n_free = storage.slip, storage.predicted_slip, storage.end_slip, storage.right.shape[1]
     slip[end - 1] = 0.0
     for column in range(n_free):
@@ -430,7 +438,7 @@ def _path_tangent(cables: Cables, base: Array, c: int, work: Work, storage: Tang
                 for column in range(n_free):
                     bent[k - 1, column] -= cosine / np.sin(bend[k - 1]) * q_p[m, column]
     for e in range(free.kind.size):
-        kind, index, part, column, size = free.kind[e], free.index[e], free.part[e], free.column[e], free.factor[e]
+        kind, index, part, column, size = free.kind[e], free.item[e], free.part[e], free.column[e], free.factor[e]
         if kind == HOLE and begin <= index < end:
             on = body[index]
             for a in range(3):
@@ -539,9 +547,9 @@ def _solve(state: State, h: float, work: Work, tangent: Tangent, storage: Tangen
 
 @entry_point
 def simulate_tangent(
-    chain: Chain, joints: Joints, cables: Cables, holds: Array, free: Free, state: State, tangent: Tangent,
-    durations: Array, steps: Array, before: Array, after: Array, drive_before: Array, drive_after: Array, q_out: Array,
-    v_out: Array, q_tangent: Array, v_tangent: Array,
+    chain: Chain, joints: Joints, cables: Cables, holds: Booleans, free: Free, state: State, tangent: Tangent,
+    durations: Array, steps: Integers, before: Array, after: Array, drive_before: Array, drive_after: Array,
+    q_out: Array, v_out: Array, q_tangent: Array, v_tangent: Array,
 ) -> tuple[int, int]:  # fmt: skip
     """As `simulate`, with the derivatives of its results: ``q_tangent`` and ``v_tangent`` (n_intervals, n, n_free)."""
     n, n_cables, n_free = state.q.size, cables.first.size - 1, tangent.q.shape[1]

@@ -67,3 +67,16 @@ def cable_terms(chain: Chain, cables: Cables, q: Array) -> tuple[Array, Array, A
         for k in range(cables.first[c] + 1, cables.first[c + 1]):
             lengths[c] += paths.length[k]
     return lengths, paths.gradient, paths.bend
+
+
+@entry_point
+def body_poses(chain: Chain, q: Array) -> tuple[Array, Array]:
+    """Origins (n_times, n, 3) [m] and rotations (n_times, n, 3, 3) of the bodies at angles ``q`` (n_times, n) [rad]."""
+    n_times, n = q.shape
+    placed = new_placed(n)
+    origins, rotations = np.empty((n_times, n, 3)), np.empty((n_times, n, 3, 3))
+    for t in range(n_times):
+        place(chain, q[t], placed)
+        origins[t] = placed.origin
+        rotations[t] = placed.rotation
+    return origins, rotations

@@ -13,8 +13,8 @@ Sgn being the set-valued sign (Moreau 1988; Acary and Brogliato, Numerical Metho
 of Eq. 13. Sticking is exact and needs no small steps. The modes (sticks, slips forward, slips backward) are found by
 an active set that starts from the modes of the step before. The friction of cables, Eq. 15, is linearised about the
 rates that are predicted for the end of the step, v + dv_p, where it is a damping that may be arbitrarily stiff. Of
-the derivative of a cable's torque only the symmetric part is implicit: what a hole takes from the tension depends on the
-slip there, and little on that at the holes before it.
+the derivative of a cable's torque only the symmetric part is implicit: what a hole takes from the tension depends on
+the slip there, and little on that at the holes before it.
 
 Linear springs and dampers cancel from the prediction, so that they are integrated by the implicit midpoint rule, which
 keeps their energy; all else is of second order in h while the modes stay.
@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.arrays import Array
+from continuum.arrays import Array, Booleans, Integers
 from continuum.dynamics.spatial.cable_paths import SATURATED, Cables, Paths, Pull, new_paths, new_pull, trace
 from continuum.dynamics.spatial.chain import (
     Chain,
@@ -85,7 +85,7 @@ class State(NamedTuple):
     q: Array
     v: Array
     acceleration: Array
-    mode: Array
+    mode: Integers
 
 
 class Work(NamedTuple):
@@ -108,9 +108,9 @@ class Work(NamedTuple):
     factor: Array
     right: Array
     step: Array
-    slipping: Array
-    before: Array
-    counts: Array
+    slipping: Integers
+    before: Integers
+    counts: Integers
 
 
 @inner
@@ -124,17 +124,16 @@ def new_work(n: int, cables: Cables) -> Work:
     )  # fmt: skip
 
 
-@inner
-def start_modes(joints: Joints, v: Array, mode: Array) -> None:
-    """Modes of a state without a step before it: joints at rest with dry friction stick."""
-    for i in range(v.size):
-        slips = abs(v[i]) > _SLOW or joints.coulomb[i] == 0.0
-        mode[i] = (1 if v[i] >= 0.0 else -1) if slips else 0
+def initial_state(joints: Joints, q: Array, v: Array) -> State:
+    """Return the state at angles and rates (n,) without a step before it: joints at rest with dry friction stick."""
+    slips = (np.abs(v) > _SLOW) | (joints.coulomb == 0.0)
+    mode = np.where(slips, np.where(v >= 0.0, 1, -1), 0)
+    return State(q.copy(), v.copy(), np.zeros(q.size), mode)
 
 
 @merged
 def step(
-    chain: Chain, joints: Joints, cables: Cables, holds: Array, state: State, command: Array, drive: Array, h: float,
+    chain: Chain, joints: Joints, cables: Cables, holds: Booleans, state: State, command: Array, drive: Array, h: float,
     work: Work,
 ) -> int:  # fmt: skip
     """Advance the state by one step.
@@ -192,7 +191,6 @@ def step(
         if not np.isfinite(q[i]):
             return NOT_FINITE
     return COMPLETE
-
 
 
 @merged
@@ -259,7 +257,7 @@ def _change_modes(joints: Joints, state: State, h: float, work: Work, one_at_a_t
 
 
 @merged
-def _add_cables(cables: Cables, holds: Array, state: State, command: Array, h: float, work: Work) -> None:
+def _add_cables(cables: Cables, holds: Booleans, state: State, command: Array, h: float, work: Work) -> None:
     """Fill ``work.right`` with the impulses of joints and cables; add the cables' damping to the matrix.
 
     Hole k takes F_k = T_k (1 - exp(-mu phi_k s(w_k))) from the tension. Linearised about the slip w0, which is the one
@@ -267,9 +265,9 @@ def _add_cables(cables: Cables, holds: Array, state: State, command: Array, h: f
 
         T_j - sum_{k < j} D_k (w_k - w0_k),    D_k = dF_k/dw_k,    w_k = -sum_{l beyond k} dL/dq_l v+_l,
 
-    so that the damping of the angles i, l in segments j(i) <= j(l) is dL/dq_i dL/dq_l sum_{k < j(i)} D_k. Where the slip
-    turns within the step, w0 is zero: there the law is steepest, and the cable comes to rest instead of turning to and
-    fro. The spring of a cable whose motor holds a length damps all pairs of angles alike.
+    so that the damping of the angles i, l in segments j(i) <= j(l) is dL/dq_i dL/dq_l sum_{k < j(i)} D_k. Where the
+    slip turns within the step, w0 is zero: there the law is steepest, and the cable comes to rest instead of turning to
+    and fro. The spring of a cable whose motor holds a length damps all pairs of angles alike.
     """
     n = state.q.size
     first, body, friction, steepness = cables.first, cables.body, cables.friction, cables.slope
@@ -335,7 +333,7 @@ def _add_cables(cables: Cables, holds: Array, state: State, command: Array, h: f
 
 @entry_point
 def simulate(
-    chain: Chain, joints: Joints, cables: Cables, holds: Array, state: State, durations: Array, steps: Array,
+    chain: Chain, joints: Joints, cables: Cables, holds: Booleans, state: State, durations: Array, steps: Integers,
     before: Array, after: Array, drive_before: Array, drive_after: Array, q_out: Array, v_out: Array,
 ) -> tuple[int, int]:  # fmt: skip
     """Advance over intervals in which commands and torques change linearly; write the state at the end of each.
