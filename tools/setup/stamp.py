@@ -50,7 +50,7 @@ def wanted() -> Stamp:
 def _compiled_sources() -> list[Path]:
     """Return the sources of numba's cached code."""
     library = ROOT / "continuum" / "continuum"
-    folders = ("kinematics", "dynamics/integration", "estimation", "discovery")
+    folders = ("kinematics", "dynamics/integration", "dynamics/spatial", "estimation", "discovery")
     return sorted(path for folder in folders for path in (library / folder).rglob("*.py"))
 
 

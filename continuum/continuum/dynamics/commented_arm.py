@@ -21,7 +21,7 @@ _HEAD = """\
 """
 
 _OF_DYNAMICS = """\
-        # For simulations, which let this section move alone, in the plane of its cables 1 and 2. A value is one number
+        # For simulations: of one section in the plane of its cables 1 and 2, of several in space. A value is one number
         # for all joints, or a list from the base. Lines that begin with # are left out: take the # away and put in
         # your value. Of springs and friction, `continuum identify` finds the values from recordings.
 """
