@@ -52,7 +52,7 @@ def test_commands_take_names(capsys: Captured) -> None:
     assert code("solve", "three_sections.yaml", 0.15, 0, 0.2) == 0
     assert code("simulate", "--model", "double_pendulum", "--duration", 0.1, "--release", "10,5") == 0
     assert capsys.readouterr().err == ""
-    assert "is an arm file" in refused(capsys, "simulate", "--model", "three_sections")
+    assert "is an arm file" in refused(capsys, "simulate", "--model", "prototype")
     assert "is a model file" in refused(capsys, "info", "double_pendulum.yaml")
 
 

@@ -30,7 +30,8 @@ def test_a_release_swings_about_the_hanging_arm_and_is_written(capsys: Captured,
     found = json.loads(capsys.readouterr().out)
     assert (found["status"], found["degrees_of_freedom"], found["cables"]) == ("COMPLETE", 30, 12)
     assert np.isfinite(found["error"])
-    rows = list(csv.DictReader(out.open()))
+    with out.open() as file:
+        rows = list(csv.DictReader(file))
     assert len(rows) == found["samples"] == 121
     first, last = ([float(row[f"tip_{axis}_m"]) for axis in "xyz"] for row in (rows[0], rows[-1]))
     np.testing.assert_allclose([first, last], [found["tip_first"], found["tip_last"]], atol=1e-8)

@@ -51,10 +51,10 @@ def _models(path: str, block: Mapping[str, object], arm: Arm) -> dict[str, str]:
     Raises:
         InvalidValueError: one of them is not valid.
     """
-    from continuum.dynamics.model_file import load_model
+    from continuum.dynamics.model_file import section_inputs
 
     names = [one.name for one in arm.sections if DYNAMICS in cast("Mapping[str, object]", block[one.name])]
-    return {name: load_model(find_file(path, ARMS), name).inputs.in_words for name in names}
+    return {name: inputs.in_words for name, inputs in section_inputs(find_file(path, ARMS), names).items()}
 
 
 def _plain(arm: Arm) -> dict[str, object]:

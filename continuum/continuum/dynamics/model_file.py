@@ -21,7 +21,7 @@ a message is not the model's, an entry gives both: ``{name: elbow, sign: -1, zer
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import cast
 
@@ -94,6 +94,18 @@ def sections_in(path: str | Path) -> tuple[str, ...]:
         return ()
     names = arm_block(path, content)["sections"]
     return tuple(map(str, names)) if isinstance(names, list) else ()
+
+
+def section_inputs(path: str | Path, sections: Sequence[str]) -> dict[str, InputKind]:
+    """Inputs of sections of an arm file, by name; a section alone moves in the plane of its cables, several in space.
+
+    Raises:
+        FileError, InvalidValueError: as :func:`load_model`.
+    """
+    if len(sections) == 1:
+        return {sections[0]: load_model(path, sections[0]).inputs}
+    models = section_models(path, read_parameter_file(find_file(path, MODELS)), sections)
+    return {name: model.inputs for name, model in zip(sections, models, strict=True)}
 
 
 def section_models(path: str | Path, content: Mapping[str, object], sections: Iterable[str]) -> list[Model]:

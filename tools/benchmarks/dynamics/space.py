@@ -72,7 +72,7 @@ def measure(repeats: int, names: Sequence[str] = tuple(ARMS)) -> list[InSpace]:
 def table(found: Sequence[InSpace]) -> Table:
     """Return the measurements as a table."""
     heading = ("arm", "freedom", "steps a second", "real time", "MuJoCo, frictionloss", "MuJoCo, smooth",
-               "times as fast", "error [deg]", "error, smooth [deg]", "MuJoCo [deg]", "with 40 slopes")  # fmt: skip
+               "times as fast", "error [deg]", "smooth [deg]", "MuJoCo [deg]", "40 derivatives")  # fmt: skip
     return Table.of(
         heading,
         [

@@ -15,6 +15,7 @@ from continuum.recordings.cable_figure import write_cable_figure
 from tools.docs.figures.arm_on_helix import draw_arm
 from tools.docs.figures.helix_run import helix_run
 from tools.docs.figures.hidden_effect import draw_hidden_effect
+from tools.docs.figures.three_sections import draw_three_sections
 from tools.docs.small_png import shrink
 from tools.one_line import in_one_line
 
@@ -36,8 +37,10 @@ def main() -> None:
         draw(run, folder / name)
         shrink(folder / name)
         print(f"written: {folder / name}")
-    draw_hidden_effect(folder / "hidden_effect.png")
-    print(f"written: {folder / 'hidden_effect.png'}")
+    others = {"hidden_effect.png": draw_hidden_effect, "three_sections.png": draw_three_sections}
+    for name, draw_other in others.items():
+        draw_other(folder / name)
+        print(f"written: {folder / name}")
 
 
 if __name__ == "__main__":

@@ -198,7 +198,7 @@ def mass_matrix(placed: Placed, M: Array) -> None:
             M[i, j] = dot(placed.screw[i], momentum)
 
 
-class Slopes(NamedTuple):
+class Derivatives(NamedTuple):
     """Derivatives of the torque of `inverse_dynamics`, and what further ones are made of.
 
     Attributes:
@@ -221,16 +221,16 @@ class Slopes(NamedTuple):
 
 
 @inner
-def new_slopes(n: int) -> Slopes:
+def new_derivatives(n: int) -> Derivatives:
     """Return storage for `derivatives`."""
-    return Slopes(
+    return Derivatives(
         np.zeros((n, n)), np.zeros((n, n)), np.zeros((n, 6)), np.zeros((n, 6)), np.zeros((n, 10)), np.zeros((n, 6, 6)),
         np.zeros((5, n, 6)),
     )  # fmt: skip
 
 
 @inner
-def derivatives(chain: Chain, placed: Placed, moving: Moving, out: Slopes) -> None:
+def derivatives(chain: Chain, placed: Placed, moving: Moving, out: Derivatives) -> None:
     """Derivatives at the angles, rates and accelerations for which `inverse_dynamics` has filled ``moving``."""
     screw, velocity, acceleration, force = placed.screw, moving.velocity, moving.acceleration, moving.force
     n = screw.shape[0]

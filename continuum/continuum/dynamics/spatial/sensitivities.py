@@ -17,11 +17,11 @@ from continuum.arrays import Array, Booleans, Integers
 from continuum.dynamics.spatial.cable_paths import SATURATED, Cables
 from continuum.dynamics.spatial.chain import (
     Chain,
-    Slopes,
+    Derivatives,
     derivatives,
     inverse_dynamics,
     inward_force,
-    new_slopes,
+    new_derivatives,
     shift_rates,
 )
 from continuum.dynamics.spatial.compiling import entry_point, inner
@@ -60,7 +60,7 @@ class Tangent(NamedTuple):
 class TangentWork(NamedTuple):
     """Storage of a step of the tangent."""
 
-    slopes: Slopes
+    derivatives: Derivatives
     acceleration: Array
     torque: Array
     middle_q: Array
@@ -86,8 +86,8 @@ def new_tangent_work(n: int, cables: Cables, n_free: int) -> TangentWork:
     """Return storage for ``n`` degrees of freedom and ``n_free`` columns."""
     holes = cables.body.size
     return TangentWork(
-        new_slopes(n), np.empty(n), np.empty(n), np.empty((n, n_free)), np.empty((n, n_free)), np.empty((n, n_free)),
-        np.empty((n, n_free)), np.empty((n, n)), np.empty((n, 6, n_free)), np.empty((n, n_free)), np.empty(holes),
+        new_derivatives(n), np.empty(n), np.empty(n), np.empty((n, n_free)), np.empty((n, n_free)),
+        np.empty((n, n_free)), np.empty((n, n_free)), np.empty((n, n)), np.empty((n, 6, n_free)), np.empty((n, n_free)), np.empty(holes),
         np.empty((holes, n_free)), np.empty((holes, n_free)), np.empty((holes, n_free)), np.empty(n_free),
         np.empty(n_free), np.empty(n_free), np.empty(n_free), np.empty(n_free),
     )  # fmt: skip
@@ -115,7 +115,7 @@ def step_tangent(
     """
     n, n_free = tangent.q.shape
     q_p, v_p, right = storage.middle_q, storage.middle_v, storage.right
-    by_q, by_v = storage.slopes.by_q, storage.slopes.by_v
+    by_q, by_v = storage.derivatives.by_q, storage.derivatives.by_v
     a = storage.acceleration
     for i in range(n):
         a[i] = (state.v[i] - before.v[i]) / h
@@ -123,7 +123,7 @@ def step_tangent(
             q_p[i, k] = tangent.q[i, k] + 0.5 * h * tangent.v[i, k] + 0.25 * h * h * tangent.acceleration[i, k]
             v_p[i, k] = tangent.v[i, k] + 0.5 * h * tangent.acceleration[i, k]
     inverse_dynamics(chain, work.placed, work.middle_v, a, work.moving, storage.torque)
-    derivatives(chain, work.placed, work.moving, storage.slopes)
+    derivatives(chain, work.placed, work.moving, storage.derivatives)
     for i in range(n):
         level_slope = 0.0
         if joints.stribeck_gain[i] != 0.0:
@@ -149,7 +149,7 @@ def _by_values(
     chain: Chain, joints: Joints, free: Free, before: State, state: State, h: float, work: Work, storage: TangentWork
 ) -> None:
     """Subtract the derivative of the residual by the values of joints, bodies and base."""
-    right, force, slopes, moving, placed = storage.right, storage.force, storage.slopes, work.moving, work.placed
+    right, force, derived, moving, placed = storage.right, storage.force, storage.derivatives, work.moving, work.placed
     n = right.shape[0]
     loads = False
     ten, six, first, second, scratch = np.empty(10), np.empty(6), np.empty(6), np.empty(6), np.empty(6)
@@ -198,9 +198,9 @@ def _by_values(
             velocity = moving.velocity[i - 1] if i else still
             acceleration = moving.acceleration[i - 1] if i else upward
             shift_rates(velocity, acceleration, screw, first, second, scratch)
-            inward_force(slopes.composite[i], slopes.coriolis[i], screw, first, second, moving.force[i], six, scratch)
+            inward_force(derived.composite[i], derived.coriolis[i], screw, first, second, moving.force[i], six, scratch)
             for j in range(n):
-                value = dot(placed.screw[j], six) if j < i else dot(slopes.BS[j], first) + dot(slopes.IS[j], second)
+                value = dot(placed.screw[j], six) if j < i else dot(derived.BS[j], first) + dot(derived.IS[j], second)
                 right[j, column] -= h * size * value
         elif kind <= BASE:
             screw[:] = 0.0
@@ -211,7 +211,7 @@ def _by_values(
                 screw[part] = 1.0
                 motion_cross_motion(upward, screw, first)
             for j in range(n):
-                right[j, column] -= h * size * dot(slopes.IS[j], first)
+                right[j, column] -= h * size * dot(derived.IS[j], first)
     if loads:
         for j in range(n - 1, -1, -1):
             for k in range(6):

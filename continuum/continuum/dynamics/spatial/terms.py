@@ -11,9 +11,9 @@ from continuum.dynamics.spatial.chain import (
     derivatives,
     inverse_dynamics,
     mass_matrix,
+    new_derivatives,
     new_moving,
     new_placed,
-    new_slopes,
     place,
 )
 from continuum.dynamics.spatial.compiling import entry_point
@@ -32,7 +32,7 @@ def rigid_body_terms(chain: Chain, q: Array, v: Array, a: Array) -> tuple[Array,
         (n, n) [N m/rad, N m s/rad].
     """
     n = q.size
-    placed, moving, slopes = new_placed(n), new_moving(n), new_slopes(n)
+    placed, moving, derived = new_placed(n), new_moving(n), new_derivatives(n)
     torque, M = np.empty(n), np.empty((n, n))
     place(chain, q, placed)
     mass_matrix(placed, M)
@@ -41,10 +41,10 @@ def rigid_body_terms(chain: Chain, q: Array, v: Array, a: Array) -> tuple[Array,
         for j in range(i):
             M[i, j] = M[j, i]
     inverse_dynamics(chain, placed, v, a, moving, torque)
-    derivatives(chain, placed, moving, slopes)
+    derivatives(chain, placed, moving, derived)
     for i in range(n):
         torque[i] += chain.rotor[i] * a[i]
-    return torque, M, slopes.by_q, slopes.by_v
+    return torque, M, derived.by_q, derived.by_v
 
 
 @entry_point
