@@ -85,11 +85,12 @@ class TangentWork(NamedTuple):
 def new_tangent_work(n: int, cables: Cables, n_free: int) -> TangentWork:
     """Return storage for ``n`` degrees of freedom and ``n_free`` columns."""
     holes = cables.body.size
+    of_freedoms = (np.empty((n, n_free)), np.empty((n, n_free)), np.empty((n, n_free)), np.empty((n, n_free)))
+    of_holes = (np.empty((holes, n_free)), np.empty((holes, n_free)), np.empty((holes, n_free)))
     return TangentWork(
-        new_derivatives(n), np.empty(n), np.empty(n), np.empty((n, n_free)), np.empty((n, n_free)),
-        np.empty((n, n_free)), np.empty((n, n_free)), np.empty((n, n)), np.empty((n, 6, n_free)), np.empty((n, n_free)), np.empty(holes),
-        np.empty((holes, n_free)), np.empty((holes, n_free)), np.empty((holes, n_free)), np.empty(n_free),
-        np.empty(n_free), np.empty(n_free), np.empty(n_free), np.empty(n_free),
+        new_derivatives(n), np.empty(n), np.empty(n), of_freedoms[0], of_freedoms[1], of_freedoms[2], of_freedoms[3],
+        np.empty((n, n)), np.empty((n, 6, n_free)), np.empty((n, n_free)), np.empty(holes), of_holes[0], of_holes[1],
+        of_holes[2], np.empty(n_free), np.empty(n_free), np.empty(n_free), np.empty(n_free), np.empty(n_free),
     )  # fmt: skip
 
 
