@@ -158,13 +158,14 @@ class BenchDiagnostics:
                 "angles", [(STALE, NOT_CONFIGURED if self._commander.client is None else "no bench")], {}
             )
         estimate, complaints = watch.estimate, list(self._grown("angles", {"samples withheld": streams.withheld}))
-        if watch.steps.missing:
+        if unheard := self._unheard():
+            complaints += unheard
+        elif watch.steps.missing:
             complaints.append((ERROR, f"not calibrated: no {', no '.join(watch.steps.missing)}"))
         elif estimate is None:
             complaints.append((ERROR, "no samples"))
         elif streams.doubt:
             complaints.append((ERROR, streams.doubt))
-        complaints += self._unheard()
         values: dict[str, object] = {"samples withheld": streams.withheld}
         if estimate is not None:
             values["estimated error of the worst joint [deg]"] = f"{np.degrees(estimate.errors.max()):.2f}"

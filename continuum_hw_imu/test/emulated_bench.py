@@ -108,6 +108,7 @@ class EmulatedBench:
         return read_truth(self.truth_file)
 
     def close(self) -> None:
+        self._answers.close()
         self._socket.close()
         self.process.close()
 

@@ -261,7 +261,7 @@ def test_without_calibration_there_are_raw_data_and_no_joint_states():
     with pytest.raises(Exception, match="without the bias"):
         published.streams.watch.find_axes()
     published.streams.watch.find_bias(1.2)
-    assert published.streams.watch.steps.missing == ("axis", "zero")
+    assert published.streams.watch.steps.missing == ("zero", "axis")
 
 
 def test_measured_tensions_are_reported_with_lengths_that_are_known():
