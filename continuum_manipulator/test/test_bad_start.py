@@ -27,7 +27,8 @@ BAD_PARAMETERS = {
     "section of the wrong type": ("section", ARM, {"section": "first"}, "section is 'first'; allowed: a whole number"),
     "unknown name": ("robot", ARM, {"targets": "position"}, "unknown parameter 'targets'; did you mean target?"),
     "no arm": ("markers", (), {}, "no arm is given; start the node with --ros-args --params-file"),
-    "an arm in the place of a model": ("dynamics", (), {"model": ARM_FILE}, "three_sections.yaml: is an arm file"),
+    "an arm in the place of a model": ("dynamics", (), {"model": "prototype.yaml"}, "prototype.yaml: is an arm file"),
+    "no section of an arm": ("dynamics", (), {"model": ARM_FILE}, "allowed: section_1 or section_2 or section_3"),
     "two postures": (
         "dynamics",
         (),

@@ -1,6 +1,7 @@
 """The launch file of arms: what is commanded arrives at every section, in both modes, and no node dies in silence."""
 
 import os
+import shlex
 import signal
 import subprocess
 from collections import Counter
@@ -108,7 +109,7 @@ def test_rviz_shows_the_arm_of_the_file(tmp_path, monkeypatch):
     names = [line.partition(":")[0] for line in done.stdout.splitlines()]
     sections = [f"section_{number}" for number in range(1, 5)]
     assert names == [*sections, "robot", "cable_tangler", "forward_kinematics", "markers", "rviz2"]
-    (config,) = (word for word in done.stdout.split() if word.endswith(".rviz"))
+    (config,) = (word for word in shlex.split(done.stdout) if word.endswith(".rviz"))
     assert Path(config).is_file()
 
 

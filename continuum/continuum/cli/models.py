@@ -13,10 +13,14 @@ if TYPE_CHECKING:
     from continuum.dynamics.model import Model
 
 
+DEFAULT_MODEL = "lamecc_prototype.yaml"
+"""Model of commands that name none."""
+
+
 def add_model_option(parser: argparse.ArgumentParser, what: str = "model file") -> None:
     """Add ``--model``, a path or the name of a model that comes with the library, and ``--section``."""
     option = parser.add_argument(
-        "--model", metavar="MODEL.yaml", default="lamecc_prototype.yaml",
+        "--model", metavar="MODEL.yaml", default=DEFAULT_MODEL,
         help=f"{what}, or arm file with a block `dynamics`, or one of the library's; default %(default)s",
     )  # fmt: skip
     completes_files(option, MODELS)

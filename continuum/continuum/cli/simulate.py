@@ -13,10 +13,12 @@ import numpy as np
 
 from continuum.arrays import Array
 from continuum.cli import simulate_in_space
-from continuum.cli.models import add_model_option, read_model
+from continuum.cli.completion import completes_files
+from continuum.cli.models import DEFAULT_MODEL, add_model_option, read_model
 from continuum.cli.outputs import announce, check_outputs, print_json, write
 from continuum.cli.tables import print_pairs
 from continuum.errors import ContinuumError, InvalidValueError
+from continuum.shipped_files import ARMS
 
 if TYPE_CHECKING:
     from continuum.dynamics.input_signal import InputSignal
@@ -37,7 +39,7 @@ def add_to(commands: Any) -> None:
         epilog="Exit codes: 0 done, 1 the integration failed or bends a joint by more than half a turn, 2 wrong usage, "
         "file or value.",
     )  # fmt: skip
-    parser.add_argument("file", metavar="ARM.yaml", nargs="?", help="the same as --model")
+    completes_files(parser.add_argument("file", metavar="ARM.yaml", nargs="?", help="the same as --model"), ARMS)
     add_model_option(parser)
     parser.add_argument(
         "--release", metavar="DEG",
@@ -72,15 +74,19 @@ def add_to(commands: Any) -> None:
         "--rate", metavar="HZ", type=float, default=120.0, help="samples per second; default %(default)g"
     )
     parser.add_argument(
-        "--step", metavar="S", type=float, default=1e-3,
+        "--step", metavar="S", type=float,
         help="of several sections: step from which the error is estimated [s]; the motion itself has half of it; "
-        "default %(default)g",
+        "default 0.001",
     )  # fmt: skip
     parser.add_argument(
-        "--integrator", choices=("esdirk", "bdf"), default="esdirk",
-        help="esdirk is faster, bdf is that of the thesis; default %(default)s",
+        "--integrator", choices=("esdirk", "bdf"),
+        help="of one section: esdirk, the default, is faster, bdf is that of the thesis",
     )  # fmt: skip
-    parser.add_argument("--csv", metavar="OUT.csv", help="write time, joint angles and rates, and tensions")
+    parser.add_argument(
+        "--csv",
+        metavar="OUT.csv",
+        help="write time, joint angles and rates, and tensions; in space angles, tip and cable lengths",
+    )
     parser.add_argument("--picture", metavar="OUT.png", help="plot the same quantities and draw the arm")
     parser.add_argument(
         "--json", action="store_true", help="print one line of JSON instead of the table, in N, rad, rad/s and s"
@@ -97,7 +103,10 @@ def run(options: argparse.Namespace) -> int:
     from continuum.dynamics.trajectory import SimulationStatus
     from continuum.recordings.motion_table import write_motion_table
 
-    options.model = options.file or options.model
+    if options.file is not None:
+        if options.model != DEFAULT_MODEL:
+            raise InvalidValueError("--model", options.model, f"left out, where {options.file} is named before")
+        options.model = options.file
     if options.pulled and options.release is None:
         raise ContinuumError("--pulled needs --release, one total bend in degrees")
     if options.pulled and "," in options.release:
@@ -106,8 +115,9 @@ def run(options: argparse.Namespace) -> int:
     check_outputs(given, [options.csv], [options.picture])
     if simulate_in_space.is_meant(options):
         return simulate_in_space.run(options, _times)
-    if options.lengths is not None:
-        raise InvalidValueError("--lengths", options.lengths, "with an arm file of several sections")
+    for name in ("lengths", "step"):
+        if (value := getattr(options, name)) is not None:
+            raise InvalidValueError(f"--{name}", value, "left out, of one section")
     model = read_model(options.model, options.section)
     for option in ("tensions", "pulled"):
         if getattr(options, option):
@@ -211,7 +221,7 @@ def _times(options: argparse.Namespace, of_inputs: Array) -> Array:
 
 
 def _simulation(
-    model: Model, posture: Array, times: Array, inputs: InputSignal, integrator: str
+    model: Model, posture: Array, times: Array, inputs: InputSignal, integrator: str | None
 ) -> Callable[[], Trajectory]:
     """What is to be called for the integration alone: equations are compiled here, and all code is loaded."""
     if integrator == "bdf":

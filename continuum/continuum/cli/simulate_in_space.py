@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 import time
 from typing import TYPE_CHECKING, Any
 
@@ -18,10 +19,7 @@ if TYPE_CHECKING:
     from continuum.dynamics.spatial.arm_model import ArmModel
     from continuum.dynamics.spatial.simulation import CableCommands, SpatialMotion
 
-_DURATION = 1.6
-"""Duration [s] without a table: that of the thesis's release tests."""
-
-_PLANAR = {"pulled": "--pulled", "torques": "--torques"}
+_PLANAR = ("pulled", "torques", "integrator")
 """Options of one section in a plane."""
 
 
@@ -44,22 +42,25 @@ def run(options: argparse.Namespace, times: Any) -> int:
         times: function from the table's times to the output times.
     """
     from continuum.dynamics.spatial.arm_model import load_arm_model
-    from continuum.dynamics.spatial.simulation import simulate_arm
+    from continuum.dynamics.spatial.simulation import STEP, simulate_arm
     from continuum.dynamics.trajectory import SimulationStatus
 
-    for name, option in _PLANAR.items():
-        if getattr(options, name):
-            raise InvalidValueError(option, getattr(options, name), "left out, of an arm with several sections")
-    if options.integrator != "esdirk":
-        raise InvalidValueError("--integrator", options.integrator, "left out, of an arm with several sections")
+    for name in _PLANAR:
+        if given := getattr(options, name):
+            raise InvalidValueError(f"--{name}", given, "left out, of an arm with several sections")
     model = load_arm_model(options.model)
     commands = _commands(options, model)
     at = times(options, np.zeros(1) if commands is None else commands.times)
-    initial = model.bent(release_bends(options.release or "0", model.arm.n_sections))
+    bends = release_bends(options.release or "0", model.arm.n_sections)
+    _check_bends(options, model, bends)
+    initial, step = model.bent(bends), STEP if options.step is None else options.step
     began = time.perf_counter()
     simulate_arm(model, initial, at[:1], commands)  # nothing to integrate, but the compiled loops are loaded
     loaded = time.perf_counter()
-    motion = simulate_arm(model, initial, at, commands, step=options.step)
+    try:
+        motion = simulate_arm(model, initial, at, commands, step=step)
+    except InvalidValueError as error:
+        raise InvalidValueError("--step" if error.name == "step" else error.name, error.value, error.allowed) from None
     found = _figures(model, motion, loaded - began, time.perf_counter() - loaded)
     if options.json:
         print_json(found)
@@ -67,6 +68,15 @@ def run(options: argparse.Namespace, times: Any) -> int:
         print_pairs(_in_words(model, found, motion.status.value))
     if motion.status is not SimulationStatus.COMPLETE:
         return 1
+    if found["greatest_bend"] > math.pi:
+        print("continuum: no joint bends by more than half a turn; nothing is written", file=sys.stderr)
+        return 1
+    if found["greatest_bend"] > found["contact_bend"]:
+        print(
+            f"continuum: a joint bends by {math.degrees(found['greatest_bend']):.1f} degrees; the holes of its discs "
+            f"meet at {math.degrees(found['contact_bend']):.1f}, which the model does not know",
+            file=sys.stderr,
+        )
     from continuum.recordings.spatial_motion_table import write_spatial_table
 
     write(options.csv, lambda path: write_spatial_table(model, motion, commands, path))
@@ -76,6 +86,20 @@ def run(options: argparse.Namespace, times: Any) -> int:
         write(options.picture, lambda path: write_spatial_figure(model, motion, commands, path))
     announce([options.csv, options.picture], "nothing written; --csv and --picture name files", apart=options.json)
     return 0
+
+
+def _check_bends(options: argparse.Namespace, model: ArmModel, bends: Array) -> None:
+    """Refuse bends beyond which discs meet.
+
+    Raises:
+        InvalidValueError: there is one.
+    """
+    for section, theta in zip(model.arm.sections, np.hypot(*bends.T), strict=True):
+        if theta > section.contact_bend:
+            allowed = (
+                f"at most {math.degrees(section.contact_bend):.4g} degrees, where cable holes of {section.name} meet"
+            )
+            raise InvalidValueError("--release", options.release, allowed)
 
 
 def release_bends(text: str, n_sections: int) -> Array:
@@ -106,7 +130,7 @@ def release_bends(text: str, n_sections: int) -> Array:
 
 def _commands(options: argparse.Namespace, model: ArmModel) -> CableCommands | None:
     """Tensions or lengths of all cables."""
-    from continuum.dynamics.spatial.simulation import CableCommands
+    from continuum.dynamics.spatial.simulation import CableCommands, path_lengths
     from continuum.recordings.input_table import read_cable_table
     from continuum.recordings.motion_columns import LENGTH, TENSION
 
@@ -115,9 +139,15 @@ def _commands(options: argparse.Namespace, model: ArmModel) -> CableCommands | N
         raise InvalidValueError("--lengths", options.lengths, "without --tensions")
     if options.tensions is not None:
         return CableCommands(*read_cable_table(options.tensions, n, TENSION))
-    if options.lengths is not None:
-        return CableCommands(*read_cable_table(options.lengths, n, LENGTH), holds=np.ones(n, bool))
-    return None
+    if options.lengths is None:
+        return None
+    times, lengths = read_cable_table(options.lengths, n, LENGTH)
+    straight = path_lengths(model, np.zeros((1, model.n)))[0]
+    for column, length in enumerate(straight):
+        if not np.all((lengths[:, column] > 0.1 * length) & (lengths[:, column] < 2.0 * length)):
+            allowed = f"lengths of {model.cable_names[column]} in m; of the straight arm it is {length:.6g}"
+            raise InvalidValueError(f"--lengths, column l{column + 1}_m", float(lengths[0, column]), allowed)
+    return CableCommands(times, lengths, holds=np.ones(n, bool))
 
 
 def _figures(model: ArmModel, motion: SpatialMotion, loading_time: float, integration_time: float) -> dict[str, Any]:
@@ -135,14 +165,15 @@ def _figures(model: ArmModel, motion: SpatialMotion, loading_time: float, integr
         "integration_time": integration_time,
         "loading_time": loading_time,
         "bends": None,
+        "greatest_bend": None,
+        "contact_bend": min(section.contact_bend / section.n_joints for section in model.arm.sections),
         "tip_first": None,
         "tip_last": None,
         "lengths": None,
     }
     if np.isfinite(motion.q).all():
-        sections = range(model.arm.n_sections)
-        last = motion.q[-1].reshape(-1, 2)
-        found["bends"] = [last[model.section[::2] == k].sum(axis=0).tolist() for k in sections]
+        found["bends"] = model.bends(motion.q[-1:])[0].tolist()
+        found["greatest_bend"] = float(np.hypot(motion.q[:, ::2], motion.q[:, 1::2]).max())
         tips = tip_poses(model, motion.q[[0, -1]])[0]
         found["tip_first"], found["tip_last"] = tips[0].tolist(), tips[1].tolist()
         found["lengths"] = path_lengths(model, motion.q[-1:])[0].tolist()
@@ -153,13 +184,15 @@ def _in_words(model: ArmModel, found: dict[str, Any], status: str) -> list[tuple
     """Return the figures for a table."""
     from continuum.kinematics.configuration import jones_from_allen
 
-    error = f"{math.degrees(found['error']):.2g}"
+    differs = f"angles with twice the step differ by up to {math.degrees(found['error']):.2g} degrees"
+    if not math.isfinite(found["error"]):
+        differs = "with twice the step there is no solution"
     timing = f"{found['integration_time']:.3g} s for the integration, {found['loading_time']:.2f} s before it to load"
     pairs = [
         ("arm", f"{model.arm.n_sections} sections, {model.n} degrees of freedom, {found['cables']} cables"),
         ("integration", status),
         ("simulated", f"{found['duration']:g} s, {found['samples']} samples"),
-        ("steps", f"{1e3 * found['step']:g} ms; angles with twice the step differ by up to {error} degrees"),
+        ("steps", f"{1e3 * found['step']:g} ms; {differs}"),
         ("time taken", timing),
     ]
     if found["bends"] is None:

@@ -31,13 +31,13 @@ def write_spatial_figure(
         FileError: the file cannot be written, or its format is not known.
     """
     figure = Figure(figsize=(12.5, 6.6), layout="constrained")
-    rows = ["bends", "tip"] + ([] if commands is None else ["commands"])
+    rows = ["bends", "tip"] + ([] if commands is None or not np.ptp(commands.values) else ["commands"])
     panels = figure.subplot_mosaic(
         [[name, "arm"] for name in rows], width_ratios=(1.4, 1), per_subplot_kw={"arm": {"projection": "3d"}}
     )
-    bends = motion.q.reshape(len(motion.times), -1, 2)
+    bends = np.degrees(model.bends(motion.q))
     for k, section in enumerate(model.arm.sections):
-        u, v = np.degrees(bends[:, model.section[::2] == k].sum(axis=1)).T
+        u, v = bends[:, k].T
         (line,) = panels["bends"].plot(motion.times, v, linewidth=1.3, label=f"{section.name}, towards x")
         panels["bends"].plot(motion.times, -u, "--", color=line.get_color(), linewidth=1.3, label="towards y")
     tips = 1e3 * tip_poses(model, motion.q)[0]
@@ -45,7 +45,7 @@ def write_spatial_figure(
         panels["tip"].plot(motion.times, column - column[0], linewidth=1.3, label=axis)
     panels["bends"].set(title="Bend of the sections", ylabel="[deg]")
     panels["tip"].set(title="Motion of the tip from its start", ylabel="[mm]")
-    if commands is not None:
+    if commands is not None and "commands" in rows:
         values, unit = (1e3 * commands.over(motion.times), "mm") if commands.holds_length.any() else (
             commands.over(motion.times), "N")  # fmt: skip
         for name, column in zip(model.cable_names, values.T, strict=True):

@@ -1,9 +1,11 @@
 """The dynamics of an arm file in space: the bodies, joints and cables of all its sections.
 
 Each joint of a section is a universal joint that turns by u about x of the section's frame, then by v about y. To first
-order these are Allen's (u, v), the components of the rotation vector that the kinematics use; Rx(u) Ry(v) has a torsion
-of u v / 2 beyond that. The cables run through the discs of all sections before theirs, at their own radius and azimuth,
-as in `continuum.kinematics.routing`, and bend at the base plate, too.
+order these are Allen's (u, v), the components of the rotation vector that the kinematics use; Rx(u) Ry(v) also rolls
+about the arm, by u v / 2. `ArmModel.bent` gives angles at which all joints and the tip are where the kinematics have
+them. The cables run through the discs of all sections before theirs, at their own radius and azimuth, as in
+`continuum.kinematics.routing`, and bend at the base plate, too. As in the planar model, a spring's rest angle and the
+hang angle are positive towards cable 1.
 """
 
 from __future__ import annotations
@@ -18,9 +20,10 @@ from continuum.arm import Arm, Section, arm_block, arm_from_mapping
 from continuum.arrays import Array, Integers
 from continuum.dynamics.model import InputKind, Model
 from continuum.dynamics.model_file import section_models
-from continuum.dynamics.parameters import Parameters
+from continuum.dynamics.parameters import PARAMETERS, Parameters
 from continuum.dynamics.spatial.cable_paths import Cables
 from continuum.dynamics.spatial.chain import Chain
+from continuum.dynamics.spatial.terms import body_poses
 from continuum.dynamics.spatial.time_stepping import Joints
 from continuum.errors import InvalidValueError
 from continuum.parameter_file import read_parameter_file
@@ -72,9 +75,56 @@ class ArmModel:
 
     def bent(self, w: Array) -> Array:
         """Angles (n,) [rad] at which each section bends by ``w`` (n_sections, 2) [rad], equally over its joints."""
-        n_joints = np.array([section.n_joints for section in self.arm.sections])
-        each: Array = np.asarray(w, dtype=float) / n_joints[:, None]
-        return each[self.section[::2]].reshape(-1)
+        angles, roll = [], 0.0
+        for section, bend in zip(self.arm.sections, np.asarray(w, dtype=float), strict=True):
+            for _ in range(section.n_joints):
+                c, s = np.cos(roll), np.sin(roll)
+                x, y = bend / section.n_joints
+                turned = rotation_matrix(np.array([c * x - s * y, s * x + c * y, 0.0]))
+                u, v = np.arctan2(-turned[1, 2], turned[2, 2]), np.arcsin(np.clip(turned[0, 2], -1.0, 1.0))
+                rolled = turned.T @ rotation_matrix(np.array([u, 0.0, 0.0])) @ rotation_matrix(np.array([0.0, v, 0.0]))
+                roll -= np.arctan2(rolled[1, 0], rolled[0, 0])
+                angles += [u, v]
+        return np.array(angles)
+
+    def bends(self, q: Array) -> Array:
+        """Bend of each section as Allen's (u, v), (n_times, n_sections, 2) [rad], at angles ``q`` (n_times, n) [rad].
+
+        It leads from the direction of the section's base to that of its tip.
+        """
+        turns = np.cumsum([section.twist for section in self.arm.sections])
+        rotations = body_poses(self.chain, self.checked(q))[1]
+        ends = 2 * np.cumsum([section.n_joints for section in self.arm.sections]) - 1
+        base = np.broadcast_to(np.eye(3), rotations[:, 0].shape)
+        found = []
+        for end, turn in zip(ends, turns, strict=True):
+            x, y, z = np.einsum("tji,tj->it", base, rotations[:, end, :, 2])
+            theta, phi = np.arctan2(np.hypot(x, y), z), np.arctan2(y, x) - turn
+            found.append(np.stack([-theta * np.sin(phi), theta * np.cos(phi)], axis=-1))
+            base = rotations[:, end]
+        return np.stack(found, axis=1)
+
+    def checked(self, q: Array) -> Array:
+        """Return angles as contiguous floats, (n_times, n) [rad].
+
+        Raises:
+            InvalidValueError: they have another shape.
+        """
+        angles = np.ascontiguousarray(q, dtype=float)
+        if angles.ndim != 2 or angles.shape[1] != self.n:
+            raise InvalidValueError("shape of the angles", angles.shape, f"(n_times, {self.n})")
+        return angles
+
+
+def rotation_matrix(vector: Array) -> Array:
+    """Rotation (3, 3) of a rotation vector (3,) [rad], by Rodrigues' formula."""
+    angle = float(np.linalg.norm(vector))
+    if angle == 0.0:
+        return np.eye(3)
+    x, y, z = vector / angle
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    turned: Array = np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
+    return turned
 
 
 def load_arm_model(path: str | Path) -> ArmModel:
@@ -96,7 +146,8 @@ def arm_model(arm: Arm, models: Sequence[Model]) -> ArmModel:
     """An arm whose sections have the parameters of these models.
 
     Raises:
-        InvalidValueError: a model has effects or is driven by torques, or the sections state different gravity.
+        InvalidValueError: a model has effects or is driven by torques, or a section states another gravity or hang
+            angle than the first, whose values are those of the arm.
     """
     for section, model in zip(arm.sections, models, strict=True):
         if model.effects:
@@ -106,8 +157,8 @@ def arm_model(arm: Arm, models: Sequence[Model]) -> ArmModel:
             raise InvalidValueError(f"arm.{section.name}.dynamics.inputs", model.inputs.value, "cables, in space")
         for name in ("gravity", "hang_angle"):
             first, value = (float(getattr(one.parameters, name)[0]) for one in (models[0], model))
-            if value != first:
-                allowed = f"{first:g}, as of {arm.sections[0].name}: one of the whole arm"
+            if value != first and name in model.sources:
+                allowed = f"left out, or {first:g} {PARAMETERS[name].unit}, as of {arm.sections[0].name}"
                 raise InvalidValueError(f"arm.{section.name}.dynamics.{name}", value, allowed)
     turns = np.cumsum([section.twist for section in arm.sections])
     parameters = [model.parameters for model in models]
@@ -136,11 +187,15 @@ def _bodies(sections: Sequence[Section], turns: Array, parameters: Sequence[Para
     offset[::2, 2] = b + np.append(0.0, b[:-1])  # from the joint before, the first from the base plate
     mass, center, inertia = np.zeros(2 * n_links), np.zeros((2 * n_links, 3)), np.zeros((2 * n_links, 6))
     mass[1::2], center[1::2, 2] = per_joint("mass"), per_joint("center_of_mass")
-    inertia[1::2, 0] = inertia[1::2, 3] = inertia[1::2, 5] = per_joint("inertia")
+    inertia[1::2, 0] = inertia[1::2, 3] = per_joint("inertia")
+    a = np.repeat([section.a for section in sections], [section.n_joints for section in sections])
+    inertia[1::2, 5] = np.minimum(0.5 * mass[1::2] * a**2, 2.0 * per_joint("inertia"))  # as in the arm's URDF
     g, beta = float(parameters[0].gravity[0]), float(parameters[0].hang_angle[0])
-    gravity = g * np.array([-np.sin(beta) * c[0], -np.sin(beta) * s[0], np.cos(beta)])
+    towards = turns[0] + sections[0].cable_azimuths[0]
+    gravity = g * np.array([-np.sin(beta) * np.cos(towards), -np.sin(beta) * np.sin(towards), np.cos(beta)])
+    cable_1 = np.repeat([section.cable_azimuths[0] for section in sections], [one.n_joints for one in sections])
     rest = np.zeros(2 * n_links)
-    rest[1::2] = per_joint("rest_angle")
+    rest[::2], rest[1::2] = -per_joint("rest_angle") * np.sin(cable_1), per_joint("rest_angle") * np.cos(cable_1)
     chain = Chain(axis, offset, np.eye(3), mass, center, inertia, per_freedom("rotor_inertia"), gravity)
     names = ("viscous_friction", "coulomb_friction", "stribeck_gain", "stribeck_speed")
     return chain, Joints(per_freedom("stiffness"), rest, *map(per_freedom, names))

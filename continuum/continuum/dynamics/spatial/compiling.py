@@ -15,7 +15,10 @@ inner = numba.njit(error_model="numpy", fastmath=FAST)
 """Decorator of a function that only compiled code calls; it has no cache of its own."""
 
 merged = numba.njit(error_model="numpy", fastmath=FAST, inline="always")
-"""As `inner`, for functions with one caller: passing the arrays of an arm would take as long as their work."""
+"""As `inner`, for functions with one caller: passing the arrays of an arm would take as long as their work.
+
+They become a part of the caller, and have its flags: none in an entry point.
+"""
 
 entry_point = compiled_code.entry_point(Path(__file__).parent)
 """Decorator of a function that Python calls: compiled at its first call, and kept on disk until a file here changes."""

@@ -535,7 +535,7 @@ def _solve(state: State, h: float, work: Work, tangent: Tangent, storage: Tangen
     x = 0
     for i in range(n):
         slips = state.mode[i] != 0
-        goes_on = state.acceleration[i] != 0.0
+        goes_on = work.goes_on[i] != 0
         for column in range(n_free):
             change = reduced[x, column] if slips else -tangent.v[i, column]
             tangent.q[i, column] += h * (tangent.v[i, column] + 0.5 * change)
