@@ -120,7 +120,8 @@ def test_a_simulation_overwrites_neither_what_it_reads_nor_what_it_writes(capsys
 def test_a_model_is_no_arm_and_an_arm_no_model(capsys: Captured) -> None:
     for words in (("info", "lamecc_prototype.yaml"), ("solve", MODEL, 0, 0, 0.1)):
         assert "lamecc_prototype.yaml: is a model file, of `simulate` and `diagnose`; " in refused(capsys, *words)
-    assert refused(capsys, "simulate", "--model", THREE).startswith(f"{THREE}: is an arm file, of `info` and `solve`; ")
+    arm = str(CONFIG / "prototype.yaml")
+    assert refused(capsys, "simulate", "--model", arm).startswith(f"{arm}: is an arm file, of `info` and `solve`; ")
 
 
 @pytest.mark.parametrize("file", ARM_FILES, ids=lambda path: path.stem)

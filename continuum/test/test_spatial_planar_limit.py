@@ -1,10 +1,13 @@
-"""In the plane, the chain in space is the thesis's: Eqs. 12, 16, 17, and its simulation with set-valued friction."""
+"""In the plane, the chain in space is the thesis's: Eqs. 12 and 14 to 17."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from test_spatial_stepping import run
 
+from continuum.dynamics.balance import numpy_state_space
+from continuum.dynamics.model import Model
 from continuum.dynamics.model_file import load_model
 from continuum.dynamics.planar.cable_torque import cable_torque
 from continuum.dynamics.planar.instant import Motion
@@ -47,3 +50,23 @@ def test_torque_of_cables_without_friction(section):
     move = Motion(q, 0.0 * q, 0.0 * q, NONE, NONE, NONE)
     _, gradient, _ = cable_terms(arm.chain, arm.cables, q)
     np.testing.assert_allclose(-tension @ gradient, cable_torque(move, tension, without), rtol=1e-11)
+
+
+def test_accelerations_are_those_of_eq_12_with_capstan_friction(section):
+    """At slips on the slope of Eq. 15 and beyond it, from the change of the rates in a tiny step.
+
+    Where the discs of a link are apart, a cable that bends to both sides wraps each of them; Eq. 14 takes them for one.
+    """
+    dry = replace(section, coulomb_friction=np.zeros(5), capstan_friction=np.array([0.4]), cable_slope=np.array([50.0]))
+    arm, rng = planar_section(dry), np.random.default_rng(5)
+    rates, h = numpy_state_space(Model(dry)), 1e-9
+    for speed in (0.05, 0.5, 5.0):
+        q, v, tension = rng.normal(0.0, 0.3, 5), rng.normal(0.0, speed, 5), np.array([12.0, 7.0])
+        if section.link_length is not None:
+            q = abs(q)
+        end = run((arm.chain, arm.joints, arm.cables), q, v, h, 1, tension)
+        expected = rates(np.concatenate([q, v]), tension)[5:]
+        slippery = run((arm.chain, arm.joints, arm.cables._replace(friction=np.zeros(2))), q, v, h, 1, tension)
+        scale = abs(expected).max()
+        np.testing.assert_allclose((end.v - v) / h, expected, atol=1e-4 * scale)
+        assert abs(slippery.v - end.v).max() / h > 1e-3 * scale
