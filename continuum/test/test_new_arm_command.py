@@ -69,8 +69,9 @@ def test_every_command_takes_the_file(capsys: Captured, tmp_path: Path) -> None:
     assert code("info", file) == 0
     assert code("solve", file, 0.05, 0, 0.25) == 0
     assert code("simulate", "--model", file, "--section", "section_2", "--release", 40, "--duration", 0.1) == 0
+    assert code("simulate", "--model", file, "--release", 40, "--duration", 0.1) == 0  # both, in space
     capsys.readouterr()
-    assert "section_1 or section_2" in refused(capsys, "simulate", "--model", file, "--release", 40)
+    assert "section_1 or section_2" in refused(capsys, "diagnose", "--model", file, "run.csv")
 
 
 def test_a_file_that_is_there_stays_without_force(capsys: Captured, tmp_path: Path) -> None:

@@ -187,7 +187,8 @@ def test_of_several_sections_one_is_named(tmp_path: Path, capsys: Captured) -> N
             load_model(tmp_path / "arm.yaml", name)
     with pytest.raises(InvalidValueError, match=r"arm\.u\.dynamics is None"):
         load_model(tmp_path / "arm.yaml", "u")
-    for words in (["simulate"], ["diagnose", "run.csv"], ["simulate", "--section", "v"]):
+    assert "arm.u.dynamics is None" in refused(capsys, "simulate", "--model", tmp_path / "arm.yaml")
+    for words in (["diagnose", "run.csv"], ["simulate", "--section", "v"]):
         line = refused(capsys, *words, "--model", tmp_path / "arm.yaml")
         assert "--section" in line
         assert "s or t or u" in line
