@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from continuum.arm import Arm, Section, arm_block, arm_from_mapping
 from continuum.arrays import Array, Integers
@@ -80,10 +81,9 @@ class ArmModel:
             for _ in range(section.n_joints):
                 c, s = np.cos(roll), np.sin(roll)
                 x, y = bend / section.n_joints
-                turned = rotation_matrix(np.array([c * x - s * y, s * x + c * y, 0.0]))
-                u, v = np.arctan2(-turned[1, 2], turned[2, 2]), np.arcsin(np.clip(turned[0, 2], -1.0, 1.0))
-                rolled = turned.T @ rotation_matrix(np.array([u, 0.0, 0.0])) @ rotation_matrix(np.array([0.0, v, 0.0]))
-                roll -= np.arctan2(rolled[1, 0], rolled[0, 0])
+                vector = [c * x - s * y, s * x + c * y, 0.0]
+                u, v, rolled = Rotation.from_rotvec(vector).as_euler("XYZ")  # Rx(u) Ry(v) Rz(rolled)
+                roll += rolled
                 angles += [u, v]
         return np.array(angles)
 
@@ -114,17 +114,6 @@ class ArmModel:
         if angles.ndim != 2 or angles.shape[1] != self.n:
             raise InvalidValueError("shape of the angles", angles.shape, f"(n_times, {self.n})")
         return angles
-
-
-def rotation_matrix(vector: Array) -> Array:
-    """Rotation (3, 3) of a rotation vector (3,) [rad], by Rodrigues' formula."""
-    angle = float(np.linalg.norm(vector))
-    if angle == 0.0:
-        return np.eye(3)
-    x, y, z = vector / angle
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    turned: Array = np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
-    return turned
 
 
 def load_arm_model(path: str | Path) -> ArmModel:
